@@ -21,6 +21,7 @@ from nivel.flexible.sparse import Sparse
 
 LIMIT_START = 16  # modes that are computed first where a frequency is the limit
 MOST_MODES = 1000
+NEXT = 6  # modes beyond those that are kept, by which a run tells whether it lacks them
 MOST_BOUNDARY = 1200  # interface freedoms: each makes a correction mode
 
 
@@ -35,12 +36,15 @@ class ModeCount:
 @dataclass(frozen=True)
 class Basis:
     """`vectors` (N, k): `extra` ones that may depend on the others, interface modes, and `normal` modes at the end with their
-    `frequencies` [Hz], of the body as it was held.
+    `frequencies` [Hz], of the body as it was held. left : (N, c) the next normal modes, which are not taken; `held` : whether they leave
+    the interfaces where they are.
     """
 
     vectors: Array
     normal: int
     frequencies: Array
+    left: Array
+    held: bool = False
     extra: int = 0
 
 
@@ -73,10 +77,11 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
             return moved - rigid @ (rigid.T @ (M @ moved))
 
         found = _chosen(modes, lambda n: lowest_modes(K, M, n, solve, rigid))
-    values, inside = found
-    normal = np.zeros((body.model.count, len(values)))
-    normal[inner] = inside
-    return Basis(np.hstack([corrections, normal]), len(values), np.sqrt(values) / (2.0 * np.pi))
+    values, inside, next_inside = found
+    normal, left = (np.zeros((body.model.count, each.shape[1])) for each in (inside, next_inside))
+    normal[inner], left[inner] = inside, next_inside
+    frequencies = np.sqrt(values) / (2.0 * np.pi)
+    return Basis(np.hstack([corrections, normal]), len(values), frequencies, left, held=len(boundary) > 0)
 
 
 def inertia_modes(body: FreeBody, boundary: Whole) -> Array:
@@ -97,37 +102,45 @@ def free_interface(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
 
     Rubin 1975 (AIAA J. 13): with the mass of the residual modes, which MacNeal 1971 neglects.
     """
-    values, normal = _chosen(modes, body.elastic_modes)
+    values, normal, left = _chosen(modes, body.elastic_modes)
+    flexible, loads = attachments(body, boundary)
+    residual = flexible - normal @ ((normal.T @ loads) / values[:, None])
+    return Basis(np.hstack([residual, normal]), len(values), np.sqrt(values) / (2.0 * np.pi), left)
+
+
+def normal_only(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
+    """Free–free normal modes alone. Left out is also the static answer to loads on the `boundary` freedoms."""
+    values, normal, left = _chosen(modes, body.elastic_modes)
+    left = np.hstack([left, attachments(body, boundary)[0]])
+    return Basis(normal, len(values), np.sqrt(values) / (2.0 * np.pi), left)
+
+
+def attachments(body: FreeBody, boundary: Whole) -> tuple[Array, Array]:
+    """(N, b) displacements under unit loads on the `boundary` freedoms, balanced by inertia; and these loads."""
     loads = np.zeros((body.model.count, len(boundary)))
     loads[boundary, np.arange(len(boundary))] = 1.0
-    flexible = body.elastic_solution(loads)
-    residual = flexible - normal @ ((normal.T @ loads) / values[:, None])
-    return Basis(np.hstack([residual, normal]), len(values), np.sqrt(values) / (2.0 * np.pi))
+    return body.elastic_solution(loads), loads
 
 
-def normal_only(body: FreeBody, modes: ModeCount) -> Basis:
-    """Free–free normal modes alone."""
-    values, normal = _chosen(modes, body.elastic_modes)
-    return Basis(normal, len(values), np.sqrt(values) / (2.0 * np.pi))
-
-
-def _chosen(modes: ModeCount, compute: Callable[[int], tuple[Array, Array]]) -> tuple[Array, Array]:
-    """As many modes as are wanted."""
+def _chosen(modes: ModeCount, compute: Callable[[int], tuple[Array, Array]]) -> tuple[Array, Array, Array]:
+    """Eigenvalues and vectors of as many modes as are wanted, and the vectors of some that come next."""
     if modes.up_to is None:
-        return compute(modes.count or 0)
+        wanted = modes.count or 0
+        values, vectors = compute(wanted + NEXT)
+        return values[:wanted], vectors[:, :wanted], vectors[:, wanted:]
     limit = (2.0 * np.pi * modes.up_to) ** 2
     most = np.inf if modes.count is None else modes.count
-    count = int(min(LIMIT_START, most))
+    count = int(min(LIMIT_START, most + NEXT))
     while True:
         values, vectors = compute(count)
-        if len(values) < count or count >= most or (len(values) and values[-1] > limit):
-            keep = int(np.count_nonzero(values <= limit))
-            return values[:keep], vectors[:, :keep]
+        if len(values) < count or count >= most + NEXT or (len(values) and values[-1] > limit):
+            keep = int(min(np.count_nonzero(values <= limit), most))
+            return values[:keep], vectors[:, :keep], vectors[:, keep : keep + NEXT]
         if count >= MOST_MODES:
             raise ModelError(
                 f"more than {MOST_MODES} normal modes lie below {modes.up_to:g} Hz; lower `reduction.modes.up_to`, or limit the `count`"
             )
-        count = int(min(2 * count, most))
+        count = int(min(2 * count, most + NEXT))
 
 
 def _with_pins(body: FreeBody, boundary: Whole) -> Whole:

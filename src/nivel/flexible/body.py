@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.invariants import Invariants
+from nivel.flexible.left_out import LeftOut, own_modes
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -47,6 +48,15 @@ class StressModes:
 
 
 @dataclass(frozen=True)
+class MeshError:
+    """share : (n,) by which the energy of each mode of the body is wrong. dynamic : only where the mode accelerates, as it does when it
+    vibrates freely; else wherever it is bent."""
+
+    share: Array
+    dynamic: bool
+
+
+@dataclass(frozen=True)
 class ReducedBody:
     """A flexible body in the floating frame of reference.
 
@@ -68,6 +78,10 @@ class ReducedBody:
 
     **Stiffening.** `stiffening` maps `acceleration` (3, n, n), `angular_acceleration` (3, n, n), `centrifugal` (6, n, n)
     and `interface.NAME` (6, n, n) to geometric stiffness per unit: see `stiffening.py`; empty where it was not asked for.
+
+    **Left out.** `left_out` has the next modes, which a run is judged by; None where they are not known.
+
+    **Mesh.** `mesh_error` estimates how far the mesh is from its limit; None where it is not known.
 
     eigenvalues : (n,) [1/s²] stiffness of the modes.
     node_ids : (n,); position : (n, 3) [m]; modes : (n, 6, n_modes) displacement and turn of nodes, NaN where unknown.
@@ -91,6 +105,8 @@ class ReducedBody:
     lines: Whole = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
     solids: Whole = field(default_factory=lambda: np.zeros((0, 4), dtype=np.int64))
     source: str = ""
+    left_out: LeftOut | None = None
+    mesh_error: MeshError | None = None
 
     @property
     def frequencies(self) -> Array:
@@ -130,7 +146,20 @@ class ReducedBody:
             mode_names=tuple(self.mode_names[k] for k in take) if self.mode_names else (),
             stress=stress,
             stiffening={name: each[:, take][:, :, take] for name, each in self.stiffening.items()},
+            left_out=self._left_out_of(take),
+            mesh_error=None if self.mesh_error is None else replace(self.mesh_error, share=self.mesh_error.share[take]),
         )
+
+    def _left_out_of(self, kept: Whole) -> LeftOut | None:
+        """What the body leaves out with these of its modes only: the others, and what it left out before."""
+        if self.left_out is None:
+            return None
+        left = np.setdiff1d(np.arange(len(self.eigenvalues)), kept)
+        phi = np.array([np.vstack([each.phi, each.psi]) for each in self.interfaces]).reshape(
+            len(self.interfaces), 6, len(self.eigenvalues)
+        )
+        own = own_modes(left, kept, self.eigenvalues, phi, self.invariants)
+        return own + self.left_out.beside(kept)
 
     def interface(self, name: str) -> Interface:
         """The interface of this name. Raises KeyError."""

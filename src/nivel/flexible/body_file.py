@@ -14,8 +14,9 @@ import numpy as np
 
 from nivel import __version__
 from nivel.errors import ModelError
-from nivel.flexible.body import Array, Interface, ReducedBody, StressModes
+from nivel.flexible.body import Array, Interface, MeshError, ReducedBody, StressModes
 from nivel.flexible.invariants import UNITS, Invariants
+from nivel.flexible.left_out import LeftOut
 
 KIND: Final = "flexible body"
 FORMAT: Final = 1
@@ -36,6 +37,16 @@ INVARIANT_DIMS: Final = {
     "I9": ("mode", "mode_", "xyz", "xyz_"),
 }
 STIFFENING_DIMS: Final = {"acceleration": "xyz", "angular_acceleration": "xyz", "centrifugal": "pair"}
+LEFT_OUT: Final = {
+    "eigenvalues": (("left_mode",), "1/s^2", "stiffness, unit modal mass"),
+    "phi": (("interface", "axis", "left_mode"), "kg^-0.5", "displacement and turn [kg^-0.5 m^-1] of the interfaces"),
+    "mass": (("left_mode", "mode"), "1", "mass in common with the modes"),
+    "stiffness": (("left_mode", "mode"), "1/s^2", "stiffness in common with the modes"),
+    "I3": (("xyz", "left_mode"), "kg^0.5", "inertia invariant I3"),
+    "I4": (("xyz", "left_mode"), "kg^0.5 m", "inertia invariant I4"),
+    "I8": (("left_mode", "xyz", "xyz_"), "kg^0.5 m", "inertia invariant I8"),
+}
+DYNAMIC: Final = ", where it accelerates"
 STIFFENING_UNITS: Final = {"acceleration": "1/m", "angular_acceleration": "1", "centrifugal": "1"}
 
 
@@ -135,6 +146,12 @@ def _write(out: _Writer, body: ReducedBody) -> None:
         _write_stress(out, body.stress)
     for name, matrices in body.stiffening.items():
         _write_stiffening(out, name, matrices)
+    if body.left_out is not None:
+        _write_left_out(out, body.left_out)
+    if body.mesh_error is not None:
+        name = "mesh_error.dynamic" if body.mesh_error.dynamic else "mesh_error"
+        text = "share by which the energy of the mode is wrong, estimated" + DYNAMIC * body.mesh_error.dynamic
+        out.put(name, body.mesh_error.share, ("mode",), "1", text)
 
 
 def _write_meshes(out: _Writer, body: ReducedBody) -> None:
@@ -163,6 +180,13 @@ def _write_stiffening(out: _Writer, name: str, matrices: Array) -> None:
         first = "xyz"
     units = STIFFENING_UNITS.get(name, "kg^-1 m^-1")
     out.put(f"stiffening.{name}", matrices, (first, "mode", "mode_"), units, f"geometric stiffness for unit {name}")
+
+
+def _write_left_out(out: _Writer, left: LeftOut) -> None:
+    out.length("left_mode", len(left.eigenvalues))
+    for field in fields(left):
+        name, (dims, units, text) = field.name, LEFT_OUT[field.name]
+        out.put(f"left_out.{name}", getattr(left, name), dims, units, f"modes that are left out: {text}")
 
 
 def read_body(path: str | Path) -> ReducedBody:
@@ -233,4 +257,13 @@ def _read(file: Any) -> ReducedBody:
         lines=array("line_node"),
         solids=array("solid_node"),
         source=str(file.attrs["source"]),
+        mesh_error=_mesh_error(file),
+        left_out=LeftOut(**{name: array(f"left_out.{name}") for name in LEFT_OUT}) if "left_mode" in file else None,
     )
+
+
+def _mesh_error(file: Any) -> MeshError | None:
+    for name, dynamic in (("mesh_error", False), ("mesh_error.dynamic", True)):
+        if name in file:
+            return MeshError(file[name][()], dynamic)
+    return None

@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.flexible.bases import Basis
+from nivel.flexible.body import MeshError
 from nivel.flexible.factor import Whole
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.invariants import Invariants, invariants
@@ -19,6 +20,7 @@ MOST: Final = 40  # modes of the whole model that are computed for comparison
 DEFLECTION: Final = 0.01  # of the size of the body: for what neglected invariants would cost
 TURN: Final = 0.05  # [rad] or so much turn of a node, whatever is less
 EQUAL: Final = 1e-4  # frequencies that differ relatively by less are taken as equal
+FINE: Final = 0.01  # of a frequency, that the mesh makes it wrong by, at most
 ILL: Final = 1e10  # condition of the basis from which on it is told
 
 
@@ -30,6 +32,7 @@ class Findings:
     mac : (full, reduced) modal assurance criterion, mass-weighted. normal : [Hz] of the normal modes, as the body was held.
     effective_mass : (modes, 6) share of mass and inertia about the mass centre that a mode of the body held at its
     interfaces moves; empty where there are none. Columns x, y, z, about x, y, z.
+    mesh_error : share by which the mesh makes the energy of each mode of the body wrong, estimated; empty where it is not known.
     neglect : largest relative change of the mass matrix without I5, I8, I9, while the body is bent by a hundredth of its size.
     """
 
@@ -50,6 +53,7 @@ class Findings:
     dependent: int
     boundary: list[str]
     neglect: dict[str, float]
+    mesh_error: list[float]
     statements: list[str]
     notes: list[str]
 
@@ -69,9 +73,15 @@ class Findings:
 
 
 def findings_of(
-    body: FreeBody, attachments: tuple[Attachment, ...], boundary: Whole, basis: Basis, found: Orthonormal, modes: Array
+    body: FreeBody,
+    attachments: tuple[Attachment, ...],
+    boundary: Whole,
+    basis: Basis,
+    found: Orthonormal,
+    modes: Array,
+    error: MeshError | None,
 ) -> Findings:
-    """The findings of a reduction. `found` : of mean axes; `modes` (N, n) : those of the body."""
+    """The findings of a reduction. `found` : of mean axes; `modes` (N, n) : those of the body; `error` : of its mesh."""
     model = body.model
     its = invariants(model.mass, modes)
     centre = its.I2 / its.I1
@@ -98,7 +108,8 @@ def findings_of(
         dependent=found.dependent,
         boundary=[f"{each.name}.{axis}" for each in attachments for axis in _axes(body, each)],
         neglect=neglect(its, _bent(body, modes)),
-        statements=_statements(full, reduced, found),
+        mesh_error=[] if error is None else error.share.tolist(),
+        statements=[*_statements(full, reduced, found), *_mesh_statement(error)],
         notes=list(model.notes),
     )
 
@@ -180,3 +191,17 @@ def _statements(full: Array, reduced: Array, found: Orthonormal) -> list[str]:
         limit = f", up to {full[until - 1]:.4g} Hz" if until else ""
         out.append(f"The first {until} of {count} frequencies are within 1 % of those of the whole model{limit}.")
     return out
+
+
+def _mesh_statement(error: MeshError | None) -> list[str]:
+    """What the mesh makes of the frequencies: half of what it makes of energies."""
+    if error is None:
+        return []
+    off = 0.5 * error.share
+    good = np.flatnonzero(off > FINE)
+    until = len(off) if not len(good) else int(good[0])
+    advice = "" if not len(good) else ("; take more `elements`" if error.dynamic else "; take a smaller `element_size`")
+    return [
+        f"The mesh makes the frequency of the first mode wrong by {100 * off[0]:.2g} %, that of the last one by {100 * off[-1]:.2g} % "
+        f"(estimated): the first {until} of {len(off)} are within {100 * FINE:g} %{advice}."
+    ]

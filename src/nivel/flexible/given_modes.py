@@ -9,22 +9,24 @@ from typing import Final
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.flexible.bases import Basis
+from nivel.flexible.bases import NEXT, Basis, attachments
+from nivel.flexible.factor import Whole
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.invariants import LEVI_CIVITA
-from nivel.flexible.model import AXES, Array, FiniteElementModel, Whole
+from nivel.flexible.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model_file import Located
 from nivel.flexible.place_expression import PlaceError, PlaceFunction, place_function
 
 STEP: Final = 1e-6  # of the size of the body: differences for the turn of nodes
 
 
-def given_modes(body: FreeBody, located: Located) -> Basis:
+def given_modes(body: FreeBody, boundary: Whole, located: Located) -> Basis:
     """The basis of the shapes of a model file, (N, k); orthonormalised later like any other.
 
     Expressions are of the undeformed place x, y, z [m]; turns that are not given follow from them by central differences.
     A table (.csv) has the columns node, mode, x, y, z and, if nodes turn, rx, ry, rz; `.npy` is an array
-    (modes, nodes, 3 or 6) in the order of the nodes.
+    (modes, nodes, 3 or 6) in the order of the nodes. Left out are the lowest normal modes and the answers to loads on the `boundary`
+    freedoms, as far as the shapes do not span them.
 
     Raises ModelError.
     """
@@ -40,7 +42,8 @@ def given_modes(body: FreeBody, located: Located) -> Basis:
     if empty:
         place = ("reduction", "shapes") if isinstance(shapes, str) else ("reduction", "shapes", empty[0])
         raise ModelError(located.fault(place, f"shape {empty[0] + 1} is zero at every node"))
-    return Basis(vectors, len(motions), np.zeros(0))
+    left = np.hstack([body.elastic_modes(NEXT)[1], attachments(body, boundary)[0]])
+    return Basis(vectors, len(motions), np.zeros(0), left)
 
 
 def _from_expressions(body: FreeBody, located: Located) -> list[Array]:

@@ -34,6 +34,10 @@ class Located:
         """`message` with the place of `path` in the file."""
         return self._tree.fault(path, message, at_key=at_key)
 
+    def with_record(self, record: ModelRecord) -> Located:
+        """Another record with the same places of keys."""
+        return Located(record, self.parameters, self._tree)
+
     def beside(self, name: str) -> FilePath:
         """The file `name` seen from the folder of the model file."""
         return FilePath(self._tree.file).parent / name

@@ -18,7 +18,9 @@ from nivel.flexible.findings import Findings, findings_of
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.given_modes import given_modes
 from nivel.flexible.invariants import invariants
+from nivel.flexible.left_out import LeftOut, beside_kept, left_out
 from nivel.flexible.mass import lumped
+from nivel.flexible.mesh_error import mesh_error
 from nivel.flexible.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model_file import Located, read_model
 from nivel.flexible.orthonormal import Orthonormal, held_at, orthonormal
@@ -107,7 +109,8 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
         raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
     modes, eigenvalues, held = _with_reference(body, found, attachments, located)
     say("computing the modes of the whole model for comparison", 0.7)
-    findings = findings_of(body, attachments, boundary, basis, found, modes)
+    error = mesh_error(located, model, modes, eigenvalues)
+    findings = findings_of(body, attachments, boundary, basis, found, modes, error)
     say("computing inertia invariants and stress modes", 0.88)
     reduced = ReducedBody(
         name=record.name,
@@ -126,6 +129,8 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
         lines=model.lines,
         solids=model.solids,
         source=record.description,
+        mesh_error=error,
+        left_out=_left_out(body, modes, found, basis, attachments),
     )
     say("done", 1.0)
     return Reduction(replace(reduced, interfaces=_interfaces(reduced, attachments)), findings)
@@ -140,7 +145,7 @@ def _rows(model: FiniteElementModel, node: int) -> Whole:
 def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
     reduction = located.record.reduction
     if reduction.modes.given:
-        return given_modes(body, located)
+        return given_modes(body, boundary, located)
     modes = ModeCount(reduction.modes.count, reduction.modes.up_to)
     match reduction.method:
         case "craig-bampton":
@@ -148,7 +153,7 @@ def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
         case "free-interface":
             basis = free_interface(body, boundary, modes)
         case "normal-modes":
-            basis = normal_only(body, modes)
+            basis = normal_only(body, boundary, modes)
     if not reduction.inertia_modes:
         return basis
     own = inertia_modes(body, boundary)
@@ -160,7 +165,7 @@ def _with_reference(
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Modes and eigenvalues for the reference conditions, and the freedoms that are zero in all modes."""
     reduction, model = located.record.reduction, body.model
-    if reduction.reference == "mean-axis" and not reduction.held:
+    if reduction.has_mean_axes:
         return found.modes, found.eigenvalues, ()
     held = reduction.held or tuple(f"{reduction.reference}.{axis}" for axis in AXES)
     node_of = {each.name: each.node for each in attachments}
@@ -183,6 +188,14 @@ def _with_reference(
         raise ModelError(located.fault(("reduction", "held"), message))
     modes, eigenvalues = held_at(body, found.modes, matrix)
     return modes, eigenvalues, held
+
+
+def _left_out(
+    body: FreeBody, modes: Array, found: Orthonormal, basis: Basis, attachments: tuple[Attachment, ...]
+) -> LeftOut:
+    """The next modes. Where they do not move the interfaces they are taken as they are, and their loads need no loads there."""
+    candidates = basis.left if basis.held else beside_kept(body, found.modes, basis.left)
+    return left_out(body, modes, candidates, np.array([each.node for each in attachments], dtype=np.int64))
 
 
 def _node_modes(model: FiniteElementModel, modes: Array) -> Array:
@@ -234,9 +247,10 @@ def _stiffening(
     body: FreeBody, modes: Array, attachments: tuple[Attachment, ...], located: Located, say: Stage
 ) -> dict[str, Array]:
     reduction = located.record.reduction
-    if not reduction.stiffening:
+    known = body.model.elements is not None
+    if not (known and reduction.has_mean_axes if reduction.stiffening is None else reduction.stiffening):
         return {}
-    if body.model.elements is None:
+    if not known:
         message = "geometric stiffness needs the elements, and matrices of other programs do not have them"
         raise ModelError(located.fault(("reduction", "stiffening"), message))
     say("computing geometric stiffness", 0.93)

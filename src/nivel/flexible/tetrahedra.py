@@ -37,6 +37,14 @@ def shape_gradients(at: Array, count: int) -> Array:
     return out
 
 
+def shape_functions(at: Array, count: int) -> Array:
+    """(count,) the shape functions at a local point (3,)."""
+    L = np.array([1.0 - at.sum(), *at])
+    if count == 4:
+        return L
+    return np.concatenate([L * (2.0 * L - 1.0), [4.0 * L[i] * L[j] for i, j in EDGES]])
+
+
 def elasticity(material: Material) -> Array:
     """(6, 6) [Pa] stress xx, yy, zz, xy, yz, zx from strain with γ."""
     E, nu = material.youngs_modulus, material.poisson_ratio
@@ -67,12 +75,17 @@ class Tetrahedra:
         """The nodes of the elements."""
         return np.unique(self.nodes)
 
+    @property
+    def _gauss(self) -> Array:
+        """(g, 3) Gauss points in local coordinates."""
+        return GAUSS if self.nodes.shape[1] == 10 else np.full((1, 3), 0.25)
+
     @cached_property
     def points(self) -> tuple[tuple[Array, Array], ...]:
         """Gradients (e, nodes, 3) [1/m] of the shape functions and volumes (e,) [m³] at each Gauss point."""
         count = self.nodes.shape[1]
         out = []
-        for at in GAUSS if count == 10 else GAUSS[:1] * 0.0 + 0.25:
+        for at in self._gauss:
             local = shape_gradients(at, count)
             jacobian = np.einsum("ena,nb->eab", self.position[self.nodes], local)
             inverse = np.linalg.inv(jacobian)
@@ -120,6 +133,23 @@ class Tetrahedra:
 
     def stress(self, displacement: Array) -> Array:
         return np.einsum("ij,sjk->sik", elasticity(self.material), self.strain(displacement), optimize=True)
+
+    def energy_error(self, displacement: Array) -> Array:
+        """(n,) share of the strain energy that finer elements would add, by how far strains at Gauss points are from those averaged at
+        nodes (Zienkiewicz, Zhu 1987)."""
+        D, n = elasticity(self.material), displacement.shape[1]
+        smooth = self.strain(displacement)[np.searchsorted(self.stations, self.nodes)]
+        off, whole = np.zeros(n), np.zeros(n)
+        for at, (gradients, volume) in zip(self._gauss, self.points, strict=True):
+            shape = shape_functions(at, self.nodes.shape[1])
+            for k in range(0, n, CHUNK):
+                part = slice(k, k + CHUNK)
+                u = displacement[self.freedoms[self.nodes]][..., part]
+                strain = _strain(np.einsum("enb,enak->eabk", gradients, u, optimize=True))
+                left = np.einsum("p,epik->eik", shape, smooth[..., part], optimize=True) - strain
+                off[part] += np.einsum("e,eik,ij,ejk->k", volume, left, D, left, optimize=True)
+                whole[part] += np.einsum("e,eik,ij,ejk->k", volume, strain, D, strain, optimize=True)
+        return off / np.maximum(whole, 1e-300)
 
     def turn(self, displacement: Array) -> Array:
         """(n, 3, k) half the curl of the displacement at all nodes, mean over the elements around; NaN where there are none."""

@@ -72,6 +72,7 @@ VARIABLES: tuple[Entry, ...] = (
 OF_MODES: tuple[Entry, ...] = (
     ("modal_coordinate", ("time", "mode"), "kg^0.5 m", "modal coordinate of a mode of unit modal mass"),
     ("modal_rate", ("time", "mode"), "kg^0.5 m/s", "rate of the modal coordinate"),
+    ("modal_acceleration", ("time", "mode"), "kg^0.5 m/s^2", "second derivative of the modal coordinate"),
 )
 
 
@@ -112,7 +113,7 @@ def laid_out(entries: Sequence[Entry], coordinates: dict[str, tuple[str, ...]], 
 
 
 def with_modal_coordinates(layout: FrameLayout, modes: Sequence[str]) -> FrameLayout:
-    """The layout with the coordinates and rates of these modes behind all else."""
+    """The layout with the coordinates of these modes and their derivatives behind all else."""
     added = laid_out(OF_MODES, {**layout.coordinates, "mode": tuple(modes)}, layout.width)
     return FrameLayout(added.width, layout.variables + added.variables, added.coordinates)
 

@@ -10,6 +10,7 @@ from nivel.analysis.loads.sampled import between_samples
 from nivel.analysis.loads.seen import unseen_loads
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.run.dynamics import RunOutcome
+from nivel.analysis.run.flexible_facts import modal_bases, modal_bodies
 from nivel.analysis.run.passages import passages
 from nivel.analysis.run.preparation import Prepared
 from nivel.analysis.run.second_run import Verified
@@ -19,8 +20,9 @@ from nivel.machine.orientation import euler_parameters_from_matrix
 from nivel.machine.shape import Sphere
 from nivel.results.result import Result
 from nivel.results.trust.accuracy import error_from_finer, extent
+from nivel.results.trust.basis import most_coarse, most_lacking
 from nivel.results.trust.beam_mesh import BeamMesh, coarsest, turns
-from nivel.results.trust.bending import ModalBody, fastest_unstiffened, most_bent
+from nivel.results.trust.bending import fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.findings import Findings
 from nivel.results.trust.motion import Motion
@@ -29,7 +31,6 @@ from nivel.results.trust.scales import machine_size
 from nivel.results.trust.second_look import damped, growth, own_error
 from nivel.results.trust.steps_seen import largest_turn, rounding
 from nivel.results.trust.unseen import Unseen
-from nivel.system.flexible import bending_bodies
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -45,7 +46,8 @@ def find(
     if finished.pace is None or not len(result.time):
         return Findings()
     settings, fixed = plan.settings, plan.settings.steps > 0
-    turned, bending = finished.pace[TURNED], _bending(plan)
+    turned, bending = finished.pace[TURNED], modal_bodies(plan)
+    bases = modal_bases(plan, prepared)
     implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
@@ -62,6 +64,8 @@ def find(
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),
         bent=most_bent(result, bending),
+        lacking=most_lacking(result, bases),
+        meshed=most_coarse(result, bases),
         coarse=coarsest(result, _meshes(plan)),
         method=settings.integrator,
         agreed=_agreed(result, verified) if verified is not None else None,
@@ -96,19 +100,6 @@ def _meshes(plan: Plan) -> list[BeamMesh]:
             theta = np.array([euler_parameters_from_matrix(each) for each in axes])
             length, stiffness = beam.line.length * np.diff(beam.shares), np.diag(beam.properties.stiffness)[3:]
             out.append(BeamMesh(beam.name, beam.node_names, length, stiffness, turns(theta)))
-    return out
-
-
-def _bending(plan: Plan) -> list[ModalBody]:
-    """The flexible bodies of the machine; those that stand for beams bend by any amount."""
-    out, first = [], 0
-    for each in bending_bodies(plan.machine) if plan.machine.is_flexible else ():
-        its, last = each.reduced, first + len(each.reduced.eigenvalues)
-        if not each.beam:
-            name = plan.machine.bodies[each.body].name
-            modes = np.nan_to_num(its.modes[:, :3])
-            out.append(ModalBody(name, first, last, its.eigenvalues, its.position, modes, bool(its.stiffening)))
-        first = last
     return out
 
 

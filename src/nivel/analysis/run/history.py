@@ -116,7 +116,7 @@ def _clock(settings: RunSettings, open_limit: float) -> Array:
 
 def _pace(prepared: Prepared, settings: RunSettings) -> Array:
     """Nothing done yet, and steps as long as the settings and the functions of time allow."""
-    pace = np.zeros((4, PARTS))
+    pace = np.zeros((5, PARTS))
     pace[LEAST] = np.inf
     pace[ALLOWED] = settings.largest_step
     if prepared.allowed is not None:

@@ -22,6 +22,7 @@ from nivel.analysis.run.saturation import saturated_blocks
 from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.errors import SolveError
 from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.loop.run import MOVING
 from nivel.integrate.loop.sink import Header
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.occurrence import to_json
@@ -126,6 +127,7 @@ def close_run(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
         position_freedoms=redundancy.position_freedoms,
+        kinetic_energy=float(finished.pace[MOVING].max()) if finished.pace is not None else 0.0,
         modes=len(prepared.motion.system.modes),
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,

@@ -18,7 +18,7 @@ from nivel.system.system import Array
 MOVING = frozenset(
     {
         "velocity", "angular_velocity", "acceleration", "angular_acceleration", "joint_rate", "constraint_rate_violation",
-        "kinetic_energy", "external_work", "dissipated_energy", "energy_error", "modal_rate",
+        "kinetic_energy", "external_work", "dissipated_energy", "energy_error", "modal_rate", "modal_acceleration",
     }
 )  # fmt: skip
 RATES = (".rate", ".power")

@@ -7,7 +7,7 @@ import numpy as np
 from nivel.integrate.loop.dense import cubic, frame_time, inside
 from nivel.integrate.loop.energy import conserve
 from nivel.integrate.loop.events import begin_events, find_events, hand_out_events
-from nivel.integrate.loop.pace import allow, note_step
+from nivel.integrate.loop.pace import allow, note_energy, note_step
 from nivel.integrate.loop.run import (
     ACCEPTED,
     ADVANCE,
@@ -193,6 +193,7 @@ def accept_state(evaluate, machine, history, due):
         return CONTRADICTION
     counter[EVALUATED] = 1
     accept(machine, clock[TIME])
+    note_energy(machine, run)
     if counter[SWITCHED] == 1:
         # contacts and stops are on the sides of this state from here on
         counter[SWITCHED] = 0

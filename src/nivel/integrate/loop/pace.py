@@ -1,12 +1,31 @@
-"""The pace of a run: how long its steps are at which time, how far bodies turn in them, and how long they may be."""
+"""The pace of a run: how long its steps are at which time, how far and how fast bodies move in them, and how long they may be."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.loop.run import ALLOWED, END, LARGEST, LEAST, PARTS, REACHED, START, TAKEN, TIME, TURNED
+from nivel.integrate.loop.run import (
+    ALLOWED,
+    DONE_STEPS,
+    END,
+    LARGEST,
+    LEAST,
+    MOVING,
+    PARTS,
+    REACHED,
+    START,
+    TAKEN,
+    TIME,
+    TURNED,
+)
 from nivel.integrate.loop.step_control import fastest_turn
+from nivel.kernels.bodies.rigid import turn_to_body_axes
+from nivel.kernels.output.energy import energies
+from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
+
+# Steps at which energies are looked at, as a share: multiples of an irrational number, so that no period of a load hides from them.
+IRRATIONAL, LOOKED_AT = 0.6180339887498949, 0.25
 
 
 @leaf
@@ -39,3 +58,17 @@ def note_step(machine, run, speed):
         run.pace[TAKEN, k] = max(run.pace[TAKEN, k], h)
         run.pace[LEAST, k] = min(run.pace[LEAST, k], h)
         run.pace[TURNED, k] = max(run.pace[TURNED, k], turn)
+
+
+@leaf
+def note_energy(machine, run):
+    """Note the kinetic energy of the accepted state, just evaluated, at a quarter of the steps."""
+    place = IRRATIONAL * run.counter[DONE_STEPS]
+    if place - np.floor(place) >= LOOKED_AT:
+        return
+    bodies = record_at(machine).bodies
+    for b in range(bodies.mass.shape[0]):
+        turn_to_body_axes(bodies, b)
+    kinetic = energies(machine)[0]
+    k = part_at(run, run.clock[TIME])
+    run.pace[MOVING, k] = max(run.pace[MOVING, k], kinetic)

@@ -25,7 +25,7 @@ BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # most rows of Run.dense
 DENSE_ROWS = 13
 # rows of Run.pace, and parts of the duration
-ALLOWED, TAKEN, LEAST, TURNED = 0, 1, 2, 3
+ALLOWED, TAKEN, LEAST, TURNED, MOVING = 0, 1, 2, 3, 4
 PARTS = 1024
 
 
@@ -70,8 +70,9 @@ class Run(NamedTuple):
     samples: I1  # (sampled states,) taken so far of those with a period
     # [s] ascending: explicit methods that choose their steps end one there; implicit ones know corners themselves
     corners: F1
-    # (4, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
-    # TAKEN and the shortest, LEAST [s], the largest angle that a body TURNED by in a step [rad]
+    # (5, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
+    # TAKEN and the shortest, LEAST [s], the largest angle that a body TURNED by in a step [rad], the largest kinetic energy of all
+    # bodies MOVING at some steps [J]
     pace: F2
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 

@@ -40,7 +40,8 @@ from nivel.native.function import leaf, stage
     ENERGY_ERROR,
     MODAL_COORDINATE,
     MODAL_RATE,
-) = range(24)
+    MODAL_ACCELERATION,
+) = range(25)
 
 
 @stage
@@ -173,12 +174,14 @@ def _write_outputs(machine, t, frame):
 
 @stage
 def _write_modes(machine, frame):
-    """Modal coordinates of flexible bodies and their rates."""
+    """Modal coordinates of flexible bodies and their derivatives."""
     record = record_at(machine)
     flexible = record.flexible
     coordinate, rate = first_column(record, MODAL_COORDINATE), first_column(record, MODAL_RATE)
+    acceleration = first_column(record, MODAL_ACCELERATION)
     for j in range(flexible.p.shape[0]):
         frame[coordinate + j], frame[rate + j] = flexible.p[j], flexible.pdot[j]
+        frame[acceleration + j] = flexible.pddot[j]
 
 
 @entry(OBSERVE)

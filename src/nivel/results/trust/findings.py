@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from nivel.results.trust.basis import Lacking
 from nivel.results.trust.beam_mesh import Coarse
 from nivel.results.trust.bending import Bent
 from nivel.results.trust.passed_contacts import Passed
@@ -57,6 +58,8 @@ class Findings:
     passed: Sequence[Passed] = ()
     bent: Bent | None = None
     coarse: Coarse | None = None
+    lacking: Lacking | None = None
+    meshed: Bent | None = None
     method: str = ""
     agreed: float | None = None
 
@@ -78,6 +81,10 @@ def finding_items(found: Findings) -> Iterator[Item]:
         yield from _told(_bent_item(found.bent))
     if found.coarse is not None:
         yield from _told(_coarse_item(found.coarse))
+    if found.meshed is not None:
+        yield from _told(_meshed_item(found.meshed))
+    if found.lacking is not None:
+        yield from _told(_lacking_item(found.lacking))
     if found.own is not None:
         yield from _told(_own_item(found.own))
     if found.damped is not None:
@@ -203,6 +210,22 @@ def _coarse_item(coarse: Coarse) -> Item:
         f"t = {coarse.time:.6g} s, as curvatures change within them; take twice as many, or `order: 2`"
     )
     return _measured("mesh", said, coarse.share, coarse.time, coarse.beam)
+
+
+def _meshed_item(found: Bent) -> Item:
+    said = (
+        f"Mesh: the finite elements of {found.body} make {number(found.value)} of its strain energy wrong at t = {found.time:.6g} s; "
+        f"reduce it with smaller ones"
+    )
+    return _measured("mesh", said, found.value, found.time, found.body)
+
+
+def _lacking_item(lacking: Lacking) -> Item:
+    said = (
+        f"Modes: {lacking.body} has {lacking.modes} modes, and those left out, one at {number(lacking.frequency)} Hz above all, would take "
+        f"{number(lacking.share)} of its strain energy at t = {lacking.time:.6g} s; take more `modes`"
+    )
+    return _measured("modes", said, lacking.share, lacking.time, lacking.body)
 
 
 def _damped_item(damped: Damped, method: str) -> Item:

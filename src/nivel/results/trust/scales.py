@@ -97,6 +97,11 @@ def largest_speed(result: Readable) -> float:
     return largest
 
 
+def kinetic_energy_of_rest(result: Readable, slowest: float) -> float:
+    """What all bodies have at the speed [m/s] below which a machine is at rest [J]."""
+    return 0.5 * _mass(result) * slowest**2
+
+
 def largest_kinetic_energy(result: Readable, size: float) -> float:
     """Largest kinetic energy of the run [J]; 0 of a machine at rest, whose speeds are round-off. size : of the machine [m]."""
     at_rest = largest_speed(result) < speed_of_rest(result, size)

@@ -13,7 +13,15 @@ from nivel.results.trust.circuits import Guard, circuit_items, guard_items
 from nivel.results.trust.held import Shared
 from nivel.results.trust.neglected import Cost
 from nivel.results.trust.rolling import rolling_items
-from nivel.results.trust.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
+from nivel.results.trust.scales import (
+    Readable,
+    blocks,
+    kinetic_energy_of_rest,
+    largest_energy,
+    largest_speed,
+    machine_size,
+    speed_of_rest,
+)
 from nivel.results.trust.statements import number, statements
 from nivel.results.trust.unresolved import unresolved_force
 from nivel.results.trust.verdicts import THRESHOLDS, Item, Trust, blindness, worst
@@ -55,6 +63,7 @@ class Facts:
     further : lines of checks that only tell what is not green, see `nivel.results.trust.findings`.
     small_states : those whose errors were hardly controlled. saturated : blocks of the control at a limit all the time.
     guard : what was not extrapolated of steps over circuits.
+    kinetic_energy : the largest one that its steps had [J]; frames may all meet a vibration where it is slow.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
@@ -77,6 +86,7 @@ class Facts:
     saturated: tuple[str, ...] = ()
     guard: Guard | None = None
     position_freedoms: int | None = None
+    kinetic_energy: float = 0.0
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -90,6 +100,8 @@ def assess(result: Readable, facts: Facts) -> Trust:
     violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
     opening = violation.value / size if violation_units == "m" else violation.value
     energy_scale, energy_scale_kind = largest_energy(result, size, opening, at_rest)
+    if facts.kinetic_energy > max(energy_scale, kinetic_energy_of_rest(result, slowest)):
+        energy_scale, energy_scale_kind = facts.kinetic_energy, "largest kinetic energy"
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
     lacking = facts.neglected
     is_green = energy.value < THRESHOLDS["energy"].green * energy_scale

@@ -112,6 +112,12 @@ CHECKS = {
         "A body bent by the share x of its length becomes shorter by about x²/2 of it, which modes do not know: 1e-3 at 0.05, a "
         "fiftieth at 0.2.",
     ),
+    "modes": Threshold(
+        1e-2,
+        1e-1,
+        "Energy of modes that are left out, of the strain energy that the body has, or would have if it were bent by 1e-4 of its size: "
+        "displacements lack about this share. A hundredth is what stiffness is known to, a tenth is seen.",
+    ),
     "mesh": Threshold(
         1e-2,
         1e-1,

@@ -34,7 +34,9 @@ def shown(value: object) -> str:
 def set_in_motion(names: Sequence[str]) -> str:
     """A sentence without its full stop about bodies that move at the start though no velocity was given to them."""
     few = names if len(names) <= MOST_NAMES else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
-    return f"velocities that are not given follow from the joints and the masses (least kinetic energy): {', '.join(few)}"
+    return (
+        f"velocities that are not given follow from the joints and the masses (least kinetic energy): {', '.join(few)}"
+    )
 
 
 def unknown_word(word: str, valid: Sequence[str], what: str) -> str:

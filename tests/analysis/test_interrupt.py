@@ -7,7 +7,16 @@ import pytest
 import machines
 from nivel import Machine
 from nivel.analysis.progress.listener import Listener
+from nivel.files import parse_machine
 from nivel.results import Result
+
+SWINGING = """
+format: 1
+gravity: [0, -9.81, 0]
+bodies: {{arm: {{mass: 1, inertia: [1, 1, 1], position: [0.3, 0, 0]}}}}
+joints: {{hinge: {{type: revolute, bodies: [ground, arm], point: [0, 0, 0], axis: [0, 0, 1]}}}}
+drivers: {{drive: {{coordinate: hinge, value: {}}}}}
+"""
 
 
 def interrupted_by(number, path, **settings):
@@ -36,6 +45,21 @@ def test_sigterm_ends_the_program_with_the_result_closed(tmp_path):
         interrupted_by(signal.SIGTERM, tmp_path / "a.nc")
     assert end.value.code == 128 + signal.SIGTERM
     assert Result.open(tmp_path / "a.nc").outcome == "interrupted"
+    assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+
+
+@pytest.mark.parametrize("analysis", ["statics", "kinematics"])
+def test_sigterm_ends_other_analyses_likewise(analysis, tmp_path):
+    """Each with what it had found until then in a result that is closed."""
+    path = tmp_path / "a.nc"
+    listener = Listener(progress=lambda _time: signal.raise_signal(signal.SIGTERM))
+    machine = Machine.from_record(parse_machine(SWINGING.format("0.1*time" if analysis == "kinematics" else "0.1*sin(time)")))
+    with pytest.raises(SystemExit) as end:
+        getattr(machine, analysis)(duration=1.0, out=path, listener=listener)
+    assert end.value.code == 128 + signal.SIGTERM
+    result = Result.open(path)
+    assert result.outcome == "interrupted"
+    assert len(result.time) > 0
     assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
 
 

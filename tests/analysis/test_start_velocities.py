@@ -15,7 +15,9 @@ MOMENTS = np.array([0.1, 0.02, 3.0])
 
 def chain(rates, velocities=("", "", "")):
     """Three rods in a row in the plane, each turned by one of ANGLES. rates : of the first hinge; velocities : further keys of the rods."""
-    places = np.vstack([np.zeros(2), np.cumsum(LENGTHS[:, None] * np.stack([np.cos(ANGLES), np.sin(ANGLES)], 1), axis=0)])
+    places = np.vstack(
+        [np.zeros(2), np.cumsum(LENGTHS[:, None] * np.stack([np.cos(ANGLES), np.sin(ANGLES)], 1), axis=0)]
+    )
     lines = ["format: 1", "bodies:"]
     for k in range(3):
         x, y = 0.5 * (places[k] + places[k + 1])
@@ -26,7 +28,9 @@ def chain(rates, velocities=("", "", "")):
     for k in range(3):
         bodies = f"[{'ground' if k == 0 else f'rod{k - 1}'}, rod{k}]"
         start = rates if k == 0 else ""
-        lines.append(f"  j{k}: {{type: revolute, bodies: {bodies}, point: [{places[k][0]}, {places[k][1]}, 0], axis: [0, 0, 1]{start}}}")
+        lines.append(
+            f"  j{k}: {{type: revolute, bodies: {bodies}, point: [{places[k][0]}, {places[k][1]}, 0], axis: [0, 0, 1]{start}}}"
+        )
     return parse_machine("\n".join(lines))
 
 

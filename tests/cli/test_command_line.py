@@ -1,6 +1,7 @@
 """The command `nivel` as far as it needs no computing: help, exit codes, messages, `new`."""
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -174,3 +175,14 @@ def test_an_interrupt_exits_with_130(capsys):
 def test_defects_keep_their_traceback():
     with pytest.raises(ZeroDivisionError), failures.told():
         _ = 1 / 0
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["explain", "nobody.nc"]])
+def test_a_reader_that_has_enough_is_no_failure(arguments, tmp_path):
+    """As `nivel … | head`: what it says finds no reader. A fault of the input keeps its code."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-m", "nivel", *arguments]
+    ended = subprocess.run(command, cwd=tmp_path, stdout=writing, stderr=writing, check=False, timeout=60)
+    os.close(writing)
+    assert ended.returncode == (0 if arguments == ["--help"] else 2)

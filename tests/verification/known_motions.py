@@ -76,11 +76,14 @@ def integrated(rates, start, duration, **more):
 def low_pass():
     """A push of 1 N behind a block 1/(τ s + 1): x = t²/2 - τ t + τ² (1 - exp(-t/τ))."""
     tau = 0.05
-    text = cart("low-pass") + f"""
+    text = (
+        cart("low-pass")
+        + f"""
 control: {{lag: {{type: low-pass, input: 1, time_constant: {tau}, start: 0}}}}
 forces: {{push: {{type: force, body: cart, vector: [lag.value, 0, 0]}}}}
 simulation: {{duration: 1}}
 """
+    )
     return Known(
         "low-pass",
         text,
@@ -93,12 +96,15 @@ simulation: {{duration: 1}}
 def continuous_pid():
     """A PID with filtered rate on a mass of 2 kg: states x, v, integral, filtered place. D = kd (d/dt of -y through 1/(T s + 1))."""
     m, kp, ki, kd, filtering, wish = 2.0, 80.0, 60.0, 20.0, 0.02, 0.3
-    text = cart("continuous-pid", mass=m) + f"""
+    text = (
+        cart("continuous-pid", mass=m)
+        + f"""
 control:
   hold: {{type: pid, reference: {wish}, measured: rail.displacement, kp: {kp}, ki: {ki}, kd: {kd}, filter_time: {filtering}}}
 forces: {{push: {{type: motor, coordinate: rail, effort: hold.value}}}}
 simulation: {{duration: 1}}
 """
+    )
     # u = kp (r - x) + I + kd (f - x)/T with T f' = x - f
     A = np.array(
         [
@@ -115,7 +121,9 @@ simulation: {{duration: 1}}
 def sampled_control():
     """A force -k x - d v taken every 20 ms and held, on a mass with a spring: exact from sample to sample."""
     m, spring, k, d, period = 1.0, 40.0, 30.0, 4.0, 0.02
-    text = cart("sampled-control", mass=m, place=0.2) + f"""
+    text = (
+        cart("sampled-control", mass=m, place=0.2)
+        + f"""
 control:
   hold: {{type: signal, value: -{k}*rail.displacement - {d}*rail.displacement_rate, sample_time: {period}}}
 forces:
@@ -123,6 +131,7 @@ forces:
   coil: {{type: joint-spring-damper, coordinate: rail, stiffness: {spring}}}
 simulation: {{duration: 1}}
 """
+    )
     omega = np.sqrt(spring / m)
 
     def after(state, t):
@@ -175,6 +184,7 @@ simulation: {{duration: 1}}
     fall, omega, sag = np.sqrt(2.0 * height / GRAVITY), np.sqrt(stiffness / m), m * GRAVITY / stiffness
     speed = GRAVITY * fall
     touching = 2.0 * (np.pi - np.arctan2(speed / omega, sag)) / omega
+
     # in contact x = -sag + sag cos - speed/ω sin, until x = 0 again
     def exact(time):
         since = np.mod(time + fall, 2.0 * fall + touching)  # of a period from the bounce before
@@ -189,10 +199,13 @@ simulation: {{duration: 1}}
 def creeping():
     """Coulomb friction by tanh(v/v_t), with steps that follow it: sinh(v/v_t) falls as exp(-μ g t/v_t)."""
     mu, transition, speed = 0.3, 0.2, 1.5
-    text = cart("creeping", speed=speed, gravity=True) + f"""
+    text = (
+        cart("creeping", speed=speed, gravity=True)
+        + f"""
 forces: {{sole: {{type: friction, coordinate: rail, model: coulomb, coefficient: {mu}, transition_speed: {transition}}}}}
 simulation: {{duration: 1}}
 """
+    )
     solution = integrated(lambda _t, y: (y[1], -mu * GRAVITY * np.tanh(y[1] / transition)), (0.0, speed), 1.0)
     return Known("coulomb-creep", text, "cart.position.x", lambda t: solution()(t)[0], 1e-2)
 
@@ -200,10 +213,13 @@ simulation: {{duration: 1}}
 def stopping():
     """A slide that dry friction brings to rest at v/(μ g), and holds there."""
     mu, speed = 0.3, 1.5
-    text = cart("stopping", speed=speed, gravity=True) + f"""
+    text = (
+        cart("stopping", speed=speed, gravity=True)
+        + f"""
 forces: {{sole: {{type: friction, coordinate: rail, model: stiction, coefficient: {mu}}}}}
 simulation: {{duration: 1}}
 """
+    )
     stop = speed / (mu * GRAVITY)
 
     def exact(time):
@@ -216,12 +232,15 @@ simulation: {{duration: 1}}
 def lugre():
     """A mass on a spring that rubs with bristles soft enough to be followed."""
     mu, sigma, damping, k = 0.2, 500.0, 2.0, 60.0
-    text = cart("lugre", place=0.3, gravity=True) + f"""
+    text = (
+        cart("lugre", place=0.3, gravity=True)
+        + f"""
 forces:
   sole: {{type: friction, coordinate: rail, model: lugre, coefficient: {mu}, bristle_stiffness: {sigma}, bristle_damping: {damping}}}
   coil: {{type: joint-spring-damper, coordinate: rail, stiffness: {k}}}
 simulation: {{duration: 1}}
 """
+    )
 
     def rates(_t, y):
         x, v, z = y
@@ -256,11 +275,14 @@ simulation: {{duration: 1}}
 
 def winding_state():
     """A state of its own that drives: ṡ = -3 s + x, force 5 - 20 s on a mass; linear."""
-    text = cart("state") + """
+    text = (
+        cart("state")
+        + """
 states: {s: {rate: -3*s.value + rail.displacement, start: 0.4}}
 forces: {push: {type: motor, coordinate: rail, effort: 5 - 20*s.value}}
 simulation: {duration: 1}
 """
+    )
     A = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -20.0], [1.0, 0.0, -3.0]])
     states = linear(A, np.array([0.0, 5.0, 0.0]), np.array([0.0, 0.0, 0.4]))
     return Known("state", text, "cart.position.x", lambda t: states(t)[:, 0], 1e-2)
@@ -281,7 +303,9 @@ def cylinder():
     """A single-acting cylinder that lifts a mass on a spring, filled through an orifice from a supply of 60 bar."""
     m, k, piston, dead, viscous = 50.0, 2e5, 0.04, 0.5e-3, 2000.0
     area, edge, drop, corner = np.pi / 4.0 * piston**2, 10e-3 / 60.0, 10e5, 0.5e5
-    text = cart("cylinder", mass=m) + f"""
+    text = (
+        cart("cylinder", mass=m)
+        + f"""
 hydraulics:
   supply: {{type: tank, pressure: 60 bar}}
   inlet: {{type: orifice, ports: {{A: supply, B: jack.A}}, flow: 10 L/min, pressure_drop: 10 bar}}
@@ -290,6 +314,7 @@ hydraulics:
 forces: {{coil: {{type: joint-spring-damper, coordinate: rail, stiffness: {k}}}}}
 simulation: {{duration: 0.5}}
 """
+    )
 
     def rates(_t, y):
         x, v, mass = y
@@ -308,7 +333,9 @@ simulation: {{duration: 0.5}}
 def blow_down(isothermal):
     """Air that leaves a vessel at 8 bar choked: p falls as exp(-k t), or as (1 + (κ-1)/2 k t)^(-2 κ/(κ-1)) without heat."""
     volume, conductance, ratio, T = 10e-3, 2e-8, 1.4, 293.15
-    text = cart("blow-down", speed=1.0) + f"""
+    text = (
+        cart("blow-down", speed=1.0)
+        + f"""
 fluids: {{air: {{type: ideal-gas, isothermal: {str(isothermal).lower()}}}}}
 hydraulics:
   vessel: {{type: volume, volume: {volume}, start: 8 bar}}
@@ -316,6 +343,7 @@ hydraulics:
   nozzle: {{type: orifice, ports: {{A: vessel, B: room}}, sonic_conductance: {conductance}, critical_ratio: 0.3}}
 simulation: {{duration: 1}}
 """
+    )
     # ṁ = C p ρ_N √(T_N/T), m = p V/(R T), R = p_N/(ρ_N T_N): k = C ρ_N R T₀/V
     rate = conductance * 1e5 / 293.15 * T / volume
 
@@ -332,13 +360,16 @@ def gas_spring():
     """A mass that swings on air shut in without heat: p V^1.4 stays."""
     m, piston, dead, reach = 5.0, 0.05, 1e-4, 0.15
     area = np.pi / 4.0 * piston**2
-    text = cart("gas-spring", mass=m) + f"""
+    text = (
+        cart("gas-spring", mass=m)
+        + f"""
 fluids: {{air: {{type: ideal-gas}}}}
 hydraulics:
   jack: {{type: cylinder, bodies: [ground, cart], points: [[-1, 0, 0], [0, 0, 0]], piston: {piston}, stroke: 0.5, acting: single,
     retracted_length: {1.0 - reach}, dead_volume_A: {dead}, start_A: 1.3 bar}}
 simulation: {{duration: 0.5}}
 """
+    )
     begin = dead + area * reach
 
     def rates(_t, y):

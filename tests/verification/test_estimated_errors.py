@@ -29,6 +29,8 @@ FULL = (
 STEPS = (4.0, 2.0, 1.0)
 # Of the corners of a table fixed steps meet some and miss others, so that their errors are accidents; a block at rest has none.
 LEFT_OUT = ("pulse", "stiction", "wall", "far", "flywheel", "sphere")
+# of known motions those that need no numerical reference
+CLOSED_FORMS = ("low-pass", "sampled-control", "bouncing", "slide-that-stops", "blow-down-isothermal")
 
 
 def ratios(methods, steps):
@@ -43,10 +45,10 @@ def ratios(methods, steps):
     return out
 
 
-def known_ratios(methods, steps):
+def known_ratios(methods, steps, kinds=KNOWN):
     """The same of circuits, gas, control, contact, friction, drives and ropes."""
     out = {}
-    for kind in KNOWN:
+    for kind in kinds:
         for method, fineness in grid(methods, steps, kind.step, 1e-8):
             add_ratio(out, kind, kind.machine(), method, fineness, kind.exact)
     return out
@@ -87,7 +89,8 @@ def test_estimates_are_within_a_factor_of_three():
 
 
 def test_estimates_are_within_a_factor_of_three_beyond_mechanics():
-    judge(known_ratios(("heun",), (1.0,)), 10)
+    quick = [kind for kind in KNOWN if kind.name in CLOSED_FORMS]
+    judge(known_ratios(("heun",), (1.0,), quick), 5)
 
 
 @pytest.mark.full

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import click
@@ -72,11 +71,8 @@ def _write_table(result: str, target: str | None, select: tuple[str, ...], force
     opened = Result.open(result)
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
     if target == "-":
-        try:
-            write_table(opened, columns(opened, names), sys.stdout)
-            sys.stdout.flush()
-        except BrokenPipeError:  # the reader, `head` for instance, has enough: no failure
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what Python still flushes at its end
+        write_table(opened, columns(opened, names), sys.stdout)
+        sys.stdout.flush()
         return
     path = Path(Path(result).with_suffix(".csv").name) if target == BESIDE else Path(target)
     check_target(path, "table", force=force, sources=[Path(result)])

@@ -1,6 +1,7 @@
 """What a failed command says, and the exit code it ends with. Nothing else in the command line decides about either.
 
-0 done; 2 the input is at fault (also wrong options, by click); 3 the computation failed; 130 interrupted.
+0 done, also where nobody reads the output to its end; 2 the input is at fault (also wrong options, by click); 3 the computation failed;
+130 interrupted.
 What is neither is a defect of nivel and keeps its traceback.
 """
 
@@ -8,9 +9,10 @@ from __future__ import annotations
 
 import errno
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NoReturn
 
 import click
 
@@ -39,11 +41,23 @@ def told() -> Iterator[None]:
     except KeyboardInterrupt:
         _say("interrupted")
         raise SystemExit(INTERRUPTED) from None
+    except BrokenPipeError:
+        _read_no_more()
+    except SystemExit as end:
+        if not isinstance(end.__context__, BrokenPipeError):
+            raise
+        _read_no_more()
     except OSError as error:
         if error.errno not in NO_ROOM:
             raise
         _say(f"{error.filename or 'the output'} cannot be written: {os.strerror(error.errno).lower()}")
         raise SystemExit(COMPUTATION_FAILED) from None
+
+
+def _read_no_more() -> NoReturn:
+    """Leave as done where the reader of the output, `head` for instance, has enough: no failure."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what Python still flushes at its end
+    raise SystemExit(0) from None
 
 
 def say_faults(error: ModelError) -> None:
@@ -93,4 +107,7 @@ def _say(text: Text | str) -> None:
     from rich.console import Console
 
     # soft_wrap: a line is a line also in a narrow terminal or a pipe, for people and programs that look for places
-    Console(stderr=True, highlight=False, soft_wrap=True, markup=False).print(text)
+    try:
+        Console(stderr=True, highlight=False, soft_wrap=True, markup=False).print(text)
+    except (BrokenPipeError, SystemExit):  # nobody reads it: the exit code still tells
+        return

@@ -48,6 +48,11 @@ class IntegratorFacts:
         return self.velocity_jumps or self.complex_shift
 
     @property
+    def multistep(self) -> bool:
+        """Whether it has a fixed order and needs other steps to begin with."""
+        return self.module.startswith("nivel.integrate.multistep.")
+
+    @property
     def accelerations(self) -> bool:
         """Whether it solves the residual at the end of a step for accelerations and multipliers."""
         return self.residual and not self.first_order and not self.step_residual

@@ -70,7 +70,9 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)
     changed = {name for name, _, _ in velocity_change}
     free = ~given_velocities(machine).any(axis=1)
-    followed = tuple(body.name for body, none in zip(machine.bodies, free, strict=True) if none and body.name in changed)
+    followed = tuple(
+        body.name for body, none in zip(machine.bodies, free, strict=True) if none and body.name in changed
+    )
     reference = system.record.coordinates.reference.copy()
     return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change, followed)
 

@@ -16,6 +16,7 @@ from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
+from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.attributes import run_attributes
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
@@ -74,7 +75,7 @@ def kinematics(
     """Positions, velocities, accelerations and reactions of `machine`, driven as it is; the result is in memory, or in the file `out`.
 
     methods : of the machine with neutral settings, its duration and step. Raises ModelError before anything is computed, SolveError (with
-    the positions so far) where it cannot go on.
+    the positions so far) where it cannot go on, SystemExit where SIGTERM came, with the result closed.
     """
     listener = listener or Listener()
     sink = Memory() if out is None else Store(out, force)
@@ -89,9 +90,10 @@ def kinematics(
     chosen[0].begin(Header(chosen[1], attributes))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     listener.say("finding positions", settings.duration)
-    finished, run = follow(prepared, steps, chosen[0], listener)
-    finished.timing |= seconds
-    return _close(sink, prepared, finished, run)
+    with terminable():
+        finished, run = follow(prepared, steps, chosen[0], listener)
+        finished.timing |= seconds
+        return _close(sink, prepared, finished, run)
 
 
 def _attributes(

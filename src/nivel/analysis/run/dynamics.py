@@ -17,6 +17,7 @@ from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.progress.pacing import Pacing
+from nivel.analysis.run.crawling import CRAWLS, Crawl, crawling, jump_advice
 from nivel.analysis.run.divergence import GROWN, UNBOUND
 from nivel.analysis.run.fastest import fastest_beyond, held_step
 from nivel.analysis.run.history import start_history
@@ -69,6 +70,8 @@ CHUNK = 0.05
 GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
 # What a method may end with near a position that its machine cannot pass.
 BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
+# What a method ends with where a force jumps.
+NO_STEP = (NOT_CONVERGED, STEP_TOO_SMALL)
 
 
 @dataclass
@@ -129,8 +132,11 @@ def march(
     finished = RunOutcome("done")
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
+    crawl = Crawl(settings.duration) if settings.steps == 0 and prepared.jumping else None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
+        status, spent = march_in_chunks(
+            loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl
+        )
         loop_seconds += spent
         if status in BEFORE_A_JAM:
             jam = jam_of(prepared, settings, run)
@@ -182,6 +188,7 @@ def march_in_chunks(
     progress: Progress | None,
     chunk_steps: int | None,
     pacing: Pacing | None = None,
+    crawl: Crawl | None = None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
@@ -201,6 +208,8 @@ def march_in_chunks(
                 progress(float(run.clock[TIME]))
             if pacing is not None:
                 pacing.after(run)
+            if crawl is not None and status in GOES_ON and crawl.seen(run):
+                status = CRAWLS
             if chunk_steps is None and status == BUDGET_SPENT:
                 budget = _next_budget(budget, spent)
             if status in GOES_ON and interrupted():
@@ -239,6 +248,8 @@ def failure_of(
     facts, time = prepared.integrator, float(run.clock[ACCEPTED])
     if jam is not None:
         return f"stopped at t = {time:.6g} s: {jam.message}", jam.advice, time
+    if status == CRAWLS:
+        return *crawling(time, float(run.clock[STEP]), prepared.jumping), time
     explicit = settings.steps > 0 and not (facts.implicit or facts.residual)
     message, advice = failure(
         prepared.motion,
@@ -249,6 +260,8 @@ def failure_of(
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
     )
+    if status in NO_STEP and prepared.jumping:
+        advice = f"{jump_advice(prepared.jumping)} {advice}"
     return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
 
 

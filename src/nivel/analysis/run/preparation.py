@@ -28,6 +28,7 @@ from nivel.analysis.plan.refusals import (
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
 )
+from nivel.analysis.run.crawling import jumping_functions
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import IntegratorFacts
 from nivel.kernels.core.arrays import copied
@@ -52,7 +53,8 @@ class Assembled(NamedTuple):
 class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
     absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
-    of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s]."""
+    of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s];
+    its functions that jump with the motion, in words."""
 
     path: PathFacts
     motion: MotionEquations
@@ -65,6 +67,7 @@ class Prepared:
     beams: tuple[Beam, ...] = ()
     corners: tuple[float, ...] = ()
     allowed: Array | None = None
+    jumping: tuple[str, ...] = ()
 
 
 def prepare(methods: Methods, given: Assembled | None = None, residual: ResidualOptions | None = None) -> Prepared:
@@ -108,6 +111,7 @@ def prepare(methods: Methods, given: Assembled | None = None, residual: Residual
         machine.beams,
         corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
+        jumping_functions(machine),
     )
 
 

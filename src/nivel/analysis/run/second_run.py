@@ -20,11 +20,14 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
 from nivel.results.memory import Memory
 from nivel.results.result import Result
+from nivel.results.trust.estimate import TIMES
 
 # Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.
 FINER, LEAST_STEPS = 1.6, 3
 # Where states change at given times, some of these many steps, at most, fill the time between two of them.
 MOST_OF_SAMPLES = 12
+# Steps of the second run in one of the first where every frame is compared.
+FINEST = 5
 # of the tolerance, where steps are chosen
 TENTH = 0.1
 # A second run may go on after the first one for as long as that took, and at least for so long [s].
@@ -69,21 +72,37 @@ def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
         # the step still says how fast stiction stops a joint
         finer = replace(settings, tolerance=TENTH * settings.tolerance, step=0.5 * settings.step)
         return Refinement(finer, f"a tolerance of {finer.tolerance:.3g} and other, irregular steps", TENTH)
-    if between_samples:
-        few = steps_between(between_samples)
-        coarse = lcm(few, settings.every)
-        fine = max(few + 1, round(FINER * few)) * (coarse // few)
-    else:
-        coarse = ceil(LEAST_STEPS / settings.every) * settings.every
-        fine = ceil(FINER * coarse)
+    coarse, fine = subdivision(settings, between_samples)
     step = settings.step * coarse / fine
     steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
     finer = replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step)
     return Refinement(finer, f"steps of {step:.3g} s", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
 
 
+def subdivision(settings: RunSettings, between_samples: int) -> tuple[int, int]:
+    """So many steps of the first run take as long as so many of the second one; there frames of both can be compared.
+
+    Where that gives fewer frames than estimates are kept at, errors of the first steps would be missed: then all frames are compared.
+    So it is where multistep methods begin anew after every second step, since what begins them has an error of its own.
+    """
+    every = settings.every
+    few = steps_between(between_samples)
+    if between_samples:
+        coarse = lcm(few, every)
+        fine = max(few + 1, round(FINER * few)) * (coarse // few)
+    else:
+        coarse = ceil(LEAST_STEPS / every) * every
+        fine = ceil(FINER * coarse)
+    begins_anew = few < LEAST_STEPS and INTEGRATORS[settings.integrator].multistep
+    if begins_anew or (coarse > every and settings.steps < TIMES * coarse):
+        return every, FINEST * every
+    return coarse, fine
+
+
 def steps_between(samples: int) -> int:
     """The least part of `samples` steps with three of them or more: one in so many ends where a finer one does. Else 2 or 1."""
+    if not samples:
+        return LEAST_STEPS
     parts = [few for few in range(1, MOST_OF_SAMPLES + 1) if samples % few == 0]
     return next((few for few in parts if few >= LEAST_STEPS), parts[-1])
 

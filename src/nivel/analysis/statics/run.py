@@ -13,7 +13,7 @@ import numpy as np
 from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.refusals import refuse_rough_motions
-from nivel.analysis.progress.interrupt import interruptible
+from nivel.analysis.progress.interrupt import interruptible, terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.outcome import broken_function
 from nivel.analysis.run.preparation import Assembled, Prepared, prepare
@@ -94,7 +94,8 @@ def statics(
     """The equilibria of `machine`; the result is in memory, or in the file `out`.
 
     chosen_duration : the duration was asked for; otherwise a machine on which time has no influence has one equilibrium, at t = 0.
-    Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
+    Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails, SystemExit where SIGTERM
+    came, with the result closed.
     """
     listener = listener or Listener()
     sink = Memory() if out is None else Store(out, force)
@@ -109,18 +110,19 @@ def statics(
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     begin = time.perf_counter()
     walk = Walk()
-    with interruptible() as interrupted:
-        for point in _follow(equations, start, settings, walk, listener):
-            _take(equations, writer, sink, walk, point, settings)
-            if listener.progress is not None:
-                listener.progress(point.state.t)
-            if interrupted():
-                walk.outcome = "interrupted"
-                break
-    if settings.buckling and walk.outcome == "done":
-        _find_buckling(equations, walk, settings.buckling)
-    seconds["loop_seconds"] = time.perf_counter() - begin
-    return _close(machine, sink, prepared, walk, settings, seconds)
+    with terminable():
+        with interruptible() as interrupted:
+            for point in _follow(equations, start, settings, walk, listener):
+                _take(equations, writer, sink, walk, point, settings)
+                if listener.progress is not None:
+                    listener.progress(point.state.t)
+                if interrupted():
+                    walk.outcome = "interrupted"
+                    break
+        if settings.buckling and walk.outcome == "done":
+            _find_buckling(equations, walk, settings.buckling)
+        seconds["loop_seconds"] = time.perf_counter() - begin
+        return _close(machine, sink, prepared, walk, settings, seconds)
 
 
 def _start(equations: StaticEquations, prepared: Prepared) -> Rest:

@@ -26,7 +26,7 @@ LOOKS: Final = 400
 
 
 def _columns(value: Any) -> Any:
-    """Four functions; of a table with four values in a row its columns, with signs of rows (q and -q are the same turn) that follow smoothly."""
+    """Four functions; of a table with four values a row its columns, with signs of rows (q and -q are one turn) that follow smoothly."""
     if not isinstance(value, Mapping) or "values" not in value:
         return listed(value)
     try:

@@ -81,7 +81,7 @@ def _add_pose(draft: SystemBuilder, rows: RowTable, driver: Driver) -> None:
     if driver.orientation is not None:
         axes, functions = driver.orientation.turns
         place = f"drivers.{driver.name}.orientation"
-        first = [_function(draft, place, each) for each in functions][0]
+        first, *_ = [_function(draft, place, each) for each in functions]
         nothing = _function(draft, place, 0.0)
         for axis, kind in zip("xyz", TURNS, strict=True):
             coordinate = draft.coordinates.on_target(kind, reference, marker, Target(first, axes))

@@ -63,7 +63,7 @@ allow_code_option = click.option(
     "--allow-code", is_flag=True, help="Laws of the machine may be Python functions; they run with all your rights."
 )
 
-quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")
+quiet_option = click.option("--quiet", is_flag=True, help="Print errors only.")
 
 
 def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:

@@ -165,7 +165,7 @@ def _refuse_impossible_rates(motion: MotionEquations, wishes: Wishes, scale: Arr
         if abs(got - rate) > OPEN * max(speed, abs(rate)) * max(1.0, system.size):
             joint, _, coordinate = name.partition(".")
             message = (
-                f"the rate {rate:.6g} of {name} cannot be had: the joints, drivers and other rates allow {got:.6g}"
+                f"the rate {rate:.6g} of {name} cannot be reached: the joints, drivers and other rates allow {got:.6g}"
             )
             faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
     if faults:
@@ -210,7 +210,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
         got = float(record.coordinates.value[q])
         if abs(got - wanted) > OPEN * max(1.0, system.size, abs(wanted)):
             joint, _, coordinate = name.partition(".")
-            message = f"the start value {wanted:.6g} of {name} cannot be had: the machine comes as near as {got:.6g}"
+            message = f"the start value {wanted:.6g} of {name} cannot be reached: the nearest value is {got:.6g}"
             faults.append(Fault("", 0, 0, f"joints.{joint}.start.{coordinate}", message))
     if faults:
         raise ModelError(faults)

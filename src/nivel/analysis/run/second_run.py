@@ -19,6 +19,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
 from nivel.results.memory import Memory
 from nivel.results.result import Result
+from nivel.wording import seconds
 
 # Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.
 FINER, LEAST_STEPS = 1.6, 3
@@ -69,7 +70,7 @@ def refine(settings: RunSettings, *, sampled: bool = False) -> Refinement:
     step = settings.step * coarse / fine
     steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
     finer = replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step)
-    return Refinement(finer, f"steps of {step:.3g} s", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
+    return Refinement(finer, f"steps of {seconds(step)}", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
 
 
 class SecondRun:

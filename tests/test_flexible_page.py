@@ -64,7 +64,8 @@ def test_models_of_the_page_are_reduced(text):
 
 def test_python_of_the_page_runs(tmp_path):
     (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    body = reduce(ROOT / "examples" / "flexible" / "pendulum-bar.yaml").body
+    path = ROOT / "examples" / "flexible" / "pendulum-bar.yaml"
+    body = reduce(path, overrides={"reduction.reference": "root"}).body
     write_body(body, tmp_path / "bar.nc")
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
+from itertools import dropwhile, takewhile
 from pathlib import Path
+
+import yaml
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -61,7 +64,10 @@ def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
         lines += ["", '<figure markdown style="display:inline-block;width:20em;vertical-align:top">']
         if (picture := _picture_name(path)) in drawn:
             lines.append(f"![{name}]({picture})")
-        lines += [f"<figcaption markdown>[{name}](files/{place}) {_first_sentence(path)}</figcaption>", "</figure>"]
+        lines += [
+            f"<figcaption markdown>[{name}](files/{place}) {_first_sentence(path)}{_trust(path)}</figcaption>",
+            "</figure>",
+        ]
     lines += ["", "</div>", ""]
     return "\n".join(lines), drawn
 
@@ -79,11 +85,28 @@ def _pictures() -> dict[str, str]:
 
 
 def _first_sentence(path: Path) -> str:
-    """What the first comment of a machine file says it is."""
-    comment = re.match(r"((?:# ?.*\n)*)", path.read_text(encoding="utf-8"))
-    text = " ".join(line.lstrip("# ").strip() for line in comment[1].splitlines()) if comment else ""
-    found = re.match(r"(.+?[.:])(\s|$)", text)
-    return (found[1].rstrip(":.") + ".") if found else ""
+    """What the first comment of a machine file says it is, else its description."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    comment = [line.lstrip("# ").strip() for line in takewhile(_is_comment, dropwhile(_is_format, lines))]
+    found = re.match(r"(.+?[.:])(\s|$)", " ".join(comment))
+    if found:
+        return found[1].rstrip(":.") + "."
+    described = yaml.safe_load("\n".join(lines)).get("description", "")
+    return f"{described[:1].upper()}{described[1:].rstrip('.')}." if described else ""
+
+
+def _is_format(line: str) -> bool:
+    return line.startswith("format:")
+
+
+def _is_comment(line: str) -> bool:
+    return line.startswith("#")
+
+
+def _trust(path: Path) -> str:
+    """The line `# Trust: …` of a machine file whose trust report is not green, as it explains it."""
+    found = re.search(r"^# (Trust: (?:.*\n# )*?.*?\.)\n", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return f"<br>{found[1].replace(chr(10) + '# ', ' ')}" if found else ""
 
 
 def _picture(path: Path) -> str:

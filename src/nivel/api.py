@@ -530,7 +530,7 @@ class Machine(Model):
         within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
         positions : of the motion of the drivers or the trajectory, default 361. Of machines with friction drivers or the trajectory
         prescribe the coordinates of the actuators.
-        Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
+        Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be reached.
         """
         from nivel.analysis.inverse.refusals import refuse_for_inverse
         from nivel.analysis.inverse.rubbing import acting_drivers, driven_alone, efforts_of_drivers, rubs
@@ -603,8 +603,8 @@ class Machine(Model):
         """Joint coordinates that lead a marker, or the frame of a body, along a path.
 
         places : (T, 3) [m] global. times : (T,) [s], default 0, 1, 2 …. orientations : (T, 4) Euler parameters of its axes, scalar first;
-        default: they do not matter. limits : (low, high) by joint coordinate. posture : preferred values of joint coordinates, for freedoms
-        that the path leaves. Places that cannot be reached are told, with the nearest posture found.
+        default: they do not matter. limits : (low, high) by joint coordinate. posture : preferred values of joint coordinates, for degrees
+        of freedom that the path leaves. Places that cannot be reached are reported, with the nearest posture found.
         Raises ModelError where the machine cannot be assembled, or arguments do not fit.
         """
         from nivel.analysis.inverse.paths import PathFollower, path_times, task_for

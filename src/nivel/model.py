@@ -193,7 +193,7 @@ class Model(Elements):
 
     @property
     def simulation(self) -> SimulationSettings:
-        """How the machine is simulated where a run is not told otherwise."""
+        """How the machine is simulated unless a run has settings of its own."""
         return self.record.simulation
 
     @cached_property

@@ -39,6 +39,14 @@ def set_in_motion(names: Sequence[str]) -> str:
     )
 
 
+def seconds(value: float) -> str:
+    """A time [s] in the unit that suits it: 31 ms, 3.9 µs, 2.5 s."""
+    for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
+        if abs(value) * factor >= 1.0:
+            return f"{value * factor:.3g} {unit}"
+    return f"{value * 1e9:.3g} ns"
+
+
 def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
     """A sentence that refuses `word` and offers what it is called here, the nearest of `valid`, or all of them."""
     if answer := translated(word, valid):

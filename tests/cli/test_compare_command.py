@@ -113,9 +113,9 @@ def test_names_of_files_and_json_on_standard_output(folder):
         (["--steps", "1ms,3 kg"], ["3 kg", "a time"]),
         (["--tolerances", "1e-6"], ["`tolerances` would have no effect", "rk4"]),
         (["--cut", "hinge", "--coordinates", "absolute"], ["`cut` would have no effect"]),
-        (["--steps", ""], ["steps", "nothing stands here", "leave it out"]),
-        (["--steps", ","], ["steps", "nothing stands here at the places 1, 2 of 2"]),
-        (["--steps", "1ms,"], ["steps", "nothing stands here at place 2 of 2", "take a comma away"]),
+        (["--steps", ""], ["steps", "a value is missing", "leave it out"]),
+        (["--steps", ","], ["steps", "a value is missing at the places 1, 2 of 2"]),
+        (["--steps", "1ms,"], ["steps", "a value is missing at place 2 of 2", "take a comma away"]),
         (
             ["--integrators", "rk4,,heun", "--tolerances", " "],
             ["integrators", "place 2 of 3", "tolerances", "2 faults"],

@@ -28,7 +28,7 @@ def test_body_and_report_are_written_beside_each_other(run, tmp_path):
     done = run(BAR)
     assert done.exit_code == 0
     assert {path.name for path in tmp_path.iterdir()} == {"pendulum-bar.nc", "pendulum-bar.html"}
-    assert "390 freedoms, 65 nodes → 20 modes" in done.stderr
+    assert "390 degrees of freedom, 65 nodes → 20 modes" in done.stderr
     assert "6 rigid-body modes were found" in done.stderr
     assert done.stdout == ""
     assert read_body("pendulum-bar.nc").mass == pytest.approx(7801 * 2 * 1e-4)

@@ -126,7 +126,7 @@ def test_vibrations_can_be_played(folder):
         0.08 * Result.open(folder / "pendulum-statics.nc").trust.size, rel=1e-6
     )
     assert abs(position[:, 1] + 0.5).max() < 1e-9
-    for options, said in ((["--mode", "2"], "fewer freedoms"), (["--mode", "7"], "no vibration 7")):
+    for options, said in ((["--mode", "2"], "fewer degrees of freedom"), (["--mode", "7"], "no vibration 7")):
         done = nivel("view", "pendulum-statics.nc", *options, "--export", "other.html")
         assert done.exit_code == 2
         assert said in done.stderr

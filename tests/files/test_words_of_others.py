@@ -4,6 +4,7 @@ import pytest
 
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_machine
+from nivel.flexible.model_file import read_model
 from nivel.lines_to_write import LINES
 from nivel.vocabulary import SAME, translated
 
@@ -231,6 +232,16 @@ FILES = {
     "robot.urdf": (b"<?xml version='1.0'?>\n<robot name='arm'>", "a model in URDF"),
     "part.stl": (b"solid part\nfacet normal 0 0 1\n", "`shape: {{type: mesh, file: {}}}`"),
 }
+
+
+def test_machines_and_models_of_flexible_bodies_are_told_apart(tmp_path):
+    model, machine = tmp_path / "blade.yaml", tmp_path / "swing.yaml"
+    model.write_text("format: 1\nframe: {}\nreduction: {modes: 3}\n", encoding="utf-8")
+    machine.write_text(BASE, encoding="utf-8")
+    with pytest.raises(ModelError, match=f"`nivel reduce {model}` makes the body"):
+        read_machine(model)
+    with pytest.raises(ModelError, match=f"`nivel run {machine}` simulates it"):
+        read_model(machine)
 
 
 @pytest.mark.parametrize("name", FILES)

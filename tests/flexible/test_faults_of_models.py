@@ -79,7 +79,7 @@ reduction: {modes: -1, method: guyan, referenc: root}
         (("{node: tip}", "{node: tip, at: [0, 0, 0]}"), "`at` belongs to a set of nodes"),
         (("modes: 8", "modes: {}"), "`count` or `up_to`"),
         (("modes: 8", "modes: 8, reference: rot"), "did you mean `root`?"),
-        (("modes: 8", "modes: 8, held: [root.x, root.y]"), "six freedoms were expected, got 2"),
+        (("modes: 8", "modes: 8, held: [root.x, root.y]"), "six degrees of freedom were expected, got 2"),
         (("modes: 8", "modes: 8, held: [root.x, root.y, root.z, tip.x, tip.y, tip.z]"), "leave a rigid motion"),
         (("modes: 8", "modes: 8, held: [root.x, root.y, root.z, root.q, tip.y, tip.z]"), "got `root.q`"),
         (("modes: 8", "modes: given"), "`modes: given` and `shapes` belong together"),
@@ -88,7 +88,10 @@ reduction: {modes: -1, method: guyan, referenc: root}
         (("modes: 8", "modes: given, shapes: [{z: 0*x}]"), "zero at every node"),
         (("modes: 8", "modes: given, shapes: shapes.csv"), "there is no file"),
         (
-            ("interfaces: {root: {node: root}, tip: {node: tip}}\nreduction: {modes: 8, stiffening: false}", "reduction: {modes: 0}"),
+            (
+                "interfaces: {root: {node: root}, tip: {node: tip}}\nreduction: {modes: 8, stiffening: false}",
+                "reduction: {modes: 0}",
+            ),
             "no mode is left",
         ),
         (("modes: 8", "modes: given, shapes: [{z: x}]"), "no mode is left but rigid motions"),

@@ -127,8 +127,8 @@ def test_reads_as_people_mean_it(text, expected):
 @pytest.mark.parametrize(
     ("text", "part"),
     [
-        ("", "nothing stands here"),
-        ("   ", "nothing stands here"),
+        ("", "got nothing"),
+        ("   ", "got nothing"),
         ("2 +", "ends too early"),
         ("(1", "`)` was expected"),
         ("1)", "`)` was not expected"),

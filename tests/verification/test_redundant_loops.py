@@ -1,4 +1,4 @@
-"""Closed loops with rows that joints of the tree already hold, but for round-off: implicit methods keep the rows that say something."""
+"""Closed loops with rows that joints of the tree already hold, except for round-off: implicit methods keep the rows that say something."""
 
 import numpy as np
 import pytest

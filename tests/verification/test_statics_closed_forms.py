@@ -75,7 +75,7 @@ def test_free_pendulum_settles_at_its_lowest_point_from_anywhere(start):
 
 
 def test_a_pendulum_settles_from_where_its_first_step_is_singular():
-    """Started upwards of level its stiffness is -1 in units of itself, which the first stiffness added, 1, takes away but for round-off."""
+    """Started upwards of level its stiffness is -1 in units of itself, which the first stiffness added, 1, takes away up to round-off."""
     for start in np.linspace(-0.6, -0.4, 9):
         body = solid(1.0, 1e-9, position=[-1, 0, 0])
         joint = {**hinge("ground", "bob"), "start": {"angle": start}}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from nivel.wording import seconds
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -20,11 +22,9 @@ def ended(result: Result) -> str:
     return f"[bold]{result.name}[/bold]: {OUTCOMES.get(result.outcome, result.outcome)}{reached}"
 
 
-def computed_in(seconds: float, steps: int = 0) -> str:
-    """`computed in 31 ms (3.9 µs per step)`; without steps only the time."""
-    took = f"{1e3 * seconds:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"
-    each = f" ({1e6 * seconds / steps:.2g} µs per step)" if steps else ""
-    return f"computed in {took}{each}"
+def computed_in(time: float, steps: int = 0) -> str:
+    """`computed in 31 ms (3.9 µs per step)`; without steps only the time [s]."""
+    return f"computed in {seconds(time)}" + (f" ({seconds(time / steps)} per step)" if steps else "")
 
 
 def say_checks(console: Console, trust: Trust) -> None:

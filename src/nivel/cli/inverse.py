@@ -82,7 +82,7 @@ def command(
     With --path and --point the joint coordinates are found that lead the point along the path, as a table NAME-joints.csv, which
     --trajectory reads.
 
-    Exit code 0 done, 2 the input is at fault, 3 the motion cannot be had, 130 interrupted.
+    Exit code 0 done, 2 the input is at fault, 3 the motion cannot be reached, 130 interrupted.
     """
     from nivel.api import load
 

@@ -63,7 +63,7 @@ no_report_option = click.option("--no-report", is_flag=True, help="Write no HTML
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
 
-quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")
+quiet_option = click.option("--quiet", is_flag=True, help="Print errors only.")
 
 
 def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:

@@ -108,7 +108,7 @@ def _say(reduction: Reduction, target: Path, page: Path | None) -> None:
 
     console = Console(stderr=True, highlight=False)
     body, findings = reduction.body, reduction.findings
-    size = f"{findings.freedoms} freedoms, {findings.nodes} nodes"
+    size = f"{findings.freedoms} degrees of freedom, {findings.nodes} nodes"
     console.print(f"[bold]{body.name}[/bold]: {size} → {len(body.eigenvalues)} modes", markup=True)
     centre = ", ".join(f"{x:.5g}" for x in findings.centre_of_mass)
     moments = ", ".join(f"{x:.5g}" for x in findings.principal_inertia)

@@ -68,10 +68,10 @@ def command(
 ) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
 
-    A second run with finer steps goes beside the first on another core and tells how exact the result is, every number of it.
+    A second run with other steps, on another core, estimates the error of every number in the result.
 
-    Options go before what the machine file says under `simulation:`. The file may hold settings of several methods; an option that has
-    no effect with the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
+    Options override the settings of the machine file under `simulation:`. The file may have settings of several methods; an option
+    without effect on the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
     interrupted; what was computed is kept in every case.
     """
     if out is not None:  # before all that takes time

@@ -26,6 +26,8 @@ def place_body_files(tree: Tree) -> None:
 def _placed(tree: Tree, path: tuple[Any, ...], given: str) -> str:
     file = beside(tree.file_of(path), given)
     if not is_file(file):
-        tree.report(path, f"there is no file `{file}`; `nivel reduce MODEL -o {Path(given).name}` makes one")
+        model = Path(file).with_suffix(".yaml")
+        named = model if model.is_file() else "MODEL"
+        tree.report(path, f"there is no file `{file}`; `nivel reduce {named} -o {file}` makes it")
         tree.broken.add(path[:2])
     return file

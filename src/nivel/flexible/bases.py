@@ -57,7 +57,7 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
     """
     if len(boundary) > MOST_BOUNDARY:
         raise ModelError(
-            f"the interfaces have {len(boundary)} freedoms, and each makes a mode; "
+            f"the interfaces have {len(boundary)} degrees of freedom, and each makes a mode; "
             f"{MOST_BOUNDARY} are allowed. Tie surfaces to reference nodes"
         )
     held = _with_pins(body, boundary)

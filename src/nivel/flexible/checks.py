@@ -85,8 +85,8 @@ def _without_mass(model: FiniteElementModel) -> str:
     if np.abs(rigid - total * np.eye(3)).max() > 1e-3 * total:
         masses = ", ".join(f"{m:.6g}" for m in np.diag(rigid))
         return (
-            f"the mass matrix has another mass along x, y and z ({masses} kg): freedoms are missing, supports were removed from the "
-            "matrix, or rows stand for other directions than the table of freedoms says"
+            f"the mass matrix has another mass along x, y and z ({masses} kg): degrees of freedom are missing, supports were removed from "
+            "the matrix, or rows stand for other directions than the table `freedoms` says"
         )
     return ""
 
@@ -204,5 +204,6 @@ def mechanism(body: FreeBody, error: NoStiffnessError, rows: Whole | None = None
     texts = [f"{body.model.node_ids[node]} ({AXES[int(np.argmax(np.abs(moved[node])))]})" for node in nodes]
     return (
         f"the stiffness is singular beyond the six rigid motions: a mechanism is left in which node{'s' if len(texts) > 1 else ''} "
-        f"{', '.join(texts)} move{'' if len(texts) > 1 else 's'} most. Join what is loose, remove hinges and freedoms without stiffness"
+        f"{', '.join(texts)} move{'' if len(texts) > 1 else 's'} most. Join what is loose, remove hinges and degrees of freedom without "
+        "stiffness"
     )

@@ -175,14 +175,14 @@ def _statements(full: Array, reduced: Array, found: Orthonormal) -> list[str]:
     """What deserves attention, in sentences."""
     out = []
     if len(found.rigid_frequencies):
-        rigid = ", ".join(f"{f:.2g}" for f in found.rigid_frequencies)
-        out.append(f"{len(found.rigid_frequencies)} rigid-body modes were found ({rigid} Hz) and removed.")
+        count, highest = len(found.rigid_frequencies), max(found.rigid_frequencies)
+        out.append(f"{count} rigid-body modes were found (below {highest:.1g} Hz) and removed.")
     else:
         out.append("The basis spans no rigid motion; there was none to remove.")
     if found.dependent:
         out.append(f"{found.dependent} vectors of the basis depended on others and were left out.")
     if found.condition > ILL:
-        text = "some interface freedoms move the body in the same way, or move hardly any mass"
+        text = "some degrees of freedom of the interfaces move the body in the same way, or move hardly any mass"
         out.append(f"The basis is ill-conditioned ({found.condition:.2g}): {text}; take away interfaces that coincide.")
     count = min(len(full), len(reduced))
     good = np.flatnonzero(np.abs(reduced[:count] / full[:count] - 1.0) > 0.01)

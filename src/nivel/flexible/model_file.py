@@ -62,6 +62,9 @@ def parse_model(text: str, file: str = "model.yaml", *, overrides: Mapping[str, 
         raise ModelError(
             [*tree.faults, Fault(file, 1, 1, "", f"a mapping with `format: {FORMAT}` was expected; {what}")]
         )
+    if {"bodies", "joints", "simulation"} & tree.data.keys():
+        message = f"this is a machine, not the model of a flexible body: `nivel run {file}` simulates it"
+        raise ModelError([*tree.faults, tree.fault((), message)])
     override(tree, overrides or {}, words=TOP_WORDS)
     _check_format(tree)
     parameters = _parameters(tree)

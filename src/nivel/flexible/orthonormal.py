@@ -20,7 +20,7 @@ RIGID: Final = 1e-6  # a mode whose mass is that of a rigid motion but for this 
 class Orthonormal:
     """Modes (N, n) with Φᵀ M Φ = 1, Φᵀ K Φ = diag(`eigenvalues`) [1/s²].
 
-    rigid_frequencies : [Hz] the six that the reduced model had for rigid motions, zero but for round-off; empty where the
+    rigid_frequencies : [Hz] the six that the reduced model had for rigid motions, zero except for round-off; empty where the
     basis did not span them. condition : of the mass matrix of the basis, each vector scaled to unit mass.
     dependent : vectors of the basis that the others span.
     """

@@ -197,7 +197,9 @@ class Reduction(Checked):
     shapes: tuple[ShapeFunction, ...] | FileName = Field(default=(), description="of `modes: given`")
     mass: Literal["consistent", "lumped"] = "consistent"
     reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
-    held: tuple[str, ...] = Field(default=(), description="six freedoms `interface.x` … `interface.rz` instead")
+    held: tuple[str, ...] = Field(
+        default=(), description="six degrees of freedom `interface.x` … `interface.rz` instead"
+    )
     inertia_modes: Truth = Field(
         default=False,
         description="whether static answers to its own inertia (accelerations, spinning) are added to the modes",
@@ -216,7 +218,7 @@ class Reduction(Checked):
         if self.modes.given != bool(self.shapes):
             yield Problem(("shapes",), "`modes: given` and `shapes` belong together")
         if self.held and len(self.held) != 6:
-            yield Problem(("held",), f"six freedoms were expected, got {len(self.held)}")
+            yield Problem(("held",), f"six degrees of freedom were expected, got {len(self.held)}")
         for at, text in enumerate(self.held):
             if text.rpartition(".")[2] not in HELD or not text.rpartition(".")[0]:
                 yield Problem(

@@ -184,7 +184,9 @@ def _with_reference(
     matrix = model.expansion[np.array(rows)].toarray()
     R = model.rigid_modes(model.position.mean(axis=0)) / np.array([1, 1, 1, *(3 * [model.size])])
     if np.linalg.cond(matrix @ R) > 1e8:
-        message = f"the freedoms {', '.join(held)} leave a rigid motion of the body; hold six that stop them all"
+        message = (
+            f"the degrees of freedom {', '.join(held)} leave a rigid motion of the body; hold six that stop them all"
+        )
         raise ModelError(located.fault(("reduction", "held"), message))
     modes, eigenvalues = held_at(body, found.modes, matrix)
     return modes, eigenvalues, held

@@ -68,7 +68,9 @@ class Body(Checked):
     )
     point_mass: Truth = Field(default=False, description="a mass at a point, which does not turn")
     hold: Truth = Field(default=False, description="the assembly does not move it")
-    assembly_weight: PositiveNumber = Field(default=1.0, description="how unwilling it is to be moved by the assembly")
+    assembly_weight: PositiveNumber = Field(
+        default=1.0, description="weight of its displacement in the assembly; a larger weight is moved less"
+    )
 
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:

@@ -69,7 +69,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 
 
 class MachineRecord(Checked):
-    """Everything nivel is told about a machine. SI, angles in radians."""
+    """Everything that describes a machine. SI, angles in radians."""
 
     tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
 

@@ -96,9 +96,9 @@ def reduction_html(body: ReducedBody, findings: Findings) -> str:
 def _facts(body: ReducedBody, findings: Findings) -> list[str]:
     conditions = "mean-axis frame" if body.reference == "mean-axis" else f"frame fixed at {', '.join(body.held)}"
     facts = [
-        f"{findings.freedoms} freedoms, {findings.nodes} nodes",
+        f"{findings.freedoms} degrees of freedom, {findings.nodes} nodes",
         f"{len(body.eigenvalues)} modes",
-        f"{len(findings.boundary)} interface freedoms and {len(findings.normal)} normal modes",
+        f"{len(findings.boundary)} degrees of freedom of interfaces and {len(findings.normal)} normal modes",
         conditions,
         f"{body.mass_kind} mass",
     ]

@@ -69,5 +69,5 @@ def _float(value: float) -> float:
 def said(record: Any) -> str:
     """A record of the server as the text of a message."""
     if not isinstance(record, FROM_SERVER):
-        raise TypeError(f"{type(record).__name__} is none of the server's messages")
+        raise TypeError(f"{type(record).__name__} is not a message of the server")
     return json.dumps(asdict(record), allow_nan=False)

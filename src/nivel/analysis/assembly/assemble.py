@@ -46,7 +46,7 @@ def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) ->
     """Close all joints of `machine` at time t.
 
     Raises ModelError naming every joint that is open by more than the machine allows as given, every joint row that cannot be closed
-    with its gap, start values that cannot be had, and joints whose axes end up opposite.
+    with its gap, start values that cannot be reached, and joints whose axes end up opposite.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # numbers too large end as joints that stay open
         return _assemble(machine, motion, t)
@@ -168,7 +168,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
         got = float(record.coordinates.value[q])
         if abs(got - wanted) > OPEN * max(1.0, system.size, abs(wanted)):
             joint, _, coordinate = name.partition(".")
-            message = f"the start value {wanted:.6g} of {name} cannot be had: the machine comes as near as {got:.6g}"
+            message = f"the start value {wanted:.6g} of {name} cannot be reached: the nearest value is {got:.6g}"
             faults.append(Fault("", 0, 0, f"joints.{joint}.start.{coordinate}", message))
     if faults:
         raise ModelError(faults)

@@ -144,7 +144,9 @@ def _refuse_impossible_rates(system: System, wishes: Wishes) -> None:
         faults.append(Fault("", 0, 0, f"{section_of(system, owner)}.{owner}", message))
     for name, rate, got in _missed(system, wishes):
         joint, _, coordinate = name.partition(".")
-        message = f"the rate {rate:.6g} of {name} cannot be had: the joints, drivers and other rates allow {got:.6g}"
+        message = (
+            f"the rate {rate:.6g} of {name} cannot be reached: the joints, drivers and other rates allow {got:.6g}"
+        )
         faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
     if faults:
         raise ModelError(faults)

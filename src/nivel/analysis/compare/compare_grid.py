@@ -48,13 +48,13 @@ def _listed(value: Any) -> Any:
         value = (value,)
     if isinstance(value, Collection):
         if len(value) == 0:
-            raise fault("nothing stands here; leave it out for the machine's own setting, or give one value at least")
+            raise fault("a value is missing; leave it out for the machine's own setting, or give one value at least")
         empty = [str(k + 1) for k, each in enumerate(value) if isinstance(each, str) and not each.strip()]
         if empty and len(value) == 1:
-            raise fault("nothing stands here; leave it out for the machine's own setting, or give a value")
+            raise fault("a value is missing; leave it out for the machine's own setting, or give a value")
         if empty:
             places = f"at place {empty[0]}" if len(empty) == 1 else f"at the places {', '.join(empty)}"
-            raise fault(f"nothing stands here {places} of {len(value)}; give a value, or take a comma away")
+            raise fault(f"a value is missing {places} of {len(value)}; give a value, or take a comma away")
     return value
 
 

@@ -95,7 +95,7 @@ def _said(body: SpinningBody) -> str:
     speed = float(np.linalg.norm(body.omega))
     direction = ", ".join(f"{round(float(x), 4) + 0.0:g}" for x in body.omega / speed)
     said = f"motions of {body.name} are seen from axes that do not spin with it, but turn at {speed:.6g} rad/s about ({direction})"
-    return said + (f": there a shift that nothing pulls back has ± {speed:.6g}i 1/s" if body.place != NONE else "")
+    return said + (f": there a displacement without stiffness has ± {speed:.6g}i 1/s" if body.place != NONE else "")
 
 
 def candidates(own: Instant) -> list[Frames]:

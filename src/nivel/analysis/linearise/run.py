@@ -193,7 +193,7 @@ def _zeros(found: Eigen, states: _States) -> tuple[str, ...]:
     out = []
     single = [states.names[group[0]] for group in found.zeros if len(group) == 1]
     if single:
-        out.append(f"{len(single)} exactly zero, by structure: nothing pulls back {_listed(single)}")
+        out.append(f"{len(single)} exactly zero, by structure: no stiffness acts on {_listed(single)}")
     for group in dict.fromkeys(group for group in found.zeros if len(group) > 1):
         names = [states.names[k] for k in group]
         out.append(f"{found.zeros.count(group)} exactly zero, of a rigid motion of {_listed(names)}")

@@ -276,7 +276,7 @@ def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float,
 def refuse_struck_nodes(
     machine: MachineRecord, changes: Sequence[tuple[str, float, float]], speed: float, turning: float
 ) -> None:
-    """Velocities of joints that the assembly would give to single nodes of beams: a blow, not a motion. Drivers may strike them.
+    """Velocities of joints that the assembly would give to single nodes of beams: an impact, not a motion. Drivers may strike them.
 
     changes : body, speed [m/s], angular speed [rad/s]. speed, turning : largest ones of the machine [m/s, rad/s].
     """
@@ -292,8 +292,8 @@ def refuse_struck_nodes(
             0,
             0,
             f"beams.{owners[name]}",
-            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: a blow. Give the "
-            f"beam its `velocity` (of its start) and `angular_velocity`, with which it moves as a whole",
+            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an impact. Give "
+            f"the beam its `velocity` (of its start) and `angular_velocity`, with which it moves as a whole",
         )
         for name, change, turn in struck
     ]

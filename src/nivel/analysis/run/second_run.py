@@ -21,6 +21,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.trust.estimate import TIMES
+from nivel.wording import seconds
 
 # Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.
 FINER, LEAST_STEPS = 1.6, 3
@@ -76,7 +77,7 @@ def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
     step = settings.step * coarse / fine
     steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
     finer = replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step)
-    return Refinement(finer, f"steps of {step:.3g} s", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
+    return Refinement(finer, f"steps of {seconds(step)}", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
 
 
 def subdivision(settings: RunSettings, between_samples: int) -> tuple[int, int]:

@@ -39,7 +39,7 @@ def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, 
         words = direction_in_words(equations, loose.direction)
         return f"{message}; a motion has no stiffness, in which most moves: {words}", HOLD
     if error.reason == MOVES_ON:
-        return message, "Some load drives it on and on: hold the machine against it by a joint, a spring or a driver."
+        return message, "A load moves it without end: restrain the machine by a joint, a spring or a driver."
     return message, (
         "Is the machine held against its loads in every direction? If so draw it nearer to its equilibrium, or let loads grow with "
         "time from t = 0 (an expression of t, or a table)."

@@ -62,7 +62,7 @@ def at_rest(machine: MachineRecord) -> tuple[str, ...]:
     if damping:
         out.append(f"dampers make no force at rest ({_named(damping)})")
     if rubbing:
-        out.append(f"coulomb friction goes with speed and makes none ({_named(rubbing)})")
+        out.append(f"coulomb friction depends on speed and makes no force at rest ({_named(rubbing)})")
     if machine.events:
         out.append("events are not looked for")
     return tuple(out)

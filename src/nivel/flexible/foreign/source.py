@@ -91,7 +91,7 @@ def _matrices(located: Located, given: Matrices, mesh: Mesh) -> _Read:
     labels = freedoms or _by_counting(located, stiffness.matrix.shape[0], mesh)
     for key, each in (("stiffness", stiffness), ("mass", mass)):
         if each.matrix.shape[0] != len(labels):
-            message = f"the matrix has {each.matrix.shape[0]} rows, and there are {len(labels)} freedoms"
+            message = f"the matrix has {each.matrix.shape[0]} rows, and `freedoms` names {len(labels)}"
             raise ModelError(located.fault(("matrices", key), message))
     return _Read(FileMatrix(stiffness.matrix, labels), FileMatrix(mass.matrix, labels), labels)
 
@@ -124,7 +124,7 @@ def _by_counting(located: Located, rows: int, mesh: Mesh) -> tuple[Label, ...]:
     """Freedoms node by node in ascending order of their numbers, three or six each."""
     nodes = len(mesh.numbers)
     if rows not in (3 * nodes, 6 * nodes):
-        message = f"the matrix has {rows} rows; {nodes} nodes have {3 * nodes} freedoms, or {6 * nodes} with turns"
+        message = f"the matrix has {rows} rows; {nodes} nodes have {3 * nodes} degrees of freedom, or {6 * nodes} with rotations"
         raise ModelError(
             located.fault(("matrices",), f"{message}{_hole(mesh.numbers)}; give a table of `freedoms`", at_key=True)
         )

@@ -69,7 +69,7 @@ def read_calculix(path: Path, freedoms: tuple[Label, ...]) -> FileMatrix:
     size = int(max(i.max(), j.max())) + 1
     if size > len(freedoms):
         raise FormatError(
-            f"the matrix has {size} rows and the table of freedoms has {len(freedoms)}: they are of different runs"
+            f"the matrix has {size} rows and the table `freedoms` has {len(freedoms)}: they are of different runs"
         )
     return FileMatrix(from_triplets(i, j, data[:, 2], len(freedoms)), freedoms)
 
@@ -108,9 +108,9 @@ def _from_table(path: Path) -> tuple[Label, ...]:
 def _each_once(labels: list[Label]) -> tuple[Label, ...]:
     if len(set(labels)) != len(labels):
         double = next(label for k, label in enumerate(labels) if label in labels[:k])
-        raise FormatError(f"the freedom {double[0]}.{double[1]} stands twice in the table of freedoms")
+        raise FormatError(f"the degree of freedom {double[0]}.{double[1]} is twice in the table `freedoms`")
     if not labels:
-        raise FormatError("the table of freedoms is empty")
+        raise FormatError("the table `freedoms` is empty")
     return tuple(labels)
 
 

@@ -15,7 +15,7 @@ from nivel.native.function import leaf
 def frame_time(run, k):
     """Time of frame k of a run that chooses its steps; the last one is at the end."""
     t = run.clock[START] + k * run.clock[INTERVAL]
-    # an interval that ends at the end but for round-off is that frame
+    # an interval that ends at the end except for round-off is that frame
     return run.clock[END] if t > run.clock[END] - 1e-9 * run.clock[INTERVAL] else t
 
 

@@ -81,7 +81,7 @@ def at_end(run):
 
 @leaf
 def is_past(t, other):
-    """Whether the time t is the other one, but for round-off, or later: a frame at the time of a sample shows the state after it."""
+    """Whether the time t is the other one, except for round-off, or later: a frame at the time of a sample shows the state after it."""
     return t >= other - NEAR * np.abs(other)
 
 

@@ -22,7 +22,7 @@ DEPENDENT = 3e-7
 # least since the choice, or over 1: small changes of independent velocities then are large ones of dependent velocities. Methods whose
 # formulas hold for the independent velocities alone err by as much more, and their iteration contracts by as much less.
 GROWTH, GROWTH_OF_FORMULAS = 10.0, 2.0
-# Of entries that are equal but for round-off the first is taken.
+# Of entries that are equal except for round-off the first is taken.
 CLEARLY = 1.0001
 
 

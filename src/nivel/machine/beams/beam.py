@@ -54,7 +54,7 @@ class Beam(Checked):
     """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985), or, for comparison,
     a row of rigid segments joined by springs.
 
-    Joints, forces and markers take hold of it at stations, which are bodies for them: `BEAM.start`, `BEAM.end`, and those named.
+    Joints, forces and markers attach to it at stations, which are bodies for them: `BEAM.start`, `BEAM.end`, and those named.
     The axes of a station are those of the section there: x along the beam.
     """
 

@@ -25,14 +25,16 @@ class Cascade(Block):
     quantities = ("value", "error", "wished_speed", "speed_error", "integral")
 
     type: Literal["cascade"] = "cascade"
-    reference: Input | None = Field(default=None, description="wished position r")
+    reference: Input | None = Field(default=None, description="commanded position r")
     measured: Input | None = Field(default=None, description="position y")
     measured_speed: Input = Field(description="its rate ẏ")
-    speed_reference: Input = Field(default=0.0, description="wished speed, or with a `reference` its rate, fed forward")
+    speed_reference: Input = Field(
+        default=0.0, description="commanded speed, or with a `reference` its rate, fed forward"
+    )
     position_gain: PositiveNumber | None = Field(default=None, description="speed per position error, 1/s")
     speed_gain: PositiveNumber = Field(description="value per speed error")
     integral_time: Duration | None = Field(default=None, description="T; without it there is no integral")
-    speed_limit: PositiveNumber | None = Field(default=None, description="greatest magnitude of the wished speed")
+    speed_limit: PositiveNumber | None = Field(default=None, description="greatest magnitude of the commanded speed")
     feedforward: Input | None = Field(default=None, description="what is added before the limits, such as a weight")
     limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
     start: Number = Field(default=0.0, description="value of the integral at the start")
@@ -54,7 +56,7 @@ class Cascade(Block):
         return tuple(parts)
 
     def _outer(self) -> Iterator[Part]:
-        """Position error, wished speed within its limit, speed error."""
+        """Position error, commanded speed within its limit, speed error."""
         yield self.present("speed", self.measured_speed, key="measured_speed")
         yield self.present("speed_reference", self.speed_reference, key="speed_reference")
         terms = [(1.0, self.path("speed_reference"))]

@@ -17,7 +17,7 @@ from nivel.machine.units.quantity import bound_tree
 class Expression:
     """Arithmetic of `time` [s] and signals, e.g. ``10 + 3*sin(2*pi*time)`` or ``-20*hinge.angle_rate``.
 
-    Once in a record, the text has SI numbers only, in Python's syntax but for the dots in the signals' names.
+    Once in a record, the text has SI numbers only, in Python's syntax except for the dots in names of signals.
     """
 
     text: str
@@ -37,7 +37,7 @@ class Expression:
 
     @property
     def signals(self) -> tuple[str, ...]:
-        """The paths of the signals, in the order in which they stand in the text; `time` is none."""
+        """The paths of the signals, in the order in which they stand in the text; `time` is not a signal."""
         return signals(self.tree)
 
     @cached_property

@@ -231,5 +231,5 @@ def _tokens(text: str) -> list[tuple[str, str]]:
         if parts > _MOST_TOKENS or len(tokens) > _MOST_LISTED:
             raise ExpressionError("the expression is too long; split it with `parameters:`")
     if not tokens:
-        raise ExpressionError("nothing stands here; a number was expected")
+        raise ExpressionError("a number was expected, got nothing")
     return tokens

@@ -83,7 +83,7 @@ def _shape(result: Result, number: int, frame: int) -> tuple[Array, Array, Array
         raise ModelError(f"the result has no vibration {number}: {have}")
     shift, turn = result.array("mode_shift")[frame, number - 1], result.array("mode_turn")[frame, number - 1]
     if not np.isfinite(shift).all():
-        raise ModelError(f"the machine has no vibration {number}: it has fewer freedoms")
+        raise ModelError(f"the machine has no vibration {number}: it has fewer degrees of freedom")
     bending = result.array("mode_bending")[frame, number - 1] if "mode_bending" in result.variables else np.zeros(0)
     size = result.trust.size
     largest = max(float(np.abs(shift).max(initial=0.0)) / (SHOWN * size), float(np.abs(turn).max(initial=0.0)) / TURNED)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from html import escape
 from typing import Final, NamedTuple
 
+from nivel import wording
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Row, Spread
 
 MEANING: Final = (
@@ -174,12 +175,7 @@ def number(value: float | None, digits: int = 3) -> str:
 
 def seconds(value: float | None) -> str:
     """A time in the unit that suits it, nothing for None."""
-    if value is None:
-        return ""
-    for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
-        if abs(value) * factor >= 1.0:
-            return f"{value * factor:.3g} {unit}"
-    return f"{value * 1e9:.3g} ns"
+    return "" if value is None else wording.seconds(value)
 
 
 def _word(name: str) -> Callable[[Row], str]:

@@ -181,9 +181,9 @@ def _passage_item(passages: Sequence[Passage]) -> Item:
     times = ", ".join(f"{each.time:.6g}" for each in passages[:SHOWN]) + (" …" if len(passages) > SHOWN else "")
     joints = ", ".join(dict.fromkeys(name for each in passages for name in each.joints))
     text = (
-        f"Singular: at t = {times} s the machine passes a position where freedoms split (constraints of {joints} depend on each other); it "
-        f"went on by inertia, a real one may take the other way, and reactions near it are not to be trusted (green when none, amber "
-        f"otherwise)"
+        f"Singular: at t = {times} s the machine passes a position where its motion branches (constraints of {joints} depend on each "
+        f"other); the computed motion continues by inertia, a real machine may take another branch; reactions near this position are not "
+        f"reliable (green when none, amber otherwise)"
     )
     return Item("singular", "amber", text, row=joints, time=passages[0].time)
 

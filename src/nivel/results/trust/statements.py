@@ -136,7 +136,7 @@ def _accuracy_item(trust: Trust, estimate: float, blind: str) -> Item:
         said = f"Accuracy: a second run with {trust.accuracy_refinement} agrees within {number(estimate)} m, which says little: {blind}"
         return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
     if fraction < ROUND_OFF:
-        said = f"Accuracy: exact for this model, but for round-off, by a second run with {trust.accuracy_refinement}"
+        said = f"Accuracy: exact for this model, except for round-off, by a second run with {trust.accuracy_refinement}"
         return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
     until = f" up to t = {trust.verified_until:.6g} s" if trust.verified_until is not None else ""
     within = f"within {number(estimate)} m of the exact motion of this model{until}, {number(fraction)} of the {_size(trust)}"

@@ -274,7 +274,7 @@ class Trust:
             f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
         )
         if self.accuracy_estimate < ROUND_OFF * self.size:
-            return f"exact for this model, but for round-off{until}"
+            return f"exact for this model, except for round-off{until}"
         return f"within {number(self.accuracy_estimate)} m of the exact motion of this model{until}{where}{when}"
 
     def lines(self) -> list[str]:

@@ -88,7 +88,10 @@ reduction: {modes: -1, method: guyan, referenc: root}
         (("modes: 8", "modes: given, shapes: [{z: 0*x}]"), "zero at every node"),
         (("modes: 8", "modes: given, shapes: shapes.csv"), "there is no file"),
         (
-            ("interfaces: {root: {node: root}, tip: {node: tip}}\nreduction: {modes: 8, stiffening: false}", "reduction: {modes: 0}"),
+            (
+                "interfaces: {root: {node: root}, tip: {node: tip}}\nreduction: {modes: 8, stiffening: false}",
+                "reduction: {modes: 0}",
+            ),
             "no mode is left",
         ),
         (("modes: 8", "modes: given, shapes: [{z: x}]"), "no mode is left but rigid motions"),

@@ -112,7 +112,12 @@ def test_solid_and_beam_agree():
 
 @pytest.mark.parametrize(
     ("asked", "known"),
-    [("", True), (", reference: root", False), (", stiffening: false", False), (", reference: root, stiffening: true", True)],
+    [
+        ("", True),
+        (", reference: root", False),
+        (", stiffening: false", False),
+        (", reference: root, stiffening: true", True),
+    ],
 )
 def test_geometric_stiffness_is_there_by_default_in_mean_axes(asked, known):
     """Frames of interfaces leave bodies little mass, of which geometric stiffness takes more."""

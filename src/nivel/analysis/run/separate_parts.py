@@ -22,9 +22,10 @@ def separate_parts(machine: MachineRecord) -> list[Part]:
     """Those of rigid bodies on which weight alone acts; none of machines with beams or circuits, or of one part."""
     if machine.beams or machine.hydraulics or machine.is_flexible:
         return []
-    elements = {each.name: each for each in (*machine.joints, *machine.couplings, *machine.drivers, *machine.forces)}
-    words = {name: _words(each) for name, each in elements.items()}
-    acts_on = {name: _bodies_of(machine, name, words) for name in elements}
+    words: dict[str, set[str]] = {}
+    for each in (*machine.joints, *machine.couplings, *machine.drivers, *machine.forces):
+        words.setdefault(each.name, set()).update(_words(each))
+    acts_on = {name: _bodies_of(machine, name, words) for name in words}
     groups = _joined([body.name for body in machine.bodies], acts_on.values())
     if not 1 < len(groups) <= MOST:
         return []

@@ -52,6 +52,17 @@ def test_every_item_that_is_told_stands_in_the_table():
         "Damped",
         "Sensitivity",
     } <= set(told)
-    assert set(CHECKS) == {"loads", "sampling", "steps", "turn", "rounding", "parts", "stiffening", "bending", "mesh"}
+    assert set(CHECKS) == {
+        "loads",
+        "sampling",
+        "steps",
+        "turn",
+        "rounding",
+        "parts",
+        "stiffening",
+        "bending",
+        "mesh",
+        "modes",
+    }
     assert _damped_item(Damped(1.0, 1.0), "bdf").text.startswith("Damped")
     assert _growth_item(Growth(1.0, 2.0)).text.startswith("Sensitivity")

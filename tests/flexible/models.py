@@ -25,11 +25,6 @@ def reduced(text, folder="."):
     return result.body, result.findings
 
 
-def _linear(reduction):
-    """Without geometric stiffness where none is asked for: most tests compare with linear theory."""
-    return reduction if "stiffening" in reduction else f"{reduction}, stiffening: false"
-
-
 def bar(
     *,
     length=2.0,
@@ -54,7 +49,7 @@ frame:
   nodes: {{root: [0, 0, 0], tip: [{x}, {y}, {z}]}}
   beams: {{bar: {{nodes: [root, tip], section: bar, material: steel, elements: {elements}}}}}
 interfaces: {{{interfaces}}}
-reduction: {{{_linear(reduction)}}}
+reduction: {{{reduction}}}
 {more}
 """
 
@@ -70,6 +65,6 @@ solid:
   material: steel
   element_size: {size}
 interfaces: {{{interfaces}}}
-reduction: {{{_linear(reduction)}}}
+reduction: {{{reduction}}}
 {more}
 """

@@ -108,18 +108,3 @@ def test_solid_and_beam_agree():
         gains.append((spun**2 - rest**2) / 300.0**2)
     np.testing.assert_allclose(gains[0], gains[1], atol=0.02)
     np.testing.assert_allclose(gains[1], [0.193, 1.193], atol=0.06)
-
-
-@pytest.mark.parametrize(
-    ("asked", "known"),
-    [
-        ("", True),
-        (", reference: root", False),
-        (", stiffening: false", False),
-        (", reference: root, stiffening: true", True),
-    ],
-)
-def test_geometric_stiffness_is_there_by_default_in_mean_axes(asked, known):
-    """Frames of interfaces leave bodies little mass, of which geometric stiffness takes more."""
-    text = bar(elements=2, reduction="STIFFENING").replace("STIFFENING, stiffening: false", f"modes: 2{asked}")
-    assert bool(reduced(text)[0].stiffening) == known

@@ -204,15 +204,7 @@ class Reduction(Checked):
         default=False,
         description="whether static answers to its own inertia (accelerations, spinning) are added to the modes",
     )
-    stiffening: Truth | None = Field(
-        default=None,
-        description="whether geometric stiffness is computed; by default where elements are known and the frame is that of mean axes",
-    )
-
-    @property
-    def has_mean_axes(self) -> bool:
-        """Whether the frame moves with the mean motion of the body."""
-        return self.reference == "mean-axis" and not self.held
+    stiffening: Truth = Field(default=False, description="whether geometric stiffness is computed")
 
     def problems(self) -> Iterator[Problem]:
         if self.modes.given != bool(self.shapes):

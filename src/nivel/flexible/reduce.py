@@ -165,7 +165,7 @@ def _with_reference(
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Modes and eigenvalues for the reference conditions, and the freedoms that are zero in all modes."""
     reduction, model = located.record.reduction, body.model
-    if reduction.has_mean_axes:
+    if reduction.reference == "mean-axis" and not reduction.held:
         return found.modes, found.eigenvalues, ()
     held = reduction.held or tuple(f"{reduction.reference}.{axis}" for axis in AXES)
     node_of = {each.name: each.node for each in attachments}
@@ -249,10 +249,9 @@ def _stiffening(
     body: FreeBody, modes: Array, attachments: tuple[Attachment, ...], located: Located, say: Stage
 ) -> dict[str, Array]:
     reduction = located.record.reduction
-    known = body.model.elements is not None
-    if not (known and reduction.has_mean_axes if reduction.stiffening is None else reduction.stiffening):
+    if not reduction.stiffening:
         return {}
-    if not known:
+    if body.model.elements is None:
         message = "geometric stiffness needs the elements, and matrices of other programs do not have them"
         raise ModelError(located.fault(("reduction", "stiffening"), message))
     say("computing geometric stiffness", 0.93)

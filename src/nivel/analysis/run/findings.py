@@ -14,6 +14,7 @@ from nivel.analysis.run.flexible_facts import modal_bases, modal_bodies
 from nivel.analysis.run.passages import passages
 from nivel.analysis.run.preparation import Prepared
 from nivel.analysis.run.second_run import Verified
+from nivel.analysis.run.separate_parts import separate_parts
 from nivel.integrate.loop.run import TURNED
 from nivel.machine.forces import Contact
 from nivel.machine.orientation import euler_parameters_from_matrix
@@ -26,8 +27,9 @@ from nivel.results.trust.bending import fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.findings import Findings
 from nivel.results.trust.motion import Motion
+from nivel.results.trust.part_energy import PartError, worst_part
 from nivel.results.trust.passed_contacts import Pair, passed_contacts
-from nivel.results.trust.scales import machine_size
+from nivel.results.trust.scales import machine_size, speed_of_rest
 from nivel.results.trust.second_look import damped, growth, own_error
 from nivel.results.trust.steps_seen import largest_turn, rounding
 from nivel.results.trust.unseen import Unseen
@@ -67,6 +69,7 @@ def find(
         lacking=most_lacking(result, bases),
         meshed=most_coarse(result, bases),
         coarse=coarsest(result, _meshes(plan)),
+        part=_part(plan, result),
         method=settings.integrator,
         agreed=_agreed(result, verified) if verified is not None else None,
     )
@@ -76,6 +79,12 @@ def _agreed(result: Result, verified: Verified) -> float:
     """By what two runs are apart, as a share of the longest path of a body, or of the machine's size where that is more."""
     apart = error_from_finer(result, verified.result, verified.refinement.left).value
     return apart / extent(Motion.of(result), machine_size(result)[0])
+
+
+def _part(plan: Plan, result: Result) -> PartError | None:
+    """The separate part with the worst balance of energy."""
+    slowest = speed_of_rest(result, machine_size(result)[0])
+    return worst_part(result, separate_parts(plan.machine), slowest)
 
 
 def _pairs(plan: Plan) -> list[Pair]:

@@ -275,7 +275,8 @@ def _broken_event(name: str) -> tuple[str, str]:
 def _no_mass_left(body: str) -> tuple[str, str]:
     return (
         f"the modes of {body} take up all the mass and inertia of its frame, and more with its bending",
-        f"Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {body}.",
+        f"Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {body}; in mean axes it is "
+        f"geometric stiffness that takes mass while the body bends: `stiffening: false`, or a beam in place of {body}.",
     )
 
 

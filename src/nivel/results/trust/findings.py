@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from nivel.results.trust.basis import Lacking
 from nivel.results.trust.beam_mesh import Coarse
 from nivel.results.trust.bending import Bent
+from nivel.results.trust.part_energy import PartError
 from nivel.results.trust.passed_contacts import Passed
 from nivel.results.trust.second_look import Damped, Growth, OwnError
 from nivel.results.trust.steps_seen import Rounding, Turn
 from nivel.results.trust.unseen import Unseen
-from nivel.results.trust.verdicts import CHECKS, Item, Threshold, number, quantity
+from nivel.results.trust.verdicts import CHECKS, THRESHOLDS, Item, Threshold, number, quantity
 
 SHOWN = 5  # functions of which each has a line
 # What is hidden between the places where steps look counts above so many times what two runs are apart by, and this share of a load.
@@ -60,6 +61,7 @@ class Findings:
     coarse: Coarse | None = None
     lacking: Lacking | None = None
     meshed: Bent | None = None
+    part: PartError | None = None
     method: str = ""
     agreed: float | None = None
 
@@ -85,6 +87,8 @@ def finding_items(found: Findings) -> Iterator[Item]:
         yield from _told(_meshed_item(found.meshed))
     if found.lacking is not None:
         yield from _told(_lacking_item(found.lacking))
+    if found.part is not None:
+        yield from _told(_part_item(found.part))
     if found.own is not None:
         yield from _told(_own_item(found.own))
     if found.damped is not None:
@@ -175,6 +179,12 @@ def _own_item(own: OwnError) -> Item:
     its = f"{number(own.extent)} {own.units}"
     said = f"{own.name} is off by {number(own.error)} {own.units}, {number(own.share)} of its own motion over {its}"
     return _measured("parts", f"Parts: {said}", own.share, None, own.name)
+
+
+def _part_item(part: PartError) -> Item:
+    its = f"{number(part.share)} of its largest energy {quantity(part.energy, 'J')}"
+    said = f"Parts: the energy of {part.body} and what is joined to it is wrong by {its}, at t = {part.time:.6g} s"
+    return _measured("parts", said, part.share, part.time, part.body, THRESHOLDS["energy"])
 
 
 def _passage_item(passages: Sequence[Passage]) -> Item:

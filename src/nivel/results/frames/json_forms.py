@@ -75,7 +75,10 @@ CHANGE: Final = (str, float, float)
 FORMS: Final[dict[str, Any]] = {
     "scene": SCENE,
     "machine_record": RECORD,
-    "settings": {},
+    "settings": {
+        **{f"{key}?": Either((None, float)) for key in ("duration", "step", "output_interval", "tolerance", "largest_step")},
+        **{f"{key}?": Either((None, str)) for key in ("integrator", "formulation", "coordinates", "stabilisation")},
+    },
     "timing": {"*": float},
     "assembly": {
         "gap?": float,

@@ -315,7 +315,23 @@ def result_files(rng: random.Random, folder: Path) -> Callable[[], object]:
     return read
 
 
-JSON_VALUES = (None, 0, -1, 1.5, "x", [], {}, [None], [1, 2], {"name": 3}, True, "\x1b[31m", "ground", [[1, 2, 3]], [0, 0, 0])
+JSON_VALUES = (
+    None,
+    0,
+    -1,
+    1.5,
+    "x",
+    [],
+    {},
+    [None],
+    [1, 2],
+    {"name": 3},
+    True,
+    "\x1b[31m",
+    "ground",
+    [[1, 2, 3]],
+    [0, 0, 0],
+)
 
 
 def result_attributes(rng: random.Random, folder: Path) -> Callable[[], object]:
@@ -328,9 +344,11 @@ def result_attributes(rng: random.Random, folder: Path) -> Callable[[], object]:
     path = folder / "result.nc"
     path.write_bytes(original.read_bytes())
     with h5py.File(path, "r+") as file:
-        key = rng.choice(["scene", "machine_record", "trust", "settings", "timing", "events", "assembly", "estimated_errors"])
+        key = rng.choice(
+            ["scene", "machine_record", "trust", "settings", "timing", "events", "assembly", "estimated_errors"]
+        )
         value = json.loads(file.attrs.get(key, "{}"))
-        for place, last in rng.sample(found := list(_places(value)), min(len(found), rng.randint(1, 2))):
+        for place, last in rng.sample(found := list(_entries(value)), min(len(found), rng.randint(1, 2))):
             place[last] = rng.choice(JSON_VALUES)
         file.attrs[key] = json.dumps(value)
 
@@ -341,12 +359,12 @@ def result_attributes(rng: random.Random, folder: Path) -> Callable[[], object]:
     return read
 
 
-def _places(value: Any) -> Iterator[tuple[Any, Any]]:
+def _entries(value: Any) -> Iterator[tuple[Any, Any]]:
     """Every container in a JSON value with each of its keys or numbers."""
     inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, each in inside:
         yield value, key
-        yield from _places(each)
+        yield from _entries(each)
 
 
 def _changed(rng: random.Random, content: bytes) -> bytes:
@@ -359,5 +377,14 @@ def _changed(rng: random.Random, content: bytes) -> bytes:
 
 KINDS = {
     each.__name__: each
-    for each in (machine_files, machine_values, expressions, input_tables, meshes, models, result_files, result_attributes)
+    for each in (
+        machine_files,
+        machine_values,
+        expressions,
+        input_tables,
+        meshes,
+        models,
+        result_files,
+        result_attributes,
+    )
 }

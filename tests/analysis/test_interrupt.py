@@ -53,7 +53,9 @@ def test_sigterm_ends_other_analyses_likewise(analysis, tmp_path):
     """Each with what it had found until then in a result that is closed."""
     path = tmp_path / "a.nc"
     listener = Listener(progress=lambda _time: signal.raise_signal(signal.SIGTERM))
-    machine = Machine.from_record(parse_machine(SWINGING.format("0.1*time" if analysis == "kinematics" else "0.1*sin(time)")))
+    machine = Machine.from_record(
+        parse_machine(SWINGING.format("0.1*time" if analysis == "kinematics" else "0.1*sin(time)"))
+    )
     with pytest.raises(SystemExit) as end:
         getattr(machine, analysis)(duration=1.0, out=path, listener=listener)
     assert end.value.code == 128 + signal.SIGTERM

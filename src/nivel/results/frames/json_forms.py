@@ -1,7 +1,8 @@
 """What the JSON texts of a result file have to look like, so that whatever reads them finds what it asks for.
 
-A form is a type (`float` is any number), `[form]` a list, `(form, form)` a list of just these, `{"key": form}` a mapping, where `key?` may be
-missing, `*` is every key and other keys may be there; a set is one of its words, `Either` one of several forms. The scene is described in `nivel.system.scene`.
+A form is a type (`float` is any number), `[form]` a list, `(form, form)` a list of just these, `{"key": form}` a mapping, where `key?`
+may be missing, `*` is every key and other keys may be there; a set is one of its words, `Either` one of several forms. The scene is
+described in `nivel.system.scene`.
 """
 
 from __future__ import annotations
@@ -76,7 +77,10 @@ FORMS: Final[dict[str, Any]] = {
     "scene": SCENE,
     "machine_record": RECORD,
     "settings": {
-        **{f"{key}?": Either((None, float)) for key in ("duration", "step", "output_interval", "tolerance", "largest_step")},
+        **{
+            f"{key}?": Either((None, float))
+            for key in ("duration", "step", "output_interval", "tolerance", "largest_step")
+        },
         **{f"{key}?": Either((None, str)) for key in ("integrator", "formulation", "coordinates", "stabilisation")},
     },
     "timing": {"*": float},
@@ -107,7 +111,9 @@ def misshapen(form: Any, value: Any, place: str = "") -> str:
             if not isinstance(value, list) or (isinstance(form, tuple) and len(value) != len(form)):
                 return _wrong(place, value)
             forms = form if isinstance(form, tuple) else form * len(value)
-            return next((told for k, each in enumerate(value) if (told := misshapen(forms[k], each, f"{place}.{k}"))), "")
+            return next(
+                (told for k, each in enumerate(value) if (told := misshapen(forms[k], each, f"{place}.{k}"))), ""
+            )
     kinds = (int, float) if form is float else form
     return "" if isinstance(value, kinds) and not isinstance(value, bool) else _wrong(place, value)
 

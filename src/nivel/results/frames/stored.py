@@ -21,7 +21,17 @@ from nivel.system.layout import Variable
 DAMAGE = (AttributeError, IndexError, KeyError, TypeError, ValueError, MemoryError)
 # attributes that are JSON text
 JSON_TEXTS: Final = (
-    *("trust", "settings", "timing", "scene", "machine_record", "events", "assembly", "constraint_units", "coordinate_units"),
+    *(
+        "trust",
+        "settings",
+        "timing",
+        "scene",
+        "machine_record",
+        "events",
+        "assembly",
+        "constraint_units",
+        "coordinate_units",
+    ),
     *("critical_points", "buckling", "estimated_errors", "flexible_bodies"),
 )
 # A file holds at least this share of the bytes that its frames take: no compression of times gets below.
@@ -141,7 +151,9 @@ def understood(contents: object, attribute: str) -> Iterator[None]:
         yield
     except DAMAGE as error:
         file = getattr(contents, "path", None) or "the result"
-        raise ModelError(f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {_first_line(error)}") from None
+        raise ModelError(
+            f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {_first_line(error)}"
+        ) from None
 
 
 def _first_line(error: BaseException) -> str:

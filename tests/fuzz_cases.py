@@ -315,6 +315,58 @@ def result_files(rng: random.Random, folder: Path) -> Callable[[], object]:
     return read
 
 
+JSON_VALUES = (
+    None,
+    0,
+    -1,
+    1.5,
+    "x",
+    [],
+    {},
+    [None],
+    [1, 2],
+    {"name": 3},
+    True,
+    "\x1b[31m",
+    "ground",
+    [[1, 2, 3]],
+    [0, 0, 0],
+)
+
+
+def result_attributes(rng: random.Random, folder: Path) -> Callable[[], object]:
+    """A result whose JSON texts have other values, opened, reported and drawn."""
+    import h5py
+
+    original = folder.parent / "boom.nc"
+    if not original.exists():
+        nivel.load(ROOT / "examples" / "hydraulics" / "cylinder-boom.yaml").simulate(duration=0.01, out=original)
+    path = folder / "result.nc"
+    path.write_bytes(original.read_bytes())
+    with h5py.File(path, "r+") as file:
+        key = rng.choice(
+            ["scene", "machine_record", "trust", "settings", "timing", "events", "assembly", "estimated_errors"]
+        )
+        value = json.loads(file.attrs.get(key, "{}"))
+        for place, last in rng.sample(found := list(_entries(value)), min(len(found), rng.randint(1, 2))):
+            place[last] = rng.choice(JSON_VALUES)
+        file.attrs[key] = json.dumps(value)
+
+    def read() -> object:
+        result = Result.open(path)
+        return result.trust, result.summary(), result.report(folder / "a.html"), result.export_scene(folder / "b.html")
+
+    return read
+
+
+def _entries(value: Any) -> Iterator[tuple[Any, Any]]:
+    """Every container in a JSON value with each of its keys or numbers."""
+    inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, each in inside:
+        yield value, key
+        yield from _entries(each)
+
+
 def _changed(rng: random.Random, content: bytes) -> bytes:
     out = bytearray(content)
     for _ in range(rng.randint(1, 6)):
@@ -325,5 +377,14 @@ def _changed(rng: random.Random, content: bytes) -> bytes:
 
 KINDS = {
     each.__name__: each
-    for each in (machine_files, machine_values, expressions, input_tables, meshes, models, result_files)
+    for each in (
+        machine_files,
+        machine_values,
+        expressions,
+        input_tables,
+        meshes,
+        models,
+        result_files,
+        result_attributes,
+    )
 }

@@ -25,7 +25,7 @@ simulation: {{duration: 1}}
 @pytest.mark.parametrize("integrator", ["radau", "bdf"])
 def test_a_run_that_sticks_under_a_sign_stops_and_names_it(integrator):
     """It comes to rest at v/a; what was computed until then is right, x = v²/(2 a)."""
-    with pytest.raises(SolveError, match="steps have shrunk|no step from here") as caught:
+    with pytest.raises(SolveError, match=r"steps have shrunk|no step from here") as caught:
         Machine.from_record(slide(f"-{PUSH}*sign(rail.displacement_rate)")).simulate(integrator=integrator)
     assert "sign(rail.displacement_rate)` of forces.rub jumps" in caught.value.advice
     assert "model: stiction" in caught.value.advice

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards
+from nivel.machine.machine_record import MachineRecord
 from nivel.report.beam_shapes import beam_shapes
 from nivel.report.control_diagram import control_diagram
 from nivel.report.load_path import load_paths, vibration_table
@@ -24,6 +25,7 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
+from nivel.results.frames.stored import understood
 from nivel.results.frames.target import keep_sources
 from nivel.results.trust.circuits import pressures_at
 from nivel.results.trust.verdicts import RESIDUAL, RULES, THRESHOLDS
@@ -61,7 +63,7 @@ def report_html(result: Result) -> str:
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters["number"] = number
     environment.filters["quantity"] = quantity
-    record = json.loads(str(result.attributes.get("machine_record", "{}")))
+    record = _record(result)
     shown = panels(result)
     motion, motion_left_out = _motion(result)
     return environment.get_template("page.html.j2").render(
@@ -94,6 +96,16 @@ def report_html(result: Result) -> str:
         source=str(result.attributes.get("machine_source", "")),
         **_bundled(),
     )
+
+
+def _record(result: Result) -> dict[str, Any]:
+    """The machine as it ran, for its diagrams. Raises ModelError where it is none."""
+    text = str(result.attributes.get("machine_record", "{}"))
+    record = json.loads(text)
+    if record.get("control") or record.get("hydraulics"):
+        with understood(result, "machine_record"):
+            MachineRecord.model_validate_json(text)
+    return record
 
 
 def number(value: float, digits: int = 4) -> str:

@@ -9,6 +9,8 @@ and takes its place in one atomic step.
 from __future__ import annotations
 
 import os
+import time
+from glob import escape
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -36,6 +38,7 @@ FINAL_ROWS = 16 * 1024  # frames of a chunk, at most: long runs can be read in p
 HEADER = 256 * 1024  # bytes
 LAST_WORDS = 32 * 1024  # bytes kept free, so that a file that cannot grow any more can still say why
 INDEX = 4096  # bytes
+FORSAKEN = 600  # [s] a file that nobody has written for so long, by a process that has ended, is left behind
 NO_ROOM = "Free some space, write elsewhere (--out), or keep fewer frames (--output-interval)."
 COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
 
@@ -149,6 +152,7 @@ def rewrite(path: Path, attributes: Attributes) -> None:
     """
     start = path.name.encode()[:100].decode(errors="ignore")  # the name of a file has 255 bytes at most
     temporary = path.with_name(f".{start}.{os.getpid()}.part")
+    _remove_left_behind(path.parent, start)
     try:
         _write_final(path, temporary, attributes)
         temporary.replace(path)
@@ -157,6 +161,25 @@ def rewrite(path: Path, attributes: Attributes) -> None:
         raise _not_compressed(path, _reason(error)) from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _remove_left_behind(folder: Path, start: str) -> None:
+    """Remove final forms of this file that were never finished, as their writers were killed some time ago."""
+    for left in folder.glob(f".{escape(start)}.*.part"):
+        writer = left.name.split(".")[-2]
+        try:
+            if time.time() - left.stat().st_mtime > FORSAKEN and not (writer.isdecimal() and _runs(int(writer))):
+                left.unlink()
+        except OSError:  # another one removes it, or it is not ours
+            continue
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except OSError as error:
+        return isinstance(error, PermissionError)
+    return True
 
 
 def _not_compressed(path: Path, reason: str) -> SolveError:

@@ -135,18 +135,27 @@ def _missed(system: System, wishes: Wishes) -> list[tuple[str, float, float]]:
 
 def _refuse_impossible_rates(system: System, wishes: Wishes) -> None:
     """Rates that the machine cannot have: drivers or start rates that contradict each other or the joints."""
-    wrong, faults = _left_open(system), []
-    # drivers that contradict each other open joints as well, which are not to blame
+    faults, wrong, missed = [], _left_open(system), _missed(system, wishes)
+    # rates that contradict each other open joints as well, which are not to blame
     prescribed = [row for row in wrong if section_of(system, system.row_owner[row]) == "drivers"]
-    for row in prescribed or wrong:
+    names = dict.fromkeys(system.row_owner[row] for row in prescribed)
+    if not missed and len(names) > 1:
+        for name in names:
+            others = " and ".join(other for other in names if other != name)
+            message = f"the joints do not allow the speed of this motion at the start together with that of {others}: drive one of them"
+            faults.append(Fault("", 0, 0, f"drivers.{name}", message))
+        raise ModelError(faults)
+    for row in prescribed or (() if missed else wrong):
         owner = system.row_owner[row]
         message = f"the velocities contradict each other: {system.rows[row]} cannot have the rate that is asked of it"
         faults.append(Fault("", 0, 0, f"{section_of(system, owner)}.{owner}", message))
-    for name, rate, got in _missed(system, wishes):
+    for name, rate, got in missed:
         joint, _, coordinate = name.partition(".")
         message = (
             f"the rate {rate:.6g} of {name} cannot be reached: the joints, drivers and other rates allow {got:.6g}"
         )
+        if len(missed) > 1:
+            message += "; of rates that the joints tie together give one"
         faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
     if faults:
         raise ModelError(faults)

@@ -6,6 +6,7 @@ import time as clock_of_python
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
+from re import sub
 from types import ModuleType
 from typing import NamedTuple
 
@@ -281,7 +282,12 @@ def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: 
     start, last = (float(np.max(np.abs(y), initial=0.0)) for y in (prepared.start, run.previous))
     if NO_NUMBER in message and found.time == 0.0 and not last < GROWN * max(start, prepared.motion.system.size):
         return f"stopped at t = {time:.6g} s: {UNBOUND}; a step of {settings.step:.3g} s is too long for it", cause
-    return message, f"{cause} {advice}"
+    return message, f"{cause} {_no_longer_than(step, advice)}"
+
+
+def _no_longer_than(step: float, advice: str) -> str:
+    """The advice, with a proposed step that is longer than this one [s] in place of it."""
+    return sub(r"--step ([\d.e-]+\d)", lambda given: f"--step {min(float(given[1]), 0.5 * step):.2g}", advice)
 
 
 def counts_of(system: System, run: Run) -> dict[str, float]:

@@ -43,6 +43,8 @@ TINY = 1e-9
 DRIFTED = 1e-2
 # What is said of a function that has no value
 NO_NUMBER = "is not a number at t ="
+# Where a step became too small, it is asked how forces are so far ahead along the motion, as shares of the time.
+AHEAD = (1e-9, 1e-7, 1e-5, 1e-3)
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
@@ -309,14 +311,20 @@ def _off_rail(motion: MotionEquations, coordinate: int) -> tuple[str, str]:
 
 
 def broken_function(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
-    """The first force or driver that is not a finite number at a time that the step from `time` looks at."""
+    """The first force or driver that is not a finite number at a time that the step from `time` looks at, in the state y or where it
+    is going."""
     system, record = motion.system, motion.system.record
     outputs, constraints = record.outputs.value, record.constraints
     names = [variable.name for variable in reported(system.layout, len(outputs))]
     magnitudes = [(k, name.split(".")[1]) for k, name in enumerate(names) if name.endswith(".magnitude")]
     rows = constraints.combination[:, 0].astype(int)
-    for at in (time, time + 0.5 * step, time + step):
-        motion.evaluate(at, y)
+    rate = motion.evaluate(time, y)[1]
+    ahead = [0.5 * step, step, *(share * max(time, step) for share in AHEAD if share * time > step)]
+    for by, moves in [(0.0, False), *((by, moves) for by in ahead for moves in (False, True))]:
+        at, aside = time + by, y + by * rate if moves else y
+        if not np.isfinite(aside).all():
+            continue
+        motion.evaluate(at, aside)
         broken = [f"the force {name}" for k, name in magnitudes if not np.isfinite(outputs[k])]
         known = (
             np.isfinite(constraints.C[rows])

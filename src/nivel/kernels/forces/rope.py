@@ -21,7 +21,8 @@ STIFFNESS, DAMPING, UNSTRESSED = 0, 1, 2
 def apply(machine, number, t):
     """Tension T = k x + d ẋ of the stretch x = s - l, zero where x < 0 or T < 0; s = Σ distances, l̇ = the speed of the winch.
 
-    Where steps are chosen one ends where x passes zero. The rope stores ½ k x², the winch works by -T l̇, and (T - k x) ẋ is dissipated, also where the rope goes slack.
+    Where steps are chosen one ends where x passes zero. The rope stores ½ k x², the winch works by -T l̇, and (T - k x) ẋ is dissipated,
+    also where the rope goes slack.
     """
     record = record_at(machine)
     elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value

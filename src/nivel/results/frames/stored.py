@@ -14,13 +14,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.results.frames.json_forms import FORMS, misshapen, strangers
 from nivel.system.layout import Variable
 
 # what reading a file raises whose parts are not what they should be
 DAMAGE = (AttributeError, IndexError, KeyError, TypeError, ValueError, MemoryError)
 # attributes that are JSON text
 JSON_TEXTS: Final = (
-    *("trust", "settings", "timing", "scene", "machine_record", "events", "assembly", "constraint_units"),
+    *(
+        "trust",
+        "settings",
+        "timing",
+        "scene",
+        "machine_record",
+        "events",
+        "assembly",
+        "constraint_units",
+        "coordinate_units",
+    ),
     *("critical_points", "buckling", "estimated_errors", "flexible_bodies"),
 )
 # A file holds at least this share of the bytes that its frames take: no compression of times gets below.
@@ -112,11 +123,17 @@ class StoredContents:
 
 
 def _refuse_broken(key: str, text: object) -> None:
-    """Raises ValueError where the attribute is there and is no JSON."""
+    """Raises ValueError where the attribute is there and is no JSON, or not of its form."""
+    if text is None:
+        return
     try:
-        json.loads(str(text if text is not None else "{}"))
-    except ValueError as error:
+        value = json.loads(str(text))
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"the attribute `{key}`: {error}") from None
+    if key in FORMS and (told := misshapen(FORMS[key], value)):
+        raise ValueError(f"the attribute `{key}`: {told}")
+    if key == "scene" and (told := strangers(value)):
+        raise ValueError(f"the attribute `{key}`: {told}")
 
 
 def _datasets(file: h5py.File) -> list[tuple[str, Any]]:
@@ -133,8 +150,14 @@ def understood(contents: object, attribute: str) -> Iterator[None]:
     try:
         yield
     except DAMAGE as error:
-        file = contents.path if isinstance(contents, StoredContents) else "the result"
-        raise ModelError(f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {error}") from None
+        file = getattr(contents, "path", None) or "the result"
+        raise ModelError(
+            f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {_first_line(error)}"
+        ) from None
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error).splitlines() or [""])[0]
 
 
 def _plain(value: Any) -> str | float | int:

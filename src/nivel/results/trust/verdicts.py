@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 Verdict = Literal["green", "amber", "red"]
 
@@ -259,7 +259,9 @@ class Trust:
         data["items"] = tuple(Item(**_known(Item, each)) for each in data["items"])
         for name in ("redundant_rows", "non_unique_joints", "neglected_names", "undetermined_efforts"):
             data[name] = tuple(data.get(name, ()))
-        return cls(**_known(cls, data))
+        for each in (*data["items"], known := cls(**_known(cls, data))):
+            _refuse_other_types(each)
+        return known
 
     @property
     def headline(self) -> str:
@@ -325,6 +327,31 @@ def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:
         for key, value in data.items()
         if key in names
     }
+
+
+# of annotations of fields, the types of their values
+TYPES: Final[dict[str, tuple[type, ...]]] = {
+    "str": (str,),
+    "Verdict": (str,),
+    "bool": (bool,),
+    "int": (int,),
+    "int | None": (int, type(None)),
+    "float": (int, float),
+    "float | None": (int, float, type(None)),
+    "tuple[str, ...]": (tuple,),
+    "tuple[Item, ...]": (tuple,),
+}
+
+
+def _refuse_other_types(record: Item | Trust) -> None:
+    """Raise TypeError where a value is none of its field's type."""
+    for field in fields(record):
+        value = getattr(record, field.name)
+        names = value if isinstance(value, tuple) and "str" in str(field.type) else ()
+        if not isinstance(value, TYPES[str(field.type)]) or not all(isinstance(name, str) for name in names):
+            raise TypeError(f"{field.name} is {type(value).__name__}")
+        if field.type == "Verdict" and value not in ("green", "amber", "red"):
+            raise ValueError(f"{field.name} is {value!r}")
 
 
 def _storable(value: Any) -> Any:

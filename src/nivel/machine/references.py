@@ -37,7 +37,6 @@ CONTROL_KEYS: Final = (
     "law",
 )
 SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
-HULLS: Final = ("box", "extrusion", "mesh")  # that may touch each other
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 
 
@@ -131,15 +130,8 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
 def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
     body, plane = entry(contact, "body"), entry(contact, "plane")
     yield from _of_shape(body, index, SHAPES_ON_PLANE, (*place, "body"))
-    pair = as_list(entry(contact, "bodies"))
-    shapes = [index.bodies.get(body, "") if isinstance(body, str) else "" for body in pair]
-    # two spheres, or two hulls: what the first is, the second must be
-    allowed = HULLS if any(each in HULLS for each in shapes) else ("sphere",)
-    for at, name in enumerate(pair):
-        both = shapes[at] not in (*HULLS, "sphere")
-        yield from _of_shape(name, index, ("sphere", *HULLS) if both else allowed, (*place, "bodies", at))
-    if pair and entry(contact, "materials") is not None and allowed == HULLS:
-        yield (*place, "materials"), "`materials` give the stiffness of spheres (Hertz): give `stiffness`"
+    for at, sphere in enumerate(as_list(entry(contact, "bodies"))):
+        yield from _of_shape(sphere, index, ("sphere",), (*place, "bodies", at))
     yield from _of_end(plane, index, (*place, "plane"))
     if isinstance(body, str) and index.body_of(plane) == body:
         yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"

@@ -80,8 +80,7 @@ def _pairs(plan: Plan) -> list[Pair]:
     for force in plan.machine.forces:
         if isinstance(force, Contact) and force.bodies is not None:
             spheres = [bodies[name].shape for name in force.bodies]
-            if not isinstance(spheres[0], Sphere):
-                continue  # hulls are wide: none passes through another within a step unseen
+            assert all(isinstance(each, Sphere) for each in spheres)  # the record was checked
             first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
             reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
             out.append(Pair(force.name, force.bodies, (first, second), reach))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces import bushing, contact, hull_contact
+from nivel.kernels.forces import bushing, contact
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.body import Body
@@ -18,7 +18,6 @@ from nivel.machine.placement import frame_from_axes
 from nivel.machine.shape import Box, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.hulls import hull_of, numbers_of
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
@@ -52,16 +51,8 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         ("normal_force", "N", "normal force"),
         ("rate", "m/s", "rate of the deepest overlap"),
     )
-    law = NONE
-    if force.law is not None:
-        law = draft.function(
-            force.law, {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
-        )
     if force.bodies is not None:
         bodies = [draft.machine.body_named[name] for name in force.bodies]
-        if not isinstance(bodies[0].shape, Sphere):
-            _add_hulls(draft, force, bodies, first, law)
-            return
         kind = contact.SPHERES
         markers = [_shape_marker(draft, body) for body in bodies]
         size = [_radius(body) for body in bodies]
@@ -78,28 +69,20 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         # Hertz: K = 4/3 E* √R, 1/E* = Σ (1 - ν²)/E, 1/R = Σ 1/r
         compliance = sum((1.0 - each.poisson_ratio**2) / each.young_modulus for each in force.materials)
         stiffness = 4.0 / 3.0 / compliance / math.sqrt(curvature)
-    numbers = _numbers(force, stiffness, size)
+    law = NONE
+    if force.law is not None:
+        law = draft.function(
+            force.law, {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
+        )
+    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
+    numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
+    numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
+    numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = POINTS.get(kind, 1)
     if kind == contact.HULL:
         corners = _corners(draft.machine.body_named[str(force.body)])
         numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
     draft.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
-
-
-def _numbers(force: Contact, stiffness: float | None, size: list[float]) -> list[float]:
-    """The first numbers of a contact, up to those of work."""
-    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
-    numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
-    numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
-    return numbers + [0.0] * (contact.NUMBERS - len(numbers))
-
-
-def _add_hulls(draft: SystemBuilder, force: Contact, bodies: list[Body], first: int, law: int) -> None:
-    """The contact of two convex hulls, whose corners are given in the body frames."""
-    markers = [draft.place((body.name, np.zeros(3), np.eye(3))) for body in bodies]
-    numbers = _numbers(force, force.stiffness, [])
-    hulls = numbers_of((hull_of(bodies[0]), hull_of(bodies[1])), len(numbers))
-    draft.elements.add(hull_contact.apply, [first, 0, *markers, law, 1], [*numbers, *hulls], 1, (0,))
 
 
 def _radius(body: Body) -> float:
@@ -157,5 +140,5 @@ def _shape_marker(draft: SystemBuilder, body: Body) -> int:
 
 KINDS = (
     ForceKind(Bushing, add_bushing, (bushing.apply,)),
-    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply)),
+    ForceKind(Contact, add_contact, (contact.apply,)),
 )

@@ -122,3 +122,44 @@ def test_faults_say_what_to_write(call, message, spring):
     with pytest.raises(ModelError) as caught:
         call(spring)
     assert message in str(caught.value)
+
+
+LAWS = """
+format: 1
+parameters: {stiffness: 100 N/m, peak: 3 N, length: 20 cm}
+gravity: [0, 0, -9.81]
+bodies:
+  block: {mass: 1, inertia: [1, 1, 1]}
+  bob: {mass: 0.5, point_mass: true, position: [0, 0, -length]}
+joints:
+  rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0], start: {displacement: 10 cm}}
+  string: {type: distance, bodies: [block, bob], points: [[0, 0, 0], [0, 0, -length]]}
+forces:
+  spring: {type: joint-spring-damper, coordinate: rail.displacement, stiffness: stiffness}
+  pull: {type: force, body: block, vector: [peak*sin(20*time) - 2*rail.displacement_rate, 0, 0]}
+  push: {type: motor, coordinate: rail, effort: {times: [0, 0.1, 0.2], values: [0, peak, 1]}}
+simulation: {duration: 0.1, step: 1 ms}
+"""
+
+
+@pytest.mark.parametrize(
+    ("path", "values"),
+    [
+        ("block.mass", [1.0, 2.5]),
+        ("parameters.length", ["20 cm", "35 cm"]),
+        ("parameters.peak", [3.0, -7.0]),
+        ("rail.start.displacement", [0.1, 0.2]),
+        ("push.effort.values.1", [3.0, 4.0]),
+        ("push.effort", [2.0, "3*time"]),
+        ("simulation.start", ["as-given", "equilibrium"]),
+    ],
+)
+def test_a_sweep_gives_to_the_last_bit_what_runs_one_by_one_give(path, values, tmp_path):
+    (tmp_path / "laws.yaml").write_text(LAWS, encoding="utf-8")
+    machine = nivel.load(tmp_path / "laws.yaml")
+    found = machine.sweep({path: values}, save=["rail.displacement", "joint_force"], processes=1)
+    assert found.outcome.values.tolist() == ["done", "done"]
+    for k, value in enumerate(values):
+        alone = machine.with_values({path: value}).simulate()
+        for name in ("rail.displacement", "joint_force"):
+            np.testing.assert_array_equal(found[name].isel({path: k}), alone.array(name))

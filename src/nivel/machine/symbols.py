@@ -95,6 +95,11 @@ def find_in(path: str, index: Index) -> Symbol:
         raise UnknownSymbolError(
             f"`{name}` is a beam and has no symbols; name a marker at one of its stations and use that"
         )
+    if name in index.sensors:
+        raise UnknownSymbolError(
+            f"`{name}` is a sensor without symbols: use what it measures, such as `hinge.angle_rate`, or a sensor of a `distance` "
+            f"or an `angle`, which has `{name}.rate`"
+        )
     known = [each for elements in _quantities(index).values() for each, its in elements.items() if its]
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""

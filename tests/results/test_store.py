@@ -317,7 +317,7 @@ def test_files_that_are_no_results_are_refused_in_words(tmp_path):
         Result.open(tmp_path)
     text = tmp_path / "text.nc"
     text.write_text("a,b\n1,2\n")
-    with pytest.raises(ModelError, match="is not a result file of nivel"):
+    with pytest.raises(ModelError, match="is not a result of nivel"):
         Result.open(text)
     with h5py.File(tmp_path / "other.nc", "w") as file:
         file["x"] = 1.0

@@ -36,6 +36,7 @@ import { Tree } from "./ui/tree";
 
 const NOTED = 4000; // ms that a note is shown
 const IDLE = 400; // ms without a frame after which nothing moves
+const FIRST = 8; // joint coordinates of which the first that moves is plotted
 const FEW_NAMES = 14; // a machine of more bodies starts without names
 
 export class App {
@@ -170,8 +171,15 @@ export class App {
     if (this.live) this.handled.watchAll();
     this.world.now = () => cloudNow(this.actor);
     if (content.mode === "machine" || this.live) this.world.around = () => cloudNow(this.actor);
-    const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
-    if (first && this.player) void this.plots.show([first.name]);
+    if (this.player) void this.plotFirst(columns);
+  }
+
+  /** Plot the first joint coordinate that moves by more than round-off. */
+  private async plotFirst(columns: Columns): Promise<void> {
+    const some = columns.list().filter((column) => /\.(angle|displacement)$/.test(column.name)).slice(0, FIRST);
+    const ways = await Promise.all(some.map(async (column) => way(await columns.get(0, column.name))));
+    const first = some[ways.findIndex((each) => each > 1e-6 * Math.max(...ways))] ?? some[0];
+    if (first) void this.plots.show([first.name]);
   }
 
   // --- time ---
@@ -355,4 +363,16 @@ export class App {
     this.violations.recolour(look);
     this.actor.mark(this.picked, look);
   }
+}
+
+/** How far the numbers of a column go; 0 where it cannot be read. */
+function way(values: Float32Array | string): number {
+  if (typeof values === "string") return 0;
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return Math.max(high - low, 0);
 }

@@ -41,7 +41,8 @@ def _print(result: Result) -> None:
 
     console, trust = Console(highlight=False), result.trust
     time = result.time
-    extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {len(time)} frames" if len(time) else "no frame"
+    frames = f"{len(time)} frame{'s' * (len(time) != 1)}"
+    extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {frames}" if len(time) > 1 else frames
     console.print(Text.assemble((result.name, "bold"), f": {extent}"))
     verified = result.is_statics or trust.accuracy_estimate is not None
     verdict = (trust.verdict, f"bold {COLOURS[trust.verdict]}") if verified or trust.verdict != "green" else ""

@@ -26,6 +26,7 @@ from nivel.cli.options import (
 from nivel.cli.progress import progress_listener
 from nivel.wording import set_in_motion
 
+MOST_CHANGES = 3  # moved bodies, and changed velocities, that are listed one by one
 ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not reported
 
 if TYPE_CHECKING:
@@ -176,16 +177,38 @@ def assembly_lines(result: Result) -> Iterator[str]:
     moved, changed = (
         [each for each in assembly.get(kind, []) if max(each[1:]) > ROUND_OFF] for kind in ("moved", "velocity_change")
     )
-    for name, distance, angle in moved:
+    if assembly.get("gap", 0.0) > ROUND_OFF:
         why = f"to close {assembly['gap_row']}, open by {assembly['gap']:.3g} as given"
-        yield f"assembly: {name} was moved by {_amounts((distance, 'm'), (math.degrees(angle), 'deg'))} {why}"
+    else:
+        why = "to reach the start values of joints"
+    yield from _changes(
+        "moved",
+        [(name, _amounts((d, "m"), (math.degrees(a), "deg"))) for name, d, a in _largest(moved)],
+        len(moved),
+        why,
+    )
     followed = assembly.get("followed", [])
-    for name, speed, rate in changed:
-        if name in followed:
-            continue
-        yield f"assembly: the velocity of {name} was changed by {_amounts((speed, 'm/s'), (rate, 'rad/s'))} to fit the joints"
+    changed = [each for each in changed if each[0] not in followed]
+    amounts = [(name, _amounts((v, "m/s"), (w, "rad/s"))) for name, v, w in _largest(changed)]
+    yield from _changes("given another velocity", amounts, len(changed), "to fit the joints")
     if followed:
         yield f"assembly: {set_in_motion(followed)}"
+
+
+def _largest(changes: list[Any]) -> list[Any]:
+    """All changes if these are few, else the largest."""
+    return changes if len(changes) <= MOST_CHANGES else [max(changes, key=lambda each: max(each[1:]))]
+
+
+def _changes(what: str, amounts: list[tuple[str, str]], count: int, why: str) -> Iterator[str]:
+    """A line for each of a few changes; for many one line with the largest."""
+    if count > MOST_CHANGES:
+        ((name, amount),) = amounts
+        yield f"assembly: {count} bodies were {what} {why}; the largest change is that of {name}, {amount}"
+        return
+    for name, amount in amounts:
+        changed = f"{name} was moved by" if what == "moved" else f"the velocity of {name} was changed by"
+        yield f"assembly: {changed} {amount} {why}"
 
 
 def _amounts(*amounts: tuple[float, str]) -> str:

@@ -24,7 +24,7 @@ from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-SHOWN: Final = 12  # vibrations in the terminal
+SHOWN: Final = 12  # vibrations, and joint coordinates, in the terminal
 
 
 @click.command(short_help="Find where a machine rests under its loads.")
@@ -111,9 +111,11 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console = Console(stderr=True, highlight=False)
     time, timing = result.time, result.timing
     states = f"{len(time)} state{'s' * (len(time) != 1)}"
-    console.print(
-        f"{ended(result)}, {states}, {timing.get('iterations', 0)} iterations {computed_in(timing.get('loop_seconds', 0.0))}"
-    )
+    count = timing.get("iterations", 0)
+    iterations = f"{count} iteration{'s' * (count != 1)}"
+    console.print(f"{ended(result)}, {states}, {iterations} {computed_in(timing.get('loop_seconds', 0.0))}")
+    for line in rest_lines(result):
+        console.print(line, markup=False)
     for line in assembly_lines(result):
         console.print(line)
     for line in vibration_lines(result):
@@ -125,6 +127,21 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
     say_checks(console, result.trust)
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+
+
+def rest_lines(result: Result) -> list[str]:
+    """The joint coordinates of the last state, a line each."""
+    from math import degrees
+
+    if "joint_coordinate" not in result.variables or not len(result.time):
+        return []
+    names = result.coordinates[result.variables["joint_coordinate"].dims[1]]
+    lines = []
+    for name, value in zip(names, result.array("joint_coordinate")[-1], strict=True):
+        unit = result.units(name)
+        angle = f" ({degrees(value):.4g} deg)" if unit == "rad" else ""
+        lines.append(f"rests at {name} = {value:.6g} {unit}{angle}")
+    return lines if len(lines) <= SHOWN else [*lines[:SHOWN], f"and {len(lines) - SHOWN} more in the result"]
 
 
 def vibration_lines(result: Result) -> list[str]:

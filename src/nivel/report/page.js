@@ -55,13 +55,13 @@
     return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, k) => Number(`1e${low + k * step}`));
   }
 
-  // room around the curves, and never less than `floor`, so that round-off is drawn as a straight line
+  // room around the curves, ten times `floor` where they change by less, so that round-off is drawn as a straight line
   function span(min, max, floor) {
     if (min == null) return [-1, 1];
     const least = Math.max(floor, 1e-9 * Math.max(Math.abs(min), Math.abs(max)), 1e-30);
     if (max - min >= least) return uPlot.rangeNum(min, max, 0.08, true);
     const middle = 0.5 * (min + max);
-    const half = Math.max(0.5 * floor, 0.1 * Math.max(Math.abs(middle), least));
+    const half = Math.max(5 * floor, 0.1 * Math.max(Math.abs(middle), least));
     return [middle - half, middle + half];
   }
 

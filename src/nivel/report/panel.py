@@ -28,7 +28,7 @@ class Group:
     """Curves of one unit.
 
     limits : (value, colour word) of lines that the curves are held against.
-    floor : the least height of the plot, in its unit: what is smaller is round-off and drawn flat.
+    floor : a change of the curves, in their unit, below which they are round-off and drawn flat.
     """
 
     label: str

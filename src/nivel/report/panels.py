@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 # radians are counted as cosines are
 UNITLESS = {"rad": "1", "rad/s": "1/s"}
+ROUND_OFF = 1e-12  # of the largest energy: the round-off of an energy balance
 
 
 def panels(result: Result) -> list[Panel]:
@@ -124,7 +125,14 @@ def _energies(result: Result) -> Panel | None:
 def _energy_error(result: Result) -> Panel | None:
     if "energy_error" not in result.variables:
         return None
-    return Panel("Energy error", (Group("", "J", (Curve("energy error", result.array("energy_error"), "0"),)),))
+    floor = ROUND_OFF * max(_largest(result, name) for name in ("kinetic_energy", "potential_energy", "external_work"))
+    curve = Curve("energy error", result.array("energy_error"), "0")
+    return Panel("Energy error", (Group("", "J", (curve,), floor=floor),))
+
+
+def _largest(result: Result, name: str) -> float:
+    """The largest magnitude of a variable of the result; 0 where there is none."""
+    return float(np.nanmax(np.abs(result.array(name)), initial=0.0)) if name in result.variables else 0.0
 
 
 def _reactions(result: Result, variable: str, title: str, word: str, floor: float) -> Panel | None:

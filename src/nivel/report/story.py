@@ -16,7 +16,16 @@ from nivel.wording import set_in_motion
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-SHOWN_CHANGES = 20  # bodies that the assembly changed, and events; more are counted
+SHOWN_CHANGES = 6  # bodies that the assembly changed; more are counted
+SHOWN_EVENTS = 20  # likewise
+# counters of a run by the words of the table
+COUNTERS = {
+    "unconserved": "steps that do not keep the energy",
+    "guarded": "parts of steps that were not extrapolated",
+    "pressure_difference": "largest difference of pressures in a step",
+    "partitions": "new choices of independent coordinates",
+    "rejected": "rejected steps",
+}
 ROUND_OFF = 1e-14  # m, rad or per second: smaller changes are not told
 DECADES = 16  # of a gauge, down from 1: round-off of double precision
 
@@ -108,7 +117,7 @@ def headline(result: Result) -> Headline:
     verdict, outcome = HEADLINES.get(result.outcome, ("red", result.outcome))
     reached = _reached(result)
     seconds = result.timing.get("loop_seconds")
-    took = f", computed in {_seconds(float(seconds))}" if seconds else ""
+    took = f", computed in {_took(float(seconds))}" if seconds else ""
     if result.stopped_by:
         took += f", until the event {result.stopped_by}"
     text = {
@@ -182,14 +191,21 @@ def settings_table(result: Result) -> list[tuple[str, str]]:
 def timing_table(result: Result) -> list[tuple[str, str]]:
     """What the run took."""
     timing = result.timing
-    out = [(name.replace("_", " "), _shown(value, "")) for name, value in timing.items() if "seconds" not in name]
+    out = [
+        (
+            COUNTERS.get(name, name.replace("_", " ")),
+            f"{value / 1e5:.3g} bar" if name.startswith("pressure") else _shown(value, ""),
+        )
+        for name, value in timing.items()
+        if "seconds" not in name and value
+    ]
     out += [
-        (name.replace("_seconds", " time"), _seconds(float(value)))
+        (name.replace("_seconds", " time"), _took(float(value)))
         for name, value in timing.items()
         if name.endswith("_seconds")
     ]
     if timing.get("steps") and timing.get("loop_seconds"):
-        out.append(("time per step", _seconds(timing["loop_seconds"] / timing["steps"])))
+        out.append(("time per step", _took(timing["loop_seconds"] / timing["steps"])))
     out.append(("frames", str(len(result.time))))
     out.append(("nivel", str(result.attributes.get("nivel_version", ""))))
     return out
@@ -200,9 +216,15 @@ def assembly_lines(result: Result) -> list[str]:
     assembly = json.loads(str(result.attributes.get("assembly", "{}")))
     moved, changed = assembly.get("moved") or [], assembly.get("velocity_change") or []
     followed = assembly.get("followed") or []
-    gap = f"open by up to {_amount(assembly.get('gap', 0.0), 'm or rad')} as given"
-    why = f" to close the joints, {gap} (row {assembly['gap_row']})" if assembly.get("gap_row") else ""
-    moved, changed = ([each for each in found if max(each[1:]) > ROUND_OFF] for found in (moved, changed))
+    if assembly.get("gap", 0.0) > ROUND_OFF:
+        gap = f"open by up to {_amount(assembly['gap'], 'm or rad')} as given"
+        why = f" to close the joints, {gap} (row {assembly['gap_row']})"
+    else:
+        why = " to reach the start values of joints"
+    moved, changed = (
+        sorted((each for each in found if max(each[1:]) > ROUND_OFF), key=lambda each: -max(each[1:]))
+        for found in (moved, changed)
+    )
     lines = [f"{name} was moved by {_both(d, 'm', a, 'rad')}{why}" for name, d, a in moved]
     lines += [
         f"The velocity of {name} was changed by {_both(v, 'm/s', w, 'rad/s')} to fit the joints"
@@ -217,7 +239,7 @@ def assembly_lines(result: Result) -> list[str]:
 def event_lines(result: Result) -> list[str]:
     """The events that came: each name with how often and when."""
     lines = [line.replace("e-", "e\u2011") for line in in_words(result.events, result.stopped_by)]
-    return lines if len(lines) <= SHOWN_CHANGES else [*lines[:SHOWN_CHANGES], f"and {len(lines) - SHOWN_CHANGES} more"]
+    return lines if len(lines) <= SHOWN_EVENTS else [*lines[:SHOWN_EVENTS], f"and {len(lines) - SHOWN_EVENTS} more"]
 
 
 def _both(length: float, length_unit: str, angle: float, angle_unit: str) -> str:
@@ -269,6 +291,11 @@ def _seconds(value: float) -> str:
         if abs(value) * factor >= 1.0:
             return f"{value * factor:.4g} {unit}"
     return f"{value * 1e9:.4g} ns"
+
+
+def _took(seconds: float) -> str:
+    """A computing time, to three digits."""
+    return _seconds(float(f"{seconds:.3g}"))
 
 
 def _plural(count: int, one: str, many: str) -> str:

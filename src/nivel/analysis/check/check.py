@@ -35,6 +35,8 @@ from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 from nivel.wording import set_in_motion
 
+ROUND_OFF = 1e-14  # [m or rad] a smaller gap is none
+
 
 @dataclass(frozen=True)
 class JointFacts:
@@ -191,7 +193,10 @@ def _frequency(value: float) -> str:
 
 def _assembly_lines(facts: Check) -> Iterator[str]:
     if facts.moved:
-        yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
+        if facts.gap > ROUND_OFF:
+            yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
+        else:
+            yield "assembly: closed as given; the start values of joints move"
         for name, distance, angle in _by_owner(facts, facts.moved):
             yield f"  {name} by {distance:.3g} m and {np.degrees(angle):.3g} deg"
     else:

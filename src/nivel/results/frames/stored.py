@@ -63,7 +63,10 @@ def _opened_while_running(path: Path) -> h5py.File:
     except PermissionError:
         raise ModelError(f"{path} may not be read: permission denied") from None
     except OSError:
-        raise ModelError(f"{path} is not a result file of nivel (no readable HDF5/NetCDF-4 content)") from None
+        made_by = (
+            f"; `nivel run {path}` makes the result of a machine" if Path(path).suffix in (".yaml", ".yml") else ""
+        )
+        raise ModelError(f"{path} is not a result of nivel (NetCDF-4){made_by}") from None
 
 
 class StoredContents:

@@ -164,7 +164,7 @@ def freedom_item(trust: Trust) -> Item:
     count = trust.degrees_of_freedom or 0
     if count < 1 and trust.drivers:
         prescribed = "the driver prescribes" if trust.drivers == 1 else f"{trust.drivers} drivers prescribe"
-        return Item("degrees_of_freedom", "green", f"Freedom: none is left, {prescribed} every motion (green so)")
+        return Item("degrees_of_freedom", "green", f"Freedom: none is left, {prescribed} every motion (green then)")
     if count < 1:
         return Item("degrees_of_freedom", "amber", "Freedom: no degree of freedom: nothing can move (green from 1 on)")
     degrees = "1 degree of freedom" if count == 1 else f"{count} degrees of freedom"

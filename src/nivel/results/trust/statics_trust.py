@@ -116,7 +116,7 @@ def _stability(result: Readable) -> Item:
         return Item("stability", "amber", text)
     if not len(unstable):
         return Item(
-            "stability", "green", "Stability: every state is stable: no direction of negative stiffness (green so)"
+            "stability", "green", "Stability: every state is stable: no direction of negative stiffness (green then)"
         )
     first, total = int(unstable[0]), len(counts)
     most = int(counts.max())

@@ -210,6 +210,10 @@ DRIVEN = {
     "python": {"coordinate": "p.angle", "value": {"source": MOTION, "function": "wave", "arguments": ["time", 0.2]}},
     "marker along": {"marker": "knob", "along": "y", "relative_to": "pen", "value": "0.27 + 0.1*sin(2*time)"},
     "marker about": {"marker": "knob", "about": "z", "relative_to": "pen", "value": "-0.1*sin(2*time)"},
+    "orientation by turns": {"marker": "pen", "orientation": {"euler": ["0.2*sin(4*time)", "0.1 + time^2", "0.3*time"],
+                                                              "sequence": "zyx"}},
+    "orientation by Euler parameters": {"marker": "pen", "orientation": {
+        "euler_parameters": ["1", "0.1*sin(5*time)", "0.2*time", "0.1"]}},
     "marker of the ground": {"marker": "knob", "along": "x", "value": "-0.1 + 0.2*sin(2*time)"},
 }  # fmt: skip
 ELEMENTS = {

@@ -117,6 +117,41 @@ def test_a_driven_pose_takes_what_newton_and_euler_say(form, methods):
         assert given == pytest.approx(power, abs=2e-6)
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_a_pose_seen_from_a_tumbling_body_holds_by_its_accelerations_alone(coordinates):
+    """Without stabilisation it drifts by the error of the steps only, and two bodies in space keep their momenta."""
+    orientation, turned = FORMS["euler"]
+    inertia = {"a": np.diag([0.5, 0.6, 0.7]), "b": np.diag([0.2, 0.3, 0.4])}
+    result = nivel.Machine(
+        "tumbling",
+        bodies=[
+            nivel.Body(name="a", mass=4, inertia=(0.5, 0.6, 0.7), angular_velocity=(1.0, -2.0, 0.5)),
+            nivel.Body(name="b", mass=2, inertia=(0.2, 0.3, 0.4), position=(0, 0, 1)),
+        ],
+        markers=[nivel.Marker(name="seat", body="a", position=SEAT), nivel.Marker(name="tip", body="b")],
+        drivers=[
+            nivel.Driver(name="fly", marker="tip", relative_to="seat", position=POSITION, orientation=orientation)
+        ],
+        simulation={"duration": 0.1, "step": 0.001, "output_interval": 0.05, "stabilisation": "none"},
+    ).simulate(coordinates=coordinates)
+    momenta = []
+    for k, t in enumerate(result.time):
+        r, v, w = (
+            {name: result.array(f"{name}.{word}")[k] for name in "ab"}
+            for word in ("position", "velocity", "angular_velocity")
+        )
+        A = {name: Rotation.from_quat(result.array(f"{name}.orientation")[k][[1, 2, 3, 0]]) for name in "ab"}
+        place = SEAT + np.array([0.3 * np.sin(2 * t), 0.2 * t**2, 1 + 0.1 * np.cos(3 * t)])
+        np.testing.assert_allclose(A["a"].inv().apply(r["b"] - r["a"]), place, atol=1e-9)
+        assert (A["a"].inv() * A["b"] * turned(t).inv()).magnitude() < 1e-9
+        spin = {name: A[name].apply(inertia[name] @ A[name].inv().apply(w[name])) for name in "ab"}
+        momenta.append(
+            [4 * v["a"] + 2 * v["b"], sum(spin.values()) + np.cross(r["a"], 4 * v["a"]) + np.cross(r["b"], 2 * v["b"])]
+        )
+    np.testing.assert_allclose(momenta, [momenta[0]] * len(momenta), atol=1e-8)
+    assert result.trust.verdict == "green"
+
+
 def test_kinematics_of_a_driven_pose_finds_the_same_efforts():
     orientation, turned = FORMS["euler"]
     result = machine(orientation).kinematics(positions=3)

@@ -6,7 +6,7 @@ it goes to the orientation that is meant.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from nivel.errors import Fault
 from nivel.kernels.bodies.driven_turn import TURN_X
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import euler_parameters_from_matrix
+from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
 
 # Less than this angle from its target [rad] a body stays where it is drawn.
@@ -24,24 +25,27 @@ NEXT = np.roll(np.eye(3), 1, axis=0)
 
 
 def turn_to_targets(machine: MachineRecord, motion: MotionEquations, t: float, y: Array) -> None:
-    """Turn the bodies in the state y, in place, about their driven markers, where these are far from their orientation at time t."""
-    for _, marker, rows in _driven(machine, motion):
+    """Turn the bodies in the state y, in place, about their driven markers, where these are far from their orientation at time t; with all
+    bodies that joints hold together with them, but by way of the ground, unless the reference is one of these."""
+    of = motion.system.record.markers.body
+    for _, reference, marker, rows in _driven(machine, motion):
         G = _against_target(motion, t, y, marker, rows)
         if np.trace(G) < 1.0 + 2.0 * np.cos(NEAR):
-            _turn(motion, t, y, marker, G.T)
+            together = _held_together(machine, motion, int(of[marker]))
+            _turn(motion, t, y, marker, G.T, together if int(of[reference]) not in together else ())
 
 
 def half_turns(machine: MachineRecord, motion: MotionEquations, t: float, y: Array) -> Iterator[Fault]:
     """A fault for every driver whose marker, in the closed state y, is half a turn from its orientation."""
-    for name, marker, rows in _driven(machine, motion):
+    for name, _, marker, rows in _driven(machine, motion):
         if np.trace(_against_target(motion, t, y, marker, rows)) < 1.0:
             message = "the marker ends up half a turn from the orientation at the start: place the bodies that it hangs on nearer to it"
             yield Fault("", 0, 0, f"drivers.{name}.orientation", message)
     motion.evaluate(t, y)
 
 
-def _driven(machine: MachineRecord, motion: MotionEquations) -> Iterator[tuple[str, int, list[int]]]:
-    """Driver, marker and the three rows of every driven orientation."""
+def _driven(machine: MachineRecord, motion: MotionEquations) -> Iterator[tuple[str, int, int, list[int]]]:
+    """Driver, marker of reference, driven marker and the three rows of every driven orientation."""
     system, record = motion.system, motion.system.record
     for driver in machine.drivers:
         if driver.orientation is not None:
@@ -50,7 +54,7 @@ def _driven(machine: MachineRecord, motion: MotionEquations) -> Iterator[tuple[s
             first = int(combination[combination[:, 0] == rows[0]][0, 1])
             what = record.coordinates.what[int(record.constraints.term[first, 0])]
             assert what[0] == TURN_X
-            yield driver.name, int(what[2]), rows
+            yield driver.name, int(what[1]), int(what[2]), rows
 
 
 def _against_target(motion: MotionEquations, t: float, y: Array, marker: int, rows: list[int]) -> Array:
@@ -65,13 +69,27 @@ def _against_target(motion: MotionEquations, t: float, y: Array, marker: int, ro
     return G
 
 
-def _turn(motion: MotionEquations, t: float, y: Array, marker: int, P: Array) -> None:
-    """Turn the body of a marker about its point, in place, so that its axes A become A P."""
+def _turn(motion: MotionEquations, t: float, y: Array, marker: int, P: Array, others: Iterable[int] = ()) -> None:
+    """Turn the body of a marker about its point, in place, so that its axes A become A P; the others with it."""
     motion.evaluate(t, y)
-    markers, body = motion.system.record.markers, int(motion.system.record.markers.body[marker])
-    if body >= motion.system.body_count:
+    record, count = motion.system.record, motion.system.body_count
+    body = int(record.markers.body[marker])
+    if body >= count:
         return
-    A, r = markers.A[marker].copy(), markers.r[marker].copy()
-    turned = A @ P @ markers.frame_b[marker].T
-    y[7 * body : 7 * body + 3] = r - turned @ markers.position_b[marker]
-    y[7 * body + 3 : 7 * body + 7] = euler_parameters_from_matrix(turned)
+    A, r = record.markers.A[marker].copy(), record.markers.r[marker].copy()
+    T, axes = A @ P @ A.T, record.bodies.A[:count].copy()
+    for b in {body, *others}:
+        place = y[7 * b : 7 * b + 3]
+        place[:] = r + T @ (place - r)
+        y[7 * b + 3 : 7 * b + 7] = euler_parameters_from_matrix(T @ axes[b])
+
+
+def _held_together(machine: MachineRecord, motion: MotionEquations, body: int) -> set[int]:
+    """The bodies that joints join to one, directly or by way of others."""
+    number = {name: k for k, name in enumerate(motion.system.bodies)}
+    joined = [{number[name] for name in bodies_of(machine, joint) if name in number} for joint in machine.joints]
+    found, before = {body}, set[int]()
+    while found != before:
+        before = set(found)
+        found |= set[int]().union(*(each for each in joined if each & found))
+    return found

@@ -22,7 +22,10 @@ CASES = {
     "absolute": ("four-bar.yaml", {"coordinates": "absolute"}),
     "friction": ("friction-brake.yaml", {}),
 }
-BEAMS = pytest.param("beams/slider-crank.yaml", {}, marks=pytest.mark.full, id="beams")
+DEAR = [
+    pytest.param("beams/slider-crank.yaml", {}, marks=pytest.mark.full, id="beams"),
+    pytest.param("control/servo-axis.yaml", {"duration": 0.3}, marks=pytest.mark.full, id="control"),
+]
 
 pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler")
 
@@ -32,7 +35,7 @@ def build(folder, *targets):
     return folder
 
 
-@pytest.mark.parametrize(("file", "settings"), [*(pytest.param(*case, id=name) for name, case in CASES.items()), BEAMS])
+@pytest.mark.parametrize(("file", "settings"), [*(pytest.param(*case, id=name) for name, case in CASES.items()), *DEAR])
 def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
     machine = nivel.load(EXAMPLES / file).with_settings(settings)
     written = machine.export_c(tmp_path / "c")

@@ -5,8 +5,9 @@ import pytest
 
 from models import bar, block, needs
 from nivel.flexible.free_body import FreeBody
-from nivel.flexible.invariants import invariants, of_points, tilde
+from nivel.flexible.invariants import of_points, tilde
 from nivel.flexible.mass import PointMass, lumped
+from nivel.flexible.mass_invariants import invariants
 from nivel.flexible.model_file import parse_model
 from nivel.flexible.reference import (
     direct_mass_matrix,

@@ -11,7 +11,8 @@ from nivel.flexible.bases import Basis
 from nivel.flexible.body import MeshError
 from nivel.flexible.factor import Whole
 from nivel.flexible.free_body import FreeBody
-from nivel.flexible.invariants import Invariants, invariants
+from nivel.flexible.invariants import Invariants
+from nivel.flexible.mass_invariants import invariants
 from nivel.flexible.model import AXES, Array
 from nivel.flexible.orthonormal import Orthonormal
 from nivel.flexible.ties import Attachment

@@ -17,9 +17,9 @@ from nivel.flexible.factor import NoStiffnessError, Whole
 from nivel.flexible.findings import Findings, findings_of
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.given_modes import given_modes
-from nivel.flexible.invariants import invariants
 from nivel.flexible.left_out import LeftOut, beside_kept, left_out
 from nivel.flexible.mass import lumped
+from nivel.flexible.mass_invariants import invariants
 from nivel.flexible.mesh_error import mesh_error
 from nivel.flexible.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model_file import Located, read_model

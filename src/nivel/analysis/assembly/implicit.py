@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import qr
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknown_groups import frictions_with_stiction, integrals, unknown_groups
@@ -134,6 +133,8 @@ def with_residual(
 
 def _independent(C_q: Array, rank: int) -> Index:
     """Numbers of `rank` independent rows, in units of their scales. Of a row that joints of a tree hold already round-off is left."""
+    from scipy.linalg import qr  # takes a tenth of a second to import
+
     lengths = np.linalg.norm(C_q, axis=1, keepdims=True)
     unit = np.where(lengths > NOTHING * lengths.max(), C_q / np.maximum(lengths, 1e-300), 0.0)
     pivoted: Any = qr(unit.T, mode="economic", pivoting=True)

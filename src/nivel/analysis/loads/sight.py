@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from nivel.analysis.loads.path import Steps
 from nivel.integrate.catalogue import IntegratorFacts
@@ -48,6 +47,8 @@ def _through(values: Array, count: int) -> Array:
 
 def _over_steps(values: Array, steps: Steps) -> Array:
     """A spline through the ends of all steps, straight lines where these miss less of the integral."""
+    from scipy.interpolate import CubicSpline  # takes a quarter of a second to import
+
     straight = _through(values, ENDS)
     follow = np.allclose(steps.begin[1:], steps.begin[:-1] + steps.length[:-1], rtol=1e-9, atol=0.0)
     if len(steps.begin) < LEAST_STEPS or not follow:

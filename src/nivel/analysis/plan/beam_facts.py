@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
@@ -65,6 +64,8 @@ def fastest_frequency(beam: Beam, section: BeamSection) -> float:
 
     The frequencies of a structure lie below the highest one of its elements (Irons, Treharne 1971).
     """
+    from scipy.linalg import eigh  # takes a tenth of a second to import
+
     if beam.has_gradients:
         return fastest_of_gradients(beam)
     if beam.model == "segments":

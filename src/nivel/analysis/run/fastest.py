@@ -13,7 +13,6 @@ from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eig
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.plan.settings import RunSettings
@@ -84,6 +83,8 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
         A[:, k] = (ends[0] - ends[1])[:count] / (2.0 * steps[k])
     if not np.isfinite(A).all():
         return None
+    from scipy.linalg import eig  # takes a tenth of a second to import
+
     rates, left, right = cast(tuple[Vectors, Vectors, Vectors], eig(A, left=True))
     k = int(np.argmax(np.abs(rates)))
     if not np.abs(rates[k]) > 0.0:

@@ -67,19 +67,22 @@ def passages(prepared: Prepared, result: Result) -> Iterator[Passage]:
 
 def _minima(places: NDArray[np.float64], value: Callable[[float], float]) -> Iterator[tuple[float, float]]:
     """Places of the minima of a function that are as good as zero against its middle value, and that share."""
-    from scipy.optimize import minimize_scalar  # takes a fifth of a second to import
-
     found = np.array([value(at) for at in places])
     middle = float(np.median(found))
     for k in range(1, len(found) - 1):
         if not (found[k] <= found[k - 1] and found[k] < found[k + 1] and found[k] < LOW * middle):
             continue
-        # a cusp, not a smooth minimum: each side by itself
-        closest = minimize_scalar(
-            value, bounds=(places[k - 1], places[k + 1]), method="bounded", options={"xatol": 1e-6}
-        )
-        if closest.fun < SINGULAR * middle:
-            yield float(closest.x), float(closest.fun / middle)
+        at, least = _least(value, (places[k - 1], places[k + 1]))
+        if least < SINGULAR * middle:
+            yield at, least / middle
+
+
+def _least(value: Callable[[float], float], bounds: tuple[float, float]) -> tuple[float, float]:
+    """The place between the bounds where a function with a cusp is least, and its value there."""
+    from scipy.optimize import minimize_scalar  # takes a fifth of a second to import
+
+    found = minimize_scalar(value, bounds=bounds, method="bounded", options={"xatol": 1e-6})
+    return float(found.x), float(found.fun)
 
 
 def _continuous(theta: Array) -> Array:

@@ -16,10 +16,10 @@ from nivel.motion.flexible_unit_efforts import answer_flexible, project_flexible
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.motion.unit_efforts import answer_unit_efforts
 from nivel.native.entry import entry
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
 
 
-@stage
+@leaf
 def prepare_flexible(machine, number, s):
     """Factors `number` for s, and those of the tree. Returns a status."""
     status = factorise_shifted_modes(machine, s)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from nivel.machine.orientation import euler_parameters_from_matrix
 from nivel.system.rails import between, element_of
 from nivel.system.system import Array
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicHermiteSpline
 
 MOST = 50  # iterations
 CLOSE = 1e-14  # of the length of the beam
@@ -62,6 +65,8 @@ def slider_start(kind: str, pose: tuple[Array, Array, Array, Array], rail: Rail)
 
 def _line(rail: Rail, e: int, *, rates: bool = False) -> CubicHermiteSpline:
     """The line between the nodes e and e + 1, or its rates at fixed places."""
+    from scipy.interpolate import CubicHermiteSpline  # takes a quarter of a second to import
+
     ends = slice(e, e + 2)
     if rates:
         return CubicHermiteSpline(

@@ -398,3 +398,42 @@ def test_a_result_that_claims_more_frames_than_it_holds_is_refused(tmp_path):
             file[name].resize(100_000_000, axis=0)
     with pytest.raises(ModelError, match="claims"):
         Result.open(original)
+
+
+def write_ten_frames(path):
+    store = Store(path)
+    store.begin(pendulum.header())
+    store.take(pendulum.frames(TIME[:10]))
+    store.close({})
+
+
+def test_final_forms_left_behind_by_killed_writers_are_removed(tmp_path):
+    """One of a process that runs, and one that is young, stay."""
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    old, young, running = (tmp_path / f".run.nc.{name}.part" for name in (ended.pid, f"a.{ended.pid}", os.getppid()))
+    for path in (old, young, running):
+        path.write_bytes(b"")
+    for path in (old, running):
+        os.utime(path, (0, 0))
+    write_ten_frames(tmp_path / "run.nc")
+    assert not old.exists()
+    assert young.exists()
+    assert running.exists()
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "said"),
+    [
+        ("scene", {"bodies": 3}, "`scene`: bodies is int"),
+        ("machine_record", [], "`machine_record`: it is list"),
+        ("timing", {"steps": "many"}, "`timing`: steps is str"),
+    ],
+)
+def test_json_of_another_form_is_damage(attribute, value, said, tmp_path):
+    path = tmp_path / "run.nc"
+    write_ten_frames(path)
+    with h5py.File(path, "r+") as file:
+        file.attrs[attribute] = json.dumps(value)
+    with pytest.raises(ModelError, match=said):
+        Result.open(path)

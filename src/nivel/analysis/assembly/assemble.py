@@ -69,10 +69,8 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     told = max(ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0)))
     velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)
     changed = {name for name, _, _ in velocity_change}
-    free = ~given_velocities(machine).any(axis=1)
-    followed = tuple(
-        body.name for body, none in zip(machine.bodies, free, strict=True) if none and body.name in changed
-    )
+    kept = given_velocities(machine)
+    followed = tuple(b.name for k, b in enumerate(machine.bodies) if b.name in changed and not kept[k].any())
     reference = system.record.coordinates.reference.copy()
     return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change, followed)
 

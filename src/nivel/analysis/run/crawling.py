@@ -75,7 +75,7 @@ def jump_advice(jumping: tuple[str, ...]) -> str:
     """What to do about functions that jump."""
     few = " and ".join(jumping[:3])
     return (
-        f"{few} {'jumps' if len(jumping) == 1 else 'jump'}: where that brings the motion to rest it turns round in every step. "
+        f"{few} {'jumps' if len(jumping) == 1 else 'jump'}: where it brings the motion to rest it turns round in every step. "
         f"Dry friction is a force `type: friction` with `model: stiction`, which stands still. Else let it pass smoothly, "
         f"tanh(v/(1 mm/s)) in place of sign(v), or take a fixed step."
     )

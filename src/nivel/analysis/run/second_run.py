@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil, gcd, lcm
 
+from nivel.analysis.loads.corners import corners
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
@@ -27,6 +28,8 @@ from nivel.wording import seconds
 FINER, LEAST_STEPS = 1.6, 3
 # Where states change at given times, some of these many steps, at most, fill the time between two of them.
 MOST_OF_SAMPLES = 12
+# Corners meet the ends of steps where they are this near to them, as a share of the time.
+NEAR = 1e-9
 # Steps of the second run in one of the first where every frame is compared.
 FINEST = 5
 # of the tolerance, where steps are chosen
@@ -80,6 +83,22 @@ def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
     return Refinement(finer, f"steps of {seconds(step)}", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
 
 
+def _steps_to_meet(plan: Plan) -> int:
+    """Whole numbers of so many fixed steps lie between times that the second run's steps have to meet too; 0: there are none.
+
+    These are samples; and corners of functions of time, where the first run's steps meet all of them and it can be had: else the second one
+    has an error at them that the first has not, by which the two may agree.
+    """
+    step = plan.settings.step
+    samples = gcd(*(round(time / step) for _, time in sampled_times(plan.machine)))
+    found = [time / step for time in corners(plan.machine)] if plan.settings.steps else []
+    counts = [round(each) for each in found]
+    if not found or any(abs(each - count) > NEAR * count for each, count in zip(found, counts, strict=True)):
+        return samples
+    both = gcd(samples, *counts)
+    return both if samples or steps_between(both) >= LEAST_STEPS else 0
+
+
 def subdivision(settings: RunSettings, between_samples: int) -> tuple[int, int]:
     """So many steps of the first run take as long as so many of the second one; there frames of both can be compared.
 
@@ -115,8 +134,7 @@ class SecondRun:
     """
 
     def __init__(self, plan: Plan, limit: float | None) -> None:
-        counts = [round(time / plan.settings.step) for _, time in sampled_times(plan.machine)]
-        self.refinement = refine(plan.settings, gcd(*counts))
+        self.refinement = refine(plan.settings, _steps_to_meet(plan))
         self.leader = Leader()
         self._plan, self._limit = plan, limit
         self._sink = Memory()

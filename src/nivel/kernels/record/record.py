@@ -81,7 +81,7 @@ class Coordinates(NamedTuple):
     start: U1  # (Q + 1,) first part of each, and behind the last
     part_marker: U1  # of each part
     station: (
-        F1  # of each part: [m] of a node of a beam its place along the unstressed line; of a wheel its two radii; of a driven turn its numbers
+        F1  # of each part: [m] place of a node along its unstressed beam, or radii of a wheel; numbers of a driven turn
     )
     followed: (
         U1  # those that are measured at every accepted state: angles, to count their turns, and places along beams

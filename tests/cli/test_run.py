@@ -353,7 +353,10 @@ simulation: {duration: 100 ms, step: 0.5 ms, output_interval: 1 ms}
 
 def test_many_moved_bodies_are_one_line_with_the_reason(folder):
     rods = "".join(f"  bar_{k}: {{mass: 1, inertia: [0.001, 0.08, 0.08], position: [0.5, {k}, 0]}}\n" for k in range(5))
-    hinge = "{type: revolute, bodies: [ground, bar_%d], point: [0, %d, 0], axis: [0, 0, 1], start: {angle: %d deg}, start_rates: {angle: 1}}"
+    hinge = (
+        "{type: revolute, bodies: [ground, bar_%d], point: [0, %d, 0], axis: [0, 0, 1], "
+        "start: {angle: %d deg}, start_rates: {angle: 1}}"
+    )
     joints = "".join(f"  hinge_{k}: {hinge % (k, k, 10 * k + 10)}\n" for k in range(5))
     text = f"format: 1\nbodies:\n{rods}joints:\n{joints}simulation: {{duration: 0.01, step: 1 ms}}\n"
     (folder / "bars.yaml").write_text(text, encoding="utf-8")

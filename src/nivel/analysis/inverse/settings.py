@@ -52,7 +52,10 @@ def inverse_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Invers
     actuators = [each for each in (_actuator(machine, motors, name, faults) for name in names) if each is not None]
     if not names and not faults:
         faults.append(
-            _fault("actuators", "the machine has no motors and no drivers: name coordinates with `actuators`")
+            _fault(
+                "actuators",
+                "the machine has no motors and no drivers: name joint coordinates that act, as `--actuators hinge.angle`",
+            )
         )
     limits, weights = _numbers("limits", given, actuators, faults), _numbers("weights", given, actuators, faults)
     bounds = np.array([_limit(each, motors, limits) for each in actuators])

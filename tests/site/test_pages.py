@@ -1,5 +1,6 @@
 """The pages of the documentation: their machines work, their Python runs, their links lead somewhere, their words are standard ones."""
 
+import importlib
 import os
 import re
 import shutil
@@ -135,8 +136,7 @@ def test_the_site_builds_without_warnings(tmp_path):
 def test_every_example_has_a_picture_in_the_gallery(monkeypatch):
     pytest.importorskip("gmsh")
     monkeypatch.syspath_prepend(str(DOCS / "site"))
-    import gallery
-
+    gallery = importlib.import_module("gallery")
     page, drawn = gallery.gallery(True)
     assert len(drawn) == len(gallery.examples()) == page.count("![")
     assert all("<path" in svg or "<line" in svg or "<poly" in svg for svg in drawn.values())

@@ -54,8 +54,8 @@ def inverse_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Invers
         faults.append(
             _fault(
                 "actuators",
-                "the machine has no motors and no drivers of joint coordinates: name coordinates with `actuators`; "
-                "efforts of drivers of markers are in the result of `kinematics`",
+                "the machine has no motors and no drivers of joint coordinates: name joint coordinates that act, as in "
+                "`--actuators hinge.angle`; efforts of drivers of markers are in the result of `kinematics`",
             )
         )
     limits, weights = _numbers("limits", given, actuators, faults), _numbers("weights", given, actuators, faults)

@@ -108,7 +108,7 @@ def _from_table(path: Path) -> tuple[Label, ...]:
 def _each_once(labels: list[Label]) -> tuple[Label, ...]:
     if len(set(labels)) != len(labels):
         double = next(label for k, label in enumerate(labels) if label in labels[:k])
-        raise FormatError(f"the degree of freedom {double[0]}.{double[1]} is twice in the table `freedoms`")
+        raise FormatError(f"the degree of freedom {double[0]}.{double[1]} stands twice in the table `freedoms`")
     if not labels:
         raise FormatError("the table `freedoms` is empty")
     return tuple(labels)

@@ -54,7 +54,9 @@ def test_every_machine_is_here():
 def test_example_runs_green(folder, name):
     result = machine(folder, name).simulate(out=folder / f"{name}-run.nc", force=True)
     assert result.outcome == "done"
-    assert result.trust.verdict == "green", result
+    # the quick test's boom has elements of four times the length, and the run says so
+    told = {item.name for item in result.trust.items if item.verdict != "green"}
+    assert told == ({"mesh"} if name == "crane" else set()), result
     if name == "lever-spring":  # matrices alone know no elements, so no stress
         with pytest.raises(nivel.ModelError, match="knows no stress"):
             result.recover().hot_spots()

@@ -80,7 +80,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         event_values=np.zeros((2, 0)),
         samples=np.zeros(0, dtype=np.int64),
         corners=np.zeros(0),
-        pace=np.full((4, names.PARTS), np.inf),
+        pace=np.full((5, names.PARTS), np.inf),
         events=np.zeros((0, 3)),
     )
     machine, history = resting(), Handle(run)

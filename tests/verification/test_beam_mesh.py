@@ -4,7 +4,7 @@ deflection."""
 import numpy as np
 import pytest
 
-from nivel.results.trust.beam_mesh import turns
+from nivel.results.trust.beam_mesh import BeamMesh, coarsest, turns
 from simulating import machine
 
 LENGTH, EI, LOAD = 1.0, 2.07e11 * 0.01**4 / 12, 0.5
@@ -42,6 +42,40 @@ def test_missed_energy_of_a_cantilever_is_that_of_its_curvature():
     deflection = LOAD * LENGTH**3 / (3.0 * EI)
     short = 1.0 - result.array("rod.end.position")[-1, 1] / deflection
     assert short == pytest.approx(1.0 / (4 * n**2), rel=2e-2)
+
+
+def test_one_linear_element_lacks_a_third_of_its_energy():
+    """A curvature that falls to nothing along the element, and the constant one that it has: 1/3 to 1/4."""
+    result = bent(1)
+    assert (line(result).verdict, line(result).fraction) == ("red", pytest.approx(1.0 / 3.0, rel=1e-2))
+    assert result.array("rod.end.position")[-1, 1] == pytest.approx(0.75 * LOAD * LENGTH**3 / (3.0 * EI), rel=1e-2)
+
+
+def test_quadratic_elements_are_told_by_how_the_slope_of_curvature_changes():
+    """An even load w on a cantilever of n elements: κ'' = w/(E I), so w² L⁵/(1440 n⁴ E I) is missed of w² L⁵/(40 E I)."""
+    n = 3
+    places = np.linspace(0.0, LENGTH, 2 * n + 1)
+    angles = 1e-3 * (LENGTH**3 - (LENGTH - places) ** 3) / 6.0
+    theta = np.zeros((1, 2 * n + 1, 4))
+    theta[0, :, 0], theta[0, :, 3] = np.cos(angles / 2), np.sin(angles / 2)
+    names = tuple(f"n{k}" for k in range(2 * n + 1))
+    beam = BeamMesh("rod", names, np.diff(places), np.full(3, EI), np.zeros((2 * n, 3)), 2)
+    found = coarsest(Frames(theta, names), [beam])
+    assert (found.elements, found.order) == (n, 2)
+    assert found.share == pytest.approx(1.0 / (36.0 * n**4), rel=0.03)
+
+
+class Frames:
+    """A result of one frame of these orientations, without energies."""
+
+    attributes = variables = {}  # noqa: RUF012
+    time = np.zeros(1)
+
+    def __init__(self, theta, names):
+        self.theta, self.coordinates = theta, {"body": names}
+
+    def array(self, _name, frames=slice(None)):
+        return self.theta[frames]
 
 
 def test_a_fine_mesh_and_quadratic_elements_have_no_such_line():

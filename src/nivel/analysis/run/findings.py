@@ -101,14 +101,14 @@ def _pairs(plan: Plan) -> list[Pair]:
 
 
 def _meshes(plan: Plan) -> list[BeamMesh]:
-    """The beams whose elements are linear."""
+    """The beams whose elements are linear or quadratic."""
     out = []
     for beam in plan.machine.beams:
-        if beam.order == 1 and beam.model != "ancf-cable":
+        if beam.order <= 2 and beam.model != "ancf-cable":
             axes = beam.frames(beam.shares)[1]
             theta = np.array([euler_parameters_from_matrix(each) for each in axes])
             length, stiffness = beam.line.length * np.diff(beam.shares), np.diag(beam.properties.stiffness)[3:]
-            out.append(BeamMesh(beam.name, beam.node_names, length, stiffness, turns(theta)))
+            out.append(BeamMesh(beam.name, beam.node_names, length, stiffness, turns(theta), beam.order))
     return out
 
 

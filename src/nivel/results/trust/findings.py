@@ -215,9 +215,10 @@ def _bent_item(found: Bent) -> Item:
 
 
 def _coarse_item(coarse: Coarse) -> Item:
+    advice = "take twice as many, or `order: 2`" if coarse.order == 1 else "take twice as many"
     said = (
         f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
-        f"t = {coarse.time:.6g} s, as curvatures change within them; take twice as many, or `order: 2`"
+        f"t = {coarse.time:.6g} s, as curvatures change within them; {advice}"
     )
     return _measured("mesh", said, coarse.share, coarse.time, coarse.beam)
 

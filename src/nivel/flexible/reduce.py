@@ -17,12 +17,13 @@ from nivel.flexible.factor import NoStiffnessError, Whole
 from nivel.flexible.findings import Findings, findings_of
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.given_modes import given_modes
-from nivel.flexible.left_out import LeftOut, beside_kept, left_out
+from nivel.flexible.left_out import LeftOut
 from nivel.flexible.mass import lumped
 from nivel.flexible.mass_invariants import invariants
 from nivel.flexible.mesh_error import mesh_error
 from nivel.flexible.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model_file import Located, read_model
+from nivel.flexible.next_modes import beside_kept, left_out
 from nivel.flexible.orthonormal import Orthonormal, held_at, orthonormal
 from nivel.flexible.source import source_model
 from nivel.flexible.stiffening import stiffening

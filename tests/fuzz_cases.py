@@ -6,6 +6,7 @@ import copy
 import json
 import random
 import re
+import warnings
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -21,6 +22,7 @@ from nivel.flexible.foreign.matrix import FormatError
 from nivel.flexible.foreign.mesh import read_mesh as read_element_mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
+from nivel.native import store
 from nivel.results import Result
 
 ROOT = Path(__file__).parent.parent
@@ -359,6 +361,22 @@ def result_attributes(rng: random.Random, folder: Path) -> Callable[[], object]:
     return read
 
 
+def cache_files(rng: random.Random, folder: Path) -> Callable[[], object]:
+    """An object file of the cache, damaged: what is read is what was written, or nothing."""
+    code = rng.randbytes(rng.randint(1, 300))
+    path = folder / "entry.o"
+    store.write(path, code)
+    path.write_bytes(rng.choice((_changed(rng, path.read_bytes()), path.read_bytes()[: rng.randrange(340)])))
+
+    def case() -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that it is damaged
+            assert store.read(path) in (None, code)
+        assert store.read(path) in (None, code)
+
+    return case
+
+
 def _entries(value: Any) -> Iterator[tuple[Any, Any]]:
     """Every container in a JSON value with each of its keys or numbers."""
     inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
@@ -386,5 +404,6 @@ KINDS = {
         models,
         result_files,
         result_attributes,
+        cache_files,
     )
 }

@@ -260,7 +260,7 @@ def test_what_would_have_no_effect_is_refused(asked, part):
 @pytest.mark.parametrize("axis", ["integrators", "formulations", "coordinates", "rotations", "stabilisations", "steps"])
 @pytest.mark.parametrize("values", [[], (), "", ["", "10 ms"]])
 def test_an_axis_that_is_given_and_empty_is_refused(axis, values):
-    with pytest.raises(ModelError, match=f"{axis}: nothing stands here"):
+    with pytest.raises(ModelError, match=f"{axis}: a value is missing"):
         pendulum().compare(**{axis: values})
 
 

@@ -1,4 +1,4 @@
-"""Velocities at the start: given ones are kept, the others follow with the least kinetic energy, and what cannot be had is said."""
+"""Velocities at the start: given ones are kept, the others follow with the least kinetic energy, and what cannot be reached is said."""
 
 import numpy as np
 import pytest
@@ -104,5 +104,5 @@ def test_rates_that_contradict_a_given_velocity_are_kept_and_the_velocity_yields
 def test_rates_that_cannot_be_had_are_still_refused():
     fixed = chain(", start_rates: {angle: 5}", ("", "", ""))
     locked = fixed.replace(joints=(*fixed.joints, fixed.joints[0].replace(name="again", start_rates={"angle": 1.0})))
-    with pytest.raises(ModelError, match="cannot be had"):
+    with pytest.raises(ModelError, match="cannot be reached"):
         turning(locked)

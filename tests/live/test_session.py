@@ -278,14 +278,14 @@ def test_a_run_that_fails_says_why_and_its_replay_fails_as_it_did():
             operate(session, [1.0, 1.0], 0.05)
         assert session.mode == "failed"
         until(lambda: session.problem)
-        assert "is no longer a number" in session.problem
+        assert "drive is not a number" in session.problem
         assert "go back to the start" in session.command("run")
         at = float(session.live.control[DONE]) * session.pace.tick
         assert session.command("reset") == ""
         assert session.mode == "paused"
         take = session.takes[0]
     assert take.ticks * session.pace.tick == pytest.approx(at)
-    with pytest.raises(SolveError, match="is no longer a number") as failure:
+    with pytest.raises(SolveError, match="drive is not a number") as failure:
         replay(Recording(session.plan.machine, "", {}, session.pace, (take,)), take)
     assert failure.value.result.array("rail.displacement")[-1] < 0.2
 

@@ -19,6 +19,8 @@ from nivel.system.system import Array, System
 
 # Given velocities are changed so much less willingly than others, and only where they do not fit.
 RELUCTANT = 1e-3
+# Weights of bodies count up to this one: least squares take smaller shares for round-off.
+MOST_WEIGHT = 1e3
 # The second solution takes the round-off of the first one away.
 SOLUTIONS = 2
 # Changes below this share of the largest velocity are round-off.
@@ -74,7 +76,7 @@ def _ways(machine: MachineRecord, system: System, wishes: Wishes) -> tuple[Array
     """(B, 6, 6) changes of velocities for numbers of equal cost: first where given ones are kept, then, if any is, where they are not."""
     given = given_velocities(machine)
     free = _whitened(system, ~np.repeat(given, 3, axis=1))
-    reluctant = np.repeat(given, 3, axis=1) * (RELUCTANT / wishes.weight[:, None])
+    reluctant = np.repeat(given, 3, axis=1) * (RELUCTANT / np.minimum(wishes.weight, MOST_WEIGHT)[:, None])
     return (free, free + reluctant[:, :, None] * np.eye(6)) if given.any() else (free,)
 
 

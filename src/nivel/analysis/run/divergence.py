@@ -41,7 +41,7 @@ def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) ->
     )
     stiff, over = ("damper", "decays") if decays else ("spring", "vibrations")
     advice = (
-        f"Try --step {step / 10:.3g}, or shorter the stiffer the {stiff} or the lighter what it moves; or a method that steps over fast "
+        f"Try --step {step / 10:.3g}, and less for a stiffer {stiff} or a lighter body; or a method that steps over fast "
         f"{over}: radau, generalised-alpha, or ros2 with --coordinates relative."
     )
     return message, advice

@@ -12,6 +12,7 @@ from nivel.analysis.run.preparation import Prepared
 from nivel.flexible.body import Interface
 from nivel.results.trust.basis import Basis, Held
 from nivel.results.trust.bending import ModalBody
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import Bending, bending_bodies
 from nivel.system.joint_frames import joint_frames
 from nivel.system.system import Array
@@ -74,10 +75,11 @@ def _nearest(interfaces: tuple[Interface, ...] | list[Interface], place: Array) 
 
 def _held(plan: Plan, body: ModalBody, interfaces: list[Interface]) -> Iterator[Held]:
     """The joints at these interfaces whose reactions on the body are known."""
+    machine = with_nodes(plan.machine)
     for joint in plan.machine.joints:
-        if any(beam.name in (joint.bodies or ()) for beam in plan.machine.beams):
-            continue
-        for k, (name, point, _) in enumerate(joint_frames(plan.machine, joint)):
+        if any(beam.name in (joint.bodies or ()) for beam in machine.beams):
+            continue  # it slides along the beam
+        for k, (name, point, _) in enumerate(joint_frames(machine, joint)):
             at = _nearest(interfaces, point)
             there = np.linalg.norm(interfaces[at].position - point) < NEAR * body.extent
             if name == body.name and there and (k == 0 or joint.type in ONE_POINT):

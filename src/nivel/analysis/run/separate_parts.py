@@ -7,8 +7,6 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
@@ -46,16 +44,12 @@ def _part(machine: MachineRecord, names: list[str]) -> Part:
 
 def _joined(names: list[str], joined: Iterable[set[str]]) -> list[list[str]]:
     """The names in groups: those of a set in one."""
-    place = {name: k for k, name in enumerate(names)}
-    pairs = [(place[a], place[b]) for a, *others in (sorted(each) for each in joined if each) for b in others]
-    graph = coo_array(
-        (np.ones(len(pairs)), tuple(np.array(pairs, dtype=int).reshape(-1, 2).T)), (len(names), len(names))
-    )
-    count, label = connected_components(graph, directed=False)
-    groups: list[list[str]] = [[] for _ in range(count)]
-    for name, k in zip(names, label.tolist(), strict=True):
-        groups[k].append(name)
-    return groups
+    group = {name: {name} for name in names}
+    for each in joined:
+        whole = set().union(*(group[name] for name in each))
+        group.update(dict.fromkeys(whole, whole))
+    firsts = {id(whole): whole for whole in group.values()}
+    return [[name for name in names if name in whole] for whole in firsts.values()]
 
 
 def _bodies_of(machine: MachineRecord, name: str, words: Mapping[str, set[str]]) -> set[str]:

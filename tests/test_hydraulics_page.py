@@ -49,7 +49,13 @@ def test_the_boom_of_the_crane_bends_by_one_word(tmp_path):
     folder = tmp_path / "hydraulics"
     shutil.copytree(ROOT / "examples" / "hydraulics", folder, ignore=shutil.ignore_patterns("*.nc"))
     write_body(reduce(folder / "booms" / "boom.yaml").body, folder / "booms" / "boom.nc")
-    settings = {"coordinates": "relative", "integrator": "radau", "tolerance": 1e-4, "duration": 0.19}
+    settings = {
+        "coordinates": "relative",
+        "integrator": "radau",
+        "tolerance": 1e-5,
+        "duration": 0.1,
+        "start": "equilibrium",
+    }
     stiff, bent = (
         nivel.load(folder / "loader-crane.yaml", {"include": f"booms/{word}.yaml"}).simulate(**settings)
         for word in ("rigid", "flexible")
@@ -57,4 +63,4 @@ def test_the_boom_of_the_crane_bends_by_one_word(tmp_path):
     assert bent.trust.verdict == "green"
     pressures = [float(np.mean(each.array("hydraulics.lift.pressure_A"))) for each in (stiff, bent)]
     assert pressures[1] == pytest.approx(pressures[0], rel=0.03)
-    assert np.ptp(bent.array("modal_coordinate")[:, 0]) > 0.0
+    assert np.all(bent.array("modal_coordinate")[:, 0] != 0.0)

@@ -182,6 +182,7 @@ def test_runs_that_an_event_ended_are_told():
     assert "the run was ended by the event centre, at 0.25 s" in str(alone)
 
 
+@pytest.mark.full
 def test_without_a_reference_the_other_numbers_stay():
     """A force that stops being a number ends every run."""
     burst = machine(

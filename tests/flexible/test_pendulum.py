@@ -68,6 +68,7 @@ def test_tip_of_the_stiffened_pendulum_is_within_a_millimetre_and_a_half(body):
     assert deflection == pytest.approx(0.0175, abs=1e-3)
 
 
+@pytest.mark.full
 def test_without_geometric_stiffness_it_is_worse(body):
     """Theory: about 4 mm at the tip and out of phase; so the terms have the right sign and size."""
     with_it, without = (np.linalg.norm(swing(body, stiffened=each)[0] - TIPS, axis=1).max() for each in (True, False))

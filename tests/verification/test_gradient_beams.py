@@ -415,8 +415,9 @@ def pendulum(model, elements, step):
 
 @pytest.mark.parametrize(
     ("model", "step", "within"),
-    [("ancf-cable", 2.5e-4, 4e-5), pytest.param("ancf-beam", 1e-3, 8e-4, marks=pytest.mark.full)],
+    [("ancf-cable", 2.5e-4, 4e-5), ("ancf-beam", 1e-3, 8e-4)],
 )
+@pytest.mark.full
 def test_flexible_pendulum_is_that_of_another_code(model, step, within):
     result = pendulum(model, 16, step)
     reference = np.array(TIP)

@@ -116,6 +116,7 @@ def test_tension_at_the_top_is_the_reaction_of_the_eye(run):
     assert tension[largest] == pytest.approx(eye[largest], rel=0.02)
 
 
+@pytest.mark.full
 def test_telescopic_boom_is_the_same_whether_its_pads_are_kept_or_eliminated():
     """Over the first nodes that the pads pass; places differ by the error of the step."""
     boom = nivel.load(EXAMPLES / "telescopic-boom.yaml")

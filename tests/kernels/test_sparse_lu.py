@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numba import njit, types
 
+from lanes import tail
 from nivel.kernels.algebra.sparse_lu import SparseLU, factorise_sparse_lu, solve_sparse_lu
 from nivel.native.function import OPTIONS
 from nivel.native.with_numba.kinds import record_type
@@ -23,7 +24,7 @@ def assert_solves(A, x, b):
 
 @pytest.mark.parametrize("early", [False, True])
 @pytest.mark.parametrize("dtype", DTYPES)
-@pytest.mark.parametrize("seed", range(25))
+@pytest.mark.parametrize("seed", tail(range(25), range(8)))
 def test_random_machines_are_solved(seed, dtype, early):
     rng = np.random.default_rng(seed)
     machine = random_linkage(rng)

@@ -35,6 +35,7 @@ def browser():
         yield running
 
 
+@pytest.mark.full
 def test_keys_and_a_gamepad_move_the_machine_and_gauges_follow(live, browser):
     session, viewing = live
     with watched(browser) as seen:

@@ -145,6 +145,7 @@ def test_an_export_is_one_file_and_is_not_replaced_unasked(stored, tmp_path):
     assert view(tmp_path, stored, stored, "--export", "scene.html", "--force", "--quiet").stderr == ""
 
 
+@pytest.mark.full
 @with_browser
 def test_a_still_and_a_film_from_the_command_line(stored, tmp_path):
     done = view_in_a_process(

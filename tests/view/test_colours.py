@@ -8,7 +8,6 @@ import pytest
 
 import nivel
 from browsing import chromium, drawn, watched
-from lanes import tail
 from models import bar, reduced
 from nivel.errors import ModelError
 from nivel.flexible.body_file import write_body
@@ -117,7 +116,8 @@ def rounding(result, name, quantity):
     return float(np.linalg.norm(np.abs(stiffness[rows]) @ step))
 
 
-@pytest.mark.parametrize("frame", tail([3, 20], [3]))
+@pytest.mark.full
+@pytest.mark.parametrize("frame", [3, 20])
 def test_beams_show_what_their_sections_feel(beams, browser, tmp_path, frame):
     file = write_scene([beams], tmp_path / "scene.html")
     with watched(browser) as seen:

@@ -68,6 +68,7 @@ def test_examples_of_flexible_bodies_play_and_scrub(name, folder, browser, tmp_p
     assert_plays_and_scrubs(browser, result, tmp_path / "scene.html")
 
 
+@pytest.mark.full
 def test_a_path_of_equilibria_says_its_load_and_not_a_time(browser, tmp_path):
     path = nivel.load(EXAMPLES / "toggle.yaml").statics(duration=1, step=0.05, arc_length=True)
     assert_plays_and_scrubs(browser, path, tmp_path / "scene.html")

@@ -11,6 +11,7 @@ from scipy.linalg import eigh
 from scipy.optimize import minimize_scalar
 
 import nivel
+from lanes import tail
 from models import bar, needs, reduced
 from nivel.flexible.body_file import write_body
 from nivel.flexible.reduce import reduce
@@ -50,7 +51,7 @@ def test_every_machine_is_here():
     assert found == set(MACHINES)
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize("name", tail(MACHINES, ["pendulum", "spinning-blade", "lever-spring"]))
 def test_example_runs_green(folder, name):
     result = machine(folder, name).simulate(out=folder / f"{name}-run.nc", force=True)
     assert result.outcome == "done"

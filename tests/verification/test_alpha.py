@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import machines
+from lanes import tail
 from nivel.errors import ModelError
 from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, Table
 from references import four_bar, heavy_top, slider_crank
@@ -255,7 +256,7 @@ def test_chunks_do_not_change_the_result():
         assert np.array_equal(whole.frames, parts.frames)
 
 
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("tolerance", tail([1e-3, 1e-4, 1e-5], [1e-3]))
 @pytest.mark.parametrize("integrator", SECOND_ORDER)
 def test_chosen_steps_meet_the_tolerance(integrator, tolerance):
     r = run(

@@ -8,7 +8,7 @@ from typing import Any, Final
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.coordinate_uses import coordinate_faults
 from nivel.machine.forces import Contact
-from nivel.machine.forces.contact import SHAPES_ON_PLANE
+from nivel.machine.forces.contact import HULLS, SHAPES_ON_PLANE
 from nivel.machine.hydraulic_uses import hydraulic_faults
 from nivel.machine.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.joint import JOINT_KINDS
@@ -130,8 +130,7 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
 def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
     body, plane = entry(contact, "body"), entry(contact, "plane")
     yield from _of_shape(body, index, SHAPES_ON_PLANE, (*place, "body"))
-    for at, sphere in enumerate(as_list(entry(contact, "bodies"))):
-        yield from _of_shape(sphere, index, ("sphere",), (*place, "bodies", at))
+    yield from _of_touching_pair(contact, index, place)
     yield from _of_end(plane, index, (*place, "plane"))
     if isinstance(body, str) and index.body_of(plane) == body:
         yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
@@ -139,6 +138,27 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
     if entry(contact, "materials") is not None and shape in SHAPES_ON_PLANE and shape != "sphere":
         message = f"`materials` give the stiffness of spheres (Hertz); the shape of `{body}` is `{shape}`: give its `stiffness`"
         yield (*place, "materials"), message
+
+
+def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
+    """Two spheres, or two hulls: what the first is, the second must be."""
+    pair = as_list(entry(contact, "bodies"))
+    shapes = [index.bodies.get(body, "") if isinstance(body, str) else "" for body in pair]
+    hulls = any(each in HULLS for each in shapes)
+    known = hulls or "sphere" in shapes
+    allowed = HULLS if hulls else ("sphere",) if known else ("sphere", *HULLS)
+    for at, name in enumerate(pair):
+        yield from _of_shape(name, index, allowed, (*place, "bodies", at))
+    if hulls and all(each in HULLS for each in shapes):
+        for key in ("stiffness", "materials", "law"):
+            if entry(contact, key) is not None:
+                message = f"`{key}` is not for two of {', '.join(HULLS)}: give `foundation_modulus: 1e10 N/m^3`, pressure by depth"
+                yield (*place, key), message
+    elif pair and known and entry(contact, "foundation_modulus") is not None:
+        yield (
+            (*place, "foundation_modulus"),
+            f"is not for spheres, but for the shapes {', '.join(HULLS)}: give `stiffness`",
+        )
 
 
 def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -> Faults:

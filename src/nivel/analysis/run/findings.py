@@ -93,7 +93,8 @@ def _pairs(plan: Plan) -> list[Pair]:
     for force in plan.machine.forces:
         if isinstance(force, Contact) and force.bodies is not None:
             spheres = [bodies[name].shape for name in force.bodies]
-            assert all(isinstance(each, Sphere) for each in spheres)  # the record was checked
+            if not all(isinstance(each, Sphere) for each in spheres):
+                continue
             first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
             reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
             out.append(Pair(force.name, force.bodies, (first, second), reach))

@@ -1,4 +1,4 @@
-"""Contact of a body with a plane, or of two spheres."""
+"""Contact of a body with a plane, of two spheres, or of two convex hulls."""
 
 from __future__ import annotations
 
@@ -8,7 +8,15 @@ from typing import ClassVar, Final, Literal
 from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import Exponent, NotNegativeNumber, PoissonRatio, PositiveSpeed, Pressure, Restitution
+from nivel.machine.coefficient import (
+    Exponent,
+    FoundationModulus,
+    NotNegativeNumber,
+    PoissonRatio,
+    PositiveSpeed,
+    Pressure,
+    Restitution,
+)
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.marker import MarkerPlace
 from nivel.machine.power_stiffness import PowerStiffness
@@ -16,6 +24,7 @@ from nivel.machine.record import GROUND, BodyName, Record
 from nivel.machine.time_function import ContactForce
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
+HULLS: Final = ("box", "extrusion", "mesh")  # that touch each other, with their convex hulls
 SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder", "extrusion", "mesh")
 
 
@@ -29,7 +38,9 @@ class Material(Record):
 class Contact(ForceElement):
     """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, or by a `law`; with Coulomb friction.
 
-    A `body` with the shape sphere, box, cylinder, extrusion or mesh on a `plane`, or two `bodies`, both spheres.
+    A `body` with the shape sphere, box, cylinder, extrusion or mesh on a `plane`; two `bodies`, both spheres; or two `bodies` of the shapes
+    box, extrusion and mesh, which touch with their convex hulls and press by `foundation_modulus` · depth on every point of the area
+    where they touch.
     """
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force", "rate")
@@ -42,12 +53,17 @@ class Contact(ForceElement):
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"
     )
     bodies: tuple[BodyName, BodyName] | None = Field(
-        default=None, description="two spheres, in place of `body` and `plane`"
+        default=None,
+        description="two spheres, or two of the shapes box, extrusion and mesh, in place of `body` and `plane`",
     )
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
     stiffness: PowerStiffness | None = Field(default=None, description="force by depth ** exponent")
     materials: tuple[Material, Material] | None = Field(
         default=None, description="of the first body and the second or the plane; for spheres, in place of `stiffness`"
+    )
+    foundation_modulus: FoundationModulus | None = Field(
+        default=None,
+        description="pressure by depth where two bodies of the shapes box, extrusion and mesh touch, in place of `stiffness`",
     )
     restitution: Restitution | None = Field(
         default=None, description="speed after the impact by the speed before it; 1 loses no energy"
@@ -65,7 +81,27 @@ class Contact(ForceElement):
         yield from self._problems_of_partners()
         if self.friction > 0 and self.friction_transition_speed is None:
             yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
-        yield from self._problems_of_law() if self.law is not None else self._problems_of_stiffness()
+        if self.foundation_modulus is not None:
+            yield from self._problems_of_foundation()
+        else:
+            yield from self._problems_of_law() if self.law is not None else self._problems_of_stiffness()
+
+    def _problems_of_foundation(self) -> Iterator[Problem]:
+        if self.bodies is None:
+            yield superfluous("foundation_modulus", "is for two `bodies`; on a plane give the `stiffness` of a corner")
+        for name in ("stiffness", "materials", "law"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "stands in place of `foundation_modulus`; give one of them")
+        if self.exponent != HERTZ:
+            yield superfluous(
+                "exponent", "must not be given with a `foundation_modulus`, whose pressure goes as the depth"
+            )
+        if self.restitution is None:
+            yield self._restitution_is_missing()
+
+    def _restitution_is_missing(self) -> Problem:
+        message = "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost"
+        return Problem((), message)
 
     def _problems_of_law(self) -> Iterator[Problem]:
         for name in ("stiffness", "materials", "restitution"):
@@ -76,13 +112,13 @@ class Contact(ForceElement):
 
     def _problems_of_stiffness(self) -> Iterator[Problem]:
         if self.restitution is None:
-            yield Problem(
-                (), "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost"
-            )
+            yield self._restitution_is_missing()
         if self.stiffness is None and self.materials is None:
-            yield Problem(
-                (), "`stiffness` is missing: a contact needs a `stiffness`, a `law` or, of spheres, two `materials`"
+            message = "`stiffness` is missing: a contact needs a `stiffness`, a `law` or, of spheres, two `materials`"
+            hulls = (
+                "; two boxes, extrusions or meshes need a `foundation_modulus`, as in `foundation_modulus: 1e10 N/m^3`"
             )
+            yield Problem((), message + (hulls if self.bodies is not None else ""))
         if self.stiffness is not None and self.materials is not None:
             yield superfluous("materials", "stands in place of `stiffness`; give one of them")
         if self.materials is not None and self.exponent != HERTZ:
@@ -92,7 +128,7 @@ class Contact(ForceElement):
         if self.bodies is not None:
             for name in ("body", "plane"):
                 if getattr(self, name) is not None:
-                    yield superfluous(name, "must not be given with `bodies`, which are two spheres")
+                    yield superfluous(name, "must not be given with `bodies`, which touch each other")
             if self.bodies[0] == self.bodies[1]:
                 yield Problem(("bodies",), f"two different bodies are needed, got `{self.bodies[0]}` twice")
         elif self.body is None or self.plane is None:
@@ -102,4 +138,5 @@ class Contact(ForceElement):
             *((("bodies", at), each) for at, each in enumerate(self.bodies or ())),
         ):
             if body == GROUND:
-                yield Problem(place, f"`{GROUND}` has no shape; the contact with it is a `plane` on a marker")
+                message = f"`{GROUND}` has no shape; the contact with it is a `plane` on a marker, or a body with a `fixed` joint"
+                yield Problem(place, message)

@@ -96,6 +96,7 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "kinematic viscosity": ("a kinematic viscosity", "m^2/s", dimension(m=2, s=-1)),
     "power": ("a power", "W", dimension(kg=1, m=2, s=-3)),
     "stiffness": ("a stiffness", "N/m", dimension(kg=1, s=-2)),
+    "foundation modulus": ("a foundation modulus", "N/m^3", dimension(kg=1, m=-2, s=-2)),
     "damping": ("a damping coefficient", "N*s/m", dimension(kg=1, s=-1)),
     "torsional stiffness": ("a torsional stiffness", "N*m/rad", dimension(kg=1, m=2, s=-2, rad=-1)),
     "torsional damping": ("a torsional damping coefficient", "N*m*s/rad", dimension(kg=1, m=2, s=-1, rad=-1)),

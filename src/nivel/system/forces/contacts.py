@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces import bushing, contact
+from nivel.kernels.forces import bushing, contact, hull_contact
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.body import Body
@@ -18,6 +18,7 @@ from nivel.machine.placement import frame_from_axes
 from nivel.machine.shape import Box, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.system.builder import SystemBuilder
+from nivel.system.forces.hulls import hull_of, row_of
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
@@ -42,7 +43,7 @@ def add_bushing(draft: SystemBuilder, force: Bushing) -> None:
 
 
 def add_contact(draft: SystemBuilder, force: Contact) -> None:
-    """A shape against a plane, or two spheres."""
+    """A shape against a plane, two spheres, or two hulls."""
     first = force_outputs(
         draft,
         force.name,
@@ -51,6 +52,9 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         ("normal_force", "N", "normal force"),
         ("rate", "m/s", "rate of the deepest overlap"),
     )
+    if force.foundation_modulus is not None:
+        _add_hulls(draft, force, first)
+        return
     if force.bodies is not None:
         bodies = [draft.machine.body_named[name] for name in force.bodies]
         kind = contact.SPHERES
@@ -83,6 +87,16 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         corners = _corners(draft.machine.body_named[str(force.body)])
         numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
     draft.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
+
+
+def _add_hulls(draft: SystemBuilder, force: Contact, first: int) -> None:
+    assert force.bodies is not None  # the record was checked
+    bodies = [draft.machine.body_named[name] for name in force.bodies]
+    hulls = hull_of(bodies[0]), hull_of(bodies[1])
+    markers = [draft.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
+    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
+    columns, numbers = row_of(hulls, force, loss)
+    draft.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
 
 
 def _radius(body: Body) -> float:
@@ -140,5 +154,5 @@ def _shape_marker(draft: SystemBuilder, body: Body) -> int:
 
 KINDS = (
     ForceKind(Bushing, add_bushing, (bushing.apply,)),
-    ForceKind(Contact, add_contact, (contact.apply,)),
+    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply)),
 )

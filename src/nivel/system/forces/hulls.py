@@ -1,0 +1,112 @@
+"""Convex hulls in numbers: corners, faces and edges; and the row of two of them for the contact kernel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import Fault, ModelError
+from nivel.kernels.forces import hull_contact as kernel
+from nivel.machine.body import Body
+from nivel.machine.forces import Contact
+from nivel.machine.shape import Box, Extrusion, Mesh
+from nivel.machine.solids import box_size, extrusion_corners, mesh_surface
+
+Array = NDArray[np.float64]
+# Triangles whose normals agree to this are one face.
+FLAT = 1e-6
+# Faces are compared in pairs, so that many of them take long.
+MOST_FACES = 200
+
+
+@dataclass(frozen=True)
+class Hull:
+    """middle (3,) [m] in the body frame; corners (n, 3) from there; faces (f, 4): outward normal, distance; edges (e, 2): their corners."""
+
+    middle: Array
+    corners: Array
+    faces: Array
+    edges: NDArray[np.int64]
+
+    @property
+    def radius(self) -> float:
+        """[m] of a ball about the middle that holds the hull."""
+        return float(np.linalg.norm(self.corners, axis=1).max())
+
+
+def hull_of(body: Body) -> Hull:
+    """The convex hull of a box, an extrusion or a mesh. Raises ModelError for a flat one, or one of too many faces."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    points = _points(body)
+    try:
+        found = ConvexHull(points)
+    except QhullError:
+        raise _fault(body, "is flat, and a contact of two bodies needs two solids") from None
+    corners = points[found.vertices]
+    middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+    normals = _distinct(found.equations[:, :3])
+    if len(normals) > MOST_FACES:
+        message = (
+            f"has a hull of {len(normals)} faces, and at most {MOST_FACES} can touch another body: give the body a coarser mesh; "
+            "`looks` may still draw the fine one"
+        )
+        raise _fault(body, message)
+    corners = corners - middle
+    # no corner lies outside of a face, whatever the round-off of its normal
+    faces = np.column_stack([normals, (corners @ normals.T).max(axis=0)])
+    return Hull(middle, corners, faces, _edges(corners, faces))
+
+
+def _points(body: Body) -> Array:
+    match body.shape:
+        case Box() as box:
+            signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+            return np.array(box.centre or (0.0, 0.0, 0.0)) + 0.5 * signs * np.array(box_size(box))
+        case Extrusion() as prism:
+            return extrusion_corners(prism)
+        case Mesh() as mesh:
+            return mesh_surface(mesh)[0]
+    raise ValueError(f"body {body.name} has no hull")
+
+
+def _distinct(normals: Array) -> Array:
+    """The normals of all faces, of coplanar triangles once."""
+    kept: list[Array] = []
+    for normal in normals:
+        if not any(np.abs(normal - known).max() <= FLAT for known in kept):
+            kept.append(normal)
+    return np.array(kept)
+
+
+def _edges(corners: Array, faces: Array) -> NDArray[np.int64]:
+    """Pairs of corners that lie on two faces at once: an edge, or a diagonal of a face twice found, which does no harm."""
+    size = float(np.abs(corners).max())
+    on = np.abs(corners @ faces[:, :3].T - faces[:, 3]) <= 10.0 * FLAT * size
+    common = on.astype(np.int64) @ on.T.astype(np.int64)
+    return np.argwhere(np.triu(common >= 2, 1))
+
+
+def row_of(hulls: tuple[Hull, Hull], force: Contact, loss: float) -> tuple[list[int], list[float]]:
+    """Columns behind the markers, and numbers, of a contact: see `nivel.kernels.forces.hull_contact`."""
+    first, second = hulls
+    counts = (
+        [len(each.corners) for each in hulls]
+        + [len(each.faces) for each in hulls]
+        + [each.edges.size for each in hulls]
+    )
+    modulus, speed = force.foundation_modulus or 0.0, force.friction_transition_speed or 1.0
+    # pressure of both bodies at the same depth: half the overlap each
+    numbers = [2.0 * modulus, loss, force.friction, speed, first.radius, second.radius]
+    numbers += [0.0] * (kernel.NUMBERS - len(numbers))
+    numbers += [*first.corners.ravel(), *first.faces.ravel(), *np.zeros(second.faces.size)]
+    numbers += [*second.corners.ravel(), *second.faces.ravel(), *np.zeros(second.corners.size)]
+    faces = len(first.faces) + len(second.faces)
+    numbers += [0.0] * (faces + 4 * (faces + 4))
+    return [*counts, *first.edges.ravel().tolist(), *second.edges.ravel().tolist()], [float(each) for each in numbers]
+
+
+def _fault(body: Body, said: str) -> ModelError:
+    return ModelError(Fault("", 0, 0, f"bodies.{body.name}.shape", said))

@@ -173,7 +173,7 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"forces": ({**CONTACT, "bodies": ("rod", "slab")},)},
-            "forces.c.bodies.1: the shape of `slab` is `box`; a contact here needs a sphere",
+            "forces.c.bodies: `rod` a sphere and `slab` a box: two spheres can touch, or two of box, extrusion, mesh",
         ),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "tip"},)}, "forces.c.plane: the plane is on `rod` itself"),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "flor"},)}, "forces.c.plane: there is no marker `flor`"),

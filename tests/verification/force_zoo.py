@@ -86,6 +86,7 @@ BETWEEN = {"markers": ["tip", "eye"]}
 RUBBING = {"type": "friction", "coordinate": "j.displacement", "coefficient": 0.3, "static_coefficient": 0.45,
            "stribeck_speed": 1.0}  # fmt: skip
 CONTACT = {"type": "contact", "stiffness": 3e3, "restitution": 0.6, "friction": 0.3, "friction_transition_speed": 0.8}
+PRISM = [[-0.3, -0.35], [0.3, -0.35], [0.35, 0.3], [-0.2, 0.35]]
 ON = ("c", "", [-0.5, 0.9, 0.4])
 ON_FLOOR = {**CONTACT, "body": "c", "plane": "floor"}
 MOUNT = {"type": "bushing", **BETWEEN, "stiffness": [4, 6, 8, 0.5, 0.8, 0.6], "damping": [1, 2, 1, 0.1, 0.2, 0.1]}
@@ -141,11 +142,16 @@ CASES = {
     "box": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.25]), True, shape("c", "box", size=[0.5, 0.6, 0.7])),
     "cylinder": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.3]), True, shape("c", "cylinder", radius=0.3, length=0.8)),
     "prism": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.25]), True,
-                  shape("c", "extrusion", outline=[[-0.3, -0.35], [0.3, -0.35], [0.35, 0.3], [-0.2, 0.35]], length=0.5)),
+                  shape("c", "extrusion", outline=PRISM, length=0.5)),
     "moving floor": Case({**ON_FLOOR, "plane": "eye"}, ("c", "b", [0.05, 0.02, 0.05]), True, shape("c", "sphere", radius=0.6)),
     "spheres": Case({**CONTACT, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
                     {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
                                 "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
+    "hulls": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3, "friction_transition_speed": 0.8,
+                   "bodies": ["c", "block"]}, ("c", "block", [-0.38, -0.25, 0.1]), True,
+                  {"bodies": {**shape("c", "extrusion", outline=PRISM, length=0.5)["bodies"],
+                              "block": {"shape": {"type": "box", "size": [0.6, 0.5, 0.4]}, "mass": 0.5,
+                                        "position": [-0.4, 0.6, 1.9]}}}),
     "follower": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [3, -2, 5], "axes": "body"}),
     "global force": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [3, "-2*cos(5*time)", 5]}),
     "torque": Case({"type": "torque", "body": "a", "vector": [1, 2, -1], "axes": "body"}),

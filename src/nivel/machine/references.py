@@ -147,6 +147,10 @@ def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
     hulls = any(each in HULLS for each in shapes)
     known = hulls or "sphere" in shapes
     allowed = HULLS if hulls else ("sphere",) if known else ("sphere", *HULLS)
+    if hulls and "sphere" in shapes:
+        said = " and ".join(f"`{body}` a {shape}" for body, shape in zip(pair, shapes, strict=True))
+        yield (*place, "bodies"), f"{said}: two spheres can touch, or two of {', '.join(HULLS)}"
+        return
     for at, name in enumerate(pair):
         yield from _of_shape(name, index, allowed, (*place, "bodies", at))
     if hulls and all(each in HULLS for each in shapes):

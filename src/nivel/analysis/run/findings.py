@@ -29,10 +29,12 @@ from nivel.results.trust.findings import Findings
 from nivel.results.trust.motion import Motion
 from nivel.results.trust.part_energy import PartError, worst_part
 from nivel.results.trust.passed_contacts import Pair, passed_contacts
+from nivel.results.trust.passed_hulls import HullPair, passed_hulls
 from nivel.results.trust.scales import machine_size, speed_of_rest
 from nivel.results.trust.second_look import damped, growth, own_error
 from nivel.results.trust.steps_seen import largest_turn, rounding
 from nivel.results.trust.unseen import Unseen
+from nivel.system.forces.hulls import hull_of
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -62,7 +64,7 @@ def find(
         own=own_error(result, estimate) if estimate is not None else None,
         damped=damped(result, verified.result) if verified is not None and implicit else None,
         growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
-        passed=tuple(passed_contacts(result, _pairs(plan))),
+        passed=(*passed_contacts(result, _pairs(plan)), *passed_hulls(result, _hulls(plan))),
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),
         bent=most_bent(result, bending),
@@ -98,6 +100,17 @@ def _pairs(plan: Plan) -> list[Pair]:
             first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
             reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
             out.append(Pair(force.name, force.bodies, (first, second), reach))
+    return out
+
+
+def _hulls(plan: Plan) -> list[HullPair]:
+    """The contacts of two convex hulls."""
+    out, bodies = [], {each.name: each for each in plan.machine.bodies}
+    for force in plan.machine.forces:
+        if isinstance(force, Contact) and force.bodies is not None and force.foundation_modulus is not None:
+            first, second = (hull_of(bodies[name]) for name in force.bodies)
+            middles, corners = (first.middle, second.middle), (first.corners, second.corners)
+            out.append(HullPair(force.name, force.bodies, middles, corners, (first.faces, second.faces)))
     return out
 
 

@@ -1,10 +1,8 @@
 """Contact of two convex hulls by their fields of pressure, see `nivel.kernels.forces.pressure_cells`.
 
-The elastic force of all pressures has a direction, the normal N of the contact. At every point the pressure is damped as in
-`nivel.kernels.forces.impact`: p (1 + a v), v the speed along N at which the bodies approach there; it never pulls. The factor a follows
-from the coefficient of restitution and v in the first accepted state in contact; a central impact leaves with that share of its speed,
-whatever the shapes are. Friction: μ times the pressure along N, times tanh(v/v_s), against the sliding velocity at the point. So a body
-that slides without turning feels μ times the normal force.
+The elastic force of all pressures has a direction, the normal N of the contact. At every point the pressure is damped: p (1 + a v), v
+the speed along N at which the bodies approach there; it never pulls (Hunt & Crossley 1975). Friction: μ times the pressure along N, times
+tanh(v/v_s), against the sliding velocity at the point. So a body that slides without turning feels μ times the normal force.
 
 Sums over a polygon are those of the triangles around its middle, by Gauss's three points; of an elastic pressure this is exact.
 """
@@ -16,7 +14,6 @@ import numpy as np
 from nivel.kernels.algebra.analytic import maximum, minimum, real, tanh
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.contact import velocity_at
-from nivel.kernels.forces.impact import SLOWEST
 from nivel.kernels.forces.pressure_cells import (
     along_plane,
     bound_cap,
@@ -38,7 +35,7 @@ OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, 
 DEPTH, FORCE, RATE = 2, 3, 4
 # columns of `number`. Then work: place of the second hull in axes of the first, velocity and angular velocity relative to the first at its
 # origin, sums (normal force and its torque, friction and its torque), a box, a plane, the normal of the contact from first to second
-FIELD, LOSS, FRICTION, TRANSITION, RADIUS, OTHER_RADIUS = range(6)
+FIELD, DAMPING, FRICTION, TRANSITION, RADIUS, OTHER_RADIUS = range(6)
 TURN, SHIFT, SPEED, SPIN, PUSH, PUSH_TORQUE, RUB, RUB_TORQUE, BOX, PLANE, NORMAL = (
     6,
     15,
@@ -61,8 +58,6 @@ STORE, PRESS, RUB_ALONG = 0, 1, 2
 NEAR, FAR = 2.0 / 3.0, 1.0 / 6.0
 # The second hull is larger by this share of the sizes, so that of two faces in one plane the nearest is never in doubt.
 APART = 1e-13
-# They are nearer by this share of the sizes where the normal of a first touch is found.
-SKIN = 1e-7
 # [m] hulls that overlap by less than round-off are apart by this
 TOUCH = 1e-30
 
@@ -185,13 +180,13 @@ def add_to(n, sums, x, y, z, f0, f1, f2):
 
 
 @leaf
-def rub_at(n, weight, x, y, z, a):
+def rub_at(n, weight, x, y, z):
     """Add what damping and friction do where an elastic pressure pushes the second hull with the force `weight` against the normal of the
     plane; returns the power that is lost."""
     m, N = n[PLANE + 6 : PLANE + 9], n[NORMAL : NORMAL + 3]
     v0, v1, v2 = velocity(n, x, y, z)
     rate = -(N[0] * v0 + N[1] * v1 + N[2] * v2)
-    damping = weight * maximum(a * rate, -1.0 + 0.0 * rate)
+    damping = weight * maximum(n[DAMPING] * rate, -1.0 + 0.0 * rate)
     add_to(n, PUSH, x, y, z, -damping * m[0], -damping * m[1], -damping * m[2])
     loss = damping * (m[0] * v0 + m[1] * v1 + m[2] * v2)
     if real(n[FRICTION]) > 0.0:
@@ -208,7 +203,7 @@ def rub_at(n, weight, x, y, z, a):
 
 
 @leaf
-def press_polygon(n, polygon, count, d, job, stretch, a):
+def press_polygon(n, polygon, count, d, job, stretch):
     """(energy, power lost, largest distance d) of a polygon. d : as `along_plane` has it; stretch : |n₂ - n₁|.
 
     job : STORE, which adds no force; PRESS, the elastic pressure between cells of the two bodies; or RUB_ALONG, damping and friction.
@@ -243,13 +238,13 @@ def press_polygon(n, polygon, count, d, job, stretch, a):
                 if job == PRESS:
                     add_to(n, PUSH, x, y, z, -weight * m[0], -weight * m[1], -weight * m[2])
                 else:
-                    loss += rub_at(n, weight, x, y, z, a)
+                    loss += rub_at(n, weight, x, y, z)
         p = q
     return energy, loss, deepest
 
 
 @leaf
-def press(columns, n, count, floor, job, a):
+def press(columns, n, count, floor, job):
     """(energy, power lost, largest distance d ≥ floor) of all polygons, whose forces are added to the sums in the numbers.
 
     job : as for `press_polygon`; of PRESS the polygons between cells of one body have energy alone, of RUB_ALONG they are left out.
@@ -268,7 +263,7 @@ def press(columns, n, count, floor, job, a):
             stretch, corners, polygon = meet(n, i, j, found, count, box, floor, frame, polygons)
             if corners > 0:
                 its = press_polygon(
-                    n, polygon, corners, along_plane(n, i, frame), job if is_between else STORE, stretch, a
+                    n, polygon, corners, along_plane(n, i, frame), job if is_between else STORE, stretch
                 )
                 energy, loss = energy + its[0], loss + its[1]
                 if real(its[2]) > real(deepest):
@@ -303,7 +298,7 @@ def gap_of_edges(columns, n):
         # the distance of any point is a bound
         here = depth_under(n, faces + 4 * k, 0.5 * n[SHIFT], 0.5 * n[SHIFT + 1], 0.5 * n[SHIFT + 2])
         floor = min(floor, real(here))
-    gap = 2.0 * press(columns, n, count, floor, STORE, 0.0 * n[FIELD])[2]
+    gap = 2.0 * press(columns, n, count, floor, STORE)[2]
     return minimum(gap, 0.0 * gap - TOUCH)
 
 
@@ -312,7 +307,7 @@ def push_elastically(columns, n, face):
     """(energy, largest distance d, speed of approach along the normal, size of the force, number of faces) of the elastic pressure."""
     count = find_faces(columns, n, face)
     clear(n)
-    energy, _, deepest = press(columns, n, count, 0.0, PRESS, 0.0 * n[FIELD])
+    energy, _, deepest = press(columns, n, count, 0.0, PRESS)
     force = length_of(n, PUSH)
     rate = 0.0 * force
     if real(force) > 0.0:
@@ -324,53 +319,32 @@ def push_elastically(columns, n, face):
 
 
 @leaf
-def speed_of_touch(columns, n, face):
-    """Speed of approach of hulls that overlap by so little that round-off hides the normal: as if they were nearer by SKIN."""
-    faces = places(columns)[1]
-    of_first = face < faces + 4 * np.int64(columns[FACES])
-    way = SKIN * (n[RADIUS] + n[OTHER_RADIUS]) * (-1.0 if of_first else 1.0)
-    w0, w1, w2 = way * n[face], way * n[face + 1], way * n[face + 2]
-    n[SHIFT], n[SHIFT + 1], n[SHIFT + 2] = n[SHIFT] + w0, n[SHIFT + 1] + w1, n[SHIFT + 2] + w2
-    place_second(columns, n)
-    rate = push_elastically(columns, n, face)[2]
-    n[SHIFT], n[SHIFT + 1], n[SHIFT + 2] = n[SHIFT] - w0, n[SHIFT + 1] - w1, n[SHIFT + 2] - w2
-    place_second(columns, n)
-    return rate
-
-
-@leaf
-def overlap(columns, n, distance, remembered, followed):
-    """(depth, rate, energy, power lost, speed to be remembered); the sums of forces stand in the numbers.
+def overlap(columns, n, distance, is_apart):
+    """(depth, rate, energy, power lost); the sums of forces stand in the numbers.
 
     depth : twice the distance from the deepest common point to the nearest face; negative while the hulls are apart.
+    is_apart : no force yet, although they may overlap.
     """
     nothing = 0.0 * n[FIELD]
     clear(n)
     far = distance - n[RADIUS] - n[OTHER_RADIUS]
     if real(far) > 0.0:
         speed = n[SHIFT] * n[SPEED] + n[SHIFT + 1] * n[SPEED + 1] + n[SHIFT + 2] * n[SPEED + 2]
-        return -far, -speed / distance, nothing, nothing, nothing
+        return -far, -speed / distance, nothing, nothing
     place_second(columns, n)
     depth, rate, face = least_overlap(columns, n)
     if real(depth) <= 0.0:
-        return depth, rate, nothing, nothing, nothing
+        return depth, rate, nothing, nothing
     energy, deepest, its_rate, force, count = push_elastically(columns, n, face)
     if real(deepest) <= 0.0:
-        return gap_of_edges(columns, n), rate, nothing, nothing, nothing
-    speed = nothing + remembered
-    if remembered == 0.0:
-        speed = its_rate
-        if real(deepest) < SKIN * (real(n[RADIUS]) + real(n[OTHER_RADIUS])):
-            speed = speed_of_touch(columns, n, face)
-            energy, deepest, its_rate, force, count = push_elastically(columns, n, face)
-        speed = maximum(speed, nothing + SLOWEST)
-    if followed == 1 and remembered == 0.0:
+        return gap_of_edges(columns, n), rate, nothing, nothing
+    if is_apart:
         clear(n)
-        return 2.0 * deepest, its_rate, nothing, nothing, speed
+        return 2.0 * deepest, its_rate, nothing, nothing
     loss = nothing
-    if real(force) > 0.0 and (real(n[LOSS]) > 0.0 or real(n[FRICTION]) > 0.0):
-        loss = press(columns, n, count, 0.0, RUB_ALONG, n[LOSS] / speed)[1]
-    return 2.0 * deepest, its_rate, energy, loss, speed
+    if real(force) > 0.0 and (real(n[DAMPING]) > 0.0 or real(n[FRICTION]) > 0.0):
+        loss = press(columns, n, count, 0.0, RUB_ALONG)[1]
+    return 2.0 * deepest, its_rate, energy, loss
 
 
 @stage
@@ -402,8 +376,9 @@ def apply(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         columns, n = elements.columns[k], elements.number[k]
         distance = see(machine, k)
-        depth, rate, energy, loss, speed = overlap(columns, n, distance, elements.memory[k, 0], followed)
-        elements.depth[k, 0], elements.proposal[k, 0] = depth, speed
+        # where steps end at a touch, the hulls touch from the next accepted state on
+        depth, rate, energy, loss = overlap(columns, n, distance, followed == 1 and elements.memory[k, 0] == 0.0)
+        elements.depth[k, 0], elements.proposal[k, 0] = depth, 0.0 * depth + (1.0 if real(depth) > 0.0 else 0.0)
         if followed == 1:
             elements.depth_rate[k, 0] = rate
         normal, power = length_of(n, PUSH), 0.0 * depth

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import (
+    DampingPerLoad,
     Exponent,
     FoundationModulus,
     NotNegativeNumber,
@@ -65,6 +66,10 @@ class Contact(ForceElement):
         default=None,
         description="pressure by depth where two bodies of the shapes box, extrusion and mesh touch, in place of `stiffness`",
     )
+    damping: DampingPerLoad | None = Field(
+        default=None,
+        description="of a `foundation_modulus`: the pressure is times 1 + damping · speed of approach; 0 loses no energy",
+    )
     restitution: Restitution | None = Field(
         default=None, description="speed after the impact by the speed before it; 1 loses no energy"
     )
@@ -79,6 +84,10 @@ class Contact(ForceElement):
 
     def problems(self) -> Iterator[Problem]:
         yield from self._problems_of_partners()
+        if self.damping is not None and self.foundation_modulus is None:
+            yield superfluous(
+                "damping", "belongs to a `foundation_modulus`; here `restitution` says what an impact loses"
+            )
         if self.friction > 0 and self.friction_transition_speed is None:
             yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
         if self.foundation_modulus is not None:
@@ -96,12 +105,13 @@ class Contact(ForceElement):
             yield superfluous(
                 "exponent", "must not be given with a `foundation_modulus`, whose pressure goes as the depth"
             )
-        if self.restitution is None:
-            yield self._restitution_is_missing()
-
-    def _restitution_is_missing(self) -> Problem:
-        message = "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost"
-        return Problem((), message)
+        if self.restitution is not None:
+            yield superfluous(
+                "restitution", "must not be given with a `foundation_modulus`: give `damping`, as in `damping: 1 s/m`"
+            )
+        if self.damping is None:
+            message = "`damping` is missing: with 1 s/m an impact at 1 m/s leaves with 0.59 m/s; 0 loses no energy"
+            yield Problem((), message)
 
     def _problems_of_law(self) -> Iterator[Problem]:
         for name in ("stiffness", "materials", "restitution"):
@@ -112,7 +122,9 @@ class Contact(ForceElement):
 
     def _problems_of_stiffness(self) -> Iterator[Problem]:
         if self.restitution is None:
-            yield self._restitution_is_missing()
+            yield Problem(
+                (), "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost"
+            )
         if self.stiffness is None and self.materials is None:
             message = "`stiffness` is missing: a contact needs a `stiffness`, a `law` or, of spheres, two `materials`"
             hulls = (

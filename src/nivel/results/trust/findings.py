@@ -142,11 +142,11 @@ def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
 
 def _passed_item(passed: Passed) -> Item:
     text = (
-        f"Contact: {' and '.join(passed.pair.bodies)} pass through each other at t = {passed.time:.6g} s, by {number(passed.overlap)} of "
-        f"the distance at which they touch, and {passed.pair.contact} does not push them apart: they overlap for {number(passed.lasted)} s "
+        f"Contact: {' and '.join(passed.bodies)} pass through each other at t = {passed.time:.6g} s, by {number(passed.overlap)} of "
+        f"{passed.of}, and {passed.contact} does not push them apart: they overlap for {number(passed.lasted)} s "
         f"only; take steps of {number(passed.lasted / 10.0)} s, or a method that chooses its steps (green when none does, red otherwise)"
     )
-    return Item("contact", "red", text, passed.overlap, row=passed.pair.contact, time=passed.time)
+    return Item("contact", "red", text, passed.overlap, row=passed.contact, time=passed.time)
 
 
 def steps_item(fast: Fast) -> Item:

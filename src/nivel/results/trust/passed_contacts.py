@@ -28,11 +28,15 @@ class Pair:
 
 @dataclass(frozen=True)
 class Passed:
-    """Spheres that were never pushed apart, although they overlapped by the share `overlap` of the distance at which they touch, at `time`
-    [s] for `lasted` [s]."""
+    """A contact of two bodies that were never pushed apart, although they overlapped by the share `overlap` of what `of` says.
 
-    pair: Pair
+    time [s] : where they overlapped most; lasted [s] : how long.
+    """
+
+    contact: str
+    bodies: tuple[str, str]
     overlap: float
+    of: str
     time: float
     lasted: float
 
@@ -42,7 +46,9 @@ def passed_contacts(result: Readable, pairs: Sequence[Pair]) -> list[Passed]:
     """The deepest of each pair, where straight lines between frames, along the speeds at both, lead through the overlap."""
     out, time = [], result.time
     for pair in pairs:
-        first, second = (_centre(result, body, at) for body, at in zip(pair.bodies, pair.centres, strict=True))
+        first, second = (
+            place_and_velocity(result, body, at) for body, at in zip(pair.bodies, pair.centres, strict=True)
+        )
         place, speed = first[0] - second[0], first[1] - second[1]
         begin, way, span = place[:-1], np.diff(place, axis=0), np.diff(time)[:, None]
         square = np.sum(way * way, axis=1)
@@ -56,12 +62,15 @@ def passed_contacts(result: Readable, pairs: Sequence[Pair]) -> list[Passed]:
         if through.any():
             k = int(np.argmax(np.where(through, overlap, 0.0)))
             lasted = float(2.0 * half[k] * span[k, 0])
-            out.append(Passed(pair, float(overlap[k]), float(time[k] + share[k] * span[k, 0]), lasted))
+            at = float(time[k] + share[k] * span[k, 0])
+            out.append(
+                Passed(pair.contact, pair.bodies, float(overlap[k]), "the distance at which they touch", at, lasted)
+            )
     return out
 
 
-def _centre(result: Readable, body: str, at: Array) -> tuple[Array, Array]:
-    """Place and velocity (n, 3) of the centre of a sphere."""
+def place_and_velocity(result: Readable, body: str, at: Array) -> tuple[Array, Array]:
+    """Place and velocity (n, 3) of a point of a body."""
     k = result.coordinates["body"].index(body)
     arm = rotated(result.array("orientation")[:, k], at)
     turning = np.cross(result.array("angular_velocity")[:, k], arm)

@@ -94,8 +94,7 @@ def _add_hulls(draft: SystemBuilder, force: Contact, first: int) -> None:
     bodies = [draft.machine.body_named[name] for name in force.bodies]
     hulls = hull_of(bodies[0]), hull_of(bodies[1])
     markers = [draft.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
-    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
-    columns, numbers = row_of(hulls, force, loss)
+    columns, numbers = row_of(hulls, force)
     draft.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
 
 

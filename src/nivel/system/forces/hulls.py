@@ -89,7 +89,7 @@ def _edges(corners: Array, faces: Array) -> NDArray[np.int64]:
     return np.argwhere(np.triu(common >= 2, 1))
 
 
-def row_of(hulls: tuple[Hull, Hull], force: Contact, loss: float) -> tuple[list[int], list[float]]:
+def row_of(hulls: tuple[Hull, Hull], force: Contact) -> tuple[list[int], list[float]]:
     """Columns behind the markers, and numbers, of a contact: see `nivel.kernels.forces.hull_contact`."""
     first, second = hulls
     counts = (
@@ -99,7 +99,7 @@ def row_of(hulls: tuple[Hull, Hull], force: Contact, loss: float) -> tuple[list[
     )
     modulus, speed = force.foundation_modulus or 0.0, force.friction_transition_speed or 1.0
     # pressure of both bodies at the same depth: half the overlap each
-    numbers = [2.0 * modulus, loss, force.friction, speed, first.radius, second.radius]
+    numbers = [2.0 * modulus, force.damping or 0.0, force.friction, speed, first.radius, second.radius]
     numbers += [0.0] * (kernel.NUMBERS - len(numbers))
     numbers += [*first.corners.ravel(), *first.faces.ravel(), *np.zeros(second.faces.size)]
     numbers += [*second.corners.ravel(), *second.faces.ravel(), *np.zeros(second.corners.size)]

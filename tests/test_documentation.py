@@ -253,7 +253,7 @@ def test_every_kind_of_row_is_described():
 
 
 def test_every_joint_coordinate_has_its_zero_and_direction():
-    described = {row[0] for row in rows(section("First and second"))}
+    described = {row[0] for row in rows(section("Joint coordinates"))}
     assert {f"`{each.name}` [{each.units}]" for kind in JOINTS.values() for each in kind.coordinates} <= described
 
 

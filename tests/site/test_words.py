@@ -53,6 +53,13 @@ HOME_MADE = {
     r"nothing but": "only",
     r"but for": "except",
     r"(?<!there )is none": "is not a",
+    r"whoever": "the author, the user: say who",
+    r"(written )?(out )?on the spot": "inside the element",
+    r"turned round": "reversed",
+    r"half balls?": "hemispheres",
+    r"counts? the other way": "changes its sign",
+    r"seen from the (folder of the )?machine file": "relative to the machine file",
+    r"(die|dies|dying|died) out": "decays",
 }
 # besides these, of pages
 IN_PAGES = {

@@ -50,9 +50,7 @@ def _any_force(force: ForceElement, scene: Scene) -> Changes:
     """Functions of signals follow the part, and so do points between which it acts; what else would turn needs a rule of the kind."""
     coordinate = getattr(force, "coordinate", None)
     if coordinate is not None and scene.is_opposite(coordinate):
-        raise NotRepresentableError(
-            f"what a {force.type} on a coordinate that counts the other way would be is not known"
-        )
+        raise NotRepresentableError(f"a {force.type} cannot act on a coordinate that changes its sign")
     if coordinate is None and not isinstance(force, Between) and scene.placement.turns:
         raise NotRepresentableError(f"what a {force.type} would be in a part that is turned is not known")
     if any(isinstance(value, tuple) and any(isinstance(each, _FUNCTIONS) for each in value) for _, value in force):

@@ -18,7 +18,7 @@ def placed_component(component: Any, scene: Scene) -> Any:
     """
     coordinate = getattr(component, "coordinate", None)
     if coordinate is not None and scene.is_opposite(coordinate):
-        raise NotRepresentableError(f"`{coordinate}` counts the other way there")
+        raise NotRepresentableError(f"`{coordinate}` changes its sign there")
     changes = placed_ends(component, scene, with_axes=False) if isinstance(component, Ends) else {}
     varied = {
         name: scene.varied(value) for name, value in component if isinstance(value, Expression | PythonLaw | Table)

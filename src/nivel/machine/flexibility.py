@@ -24,7 +24,7 @@ def _distinct(values: Any) -> Any:
 class Flexibility(Record):
     """A body that bends by the modes in a file of `nivel reduce`."""
 
-    file: str = Field(min_length=1, description="of `nivel reduce`, seen from the machine file")
+    file: str = Field(min_length=1, description="file of `nivel reduce`, relative to the machine file")
     modes: Annotated[Whole, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
     damping_ratio: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
     neglect: Annotated[tuple[Invariant, ...], BeforeValidator(_distinct)] = Field(

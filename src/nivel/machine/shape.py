@@ -132,7 +132,7 @@ class Tube(_Between):
 
 
 class Capsule(_Between):
-    """A round bar with half balls at its ends: `radius`, `length` of the straight part and `along` (default x); or `radius`,
+    """A round bar with hemispheres at its ends: `radius`, `length` of the straight part and `along` (default x); or `radius`,
     `from` and `to`, the centres of the balls.
     """
 
@@ -188,7 +188,7 @@ class Mesh(_Coloured):
     """
 
     type: Literal["mesh"] = "mesh"
-    file: str = Field(default="", description="STL, OBJ or glTF file, seen from the folder of the machine file")
+    file: str = Field(default="", description="STL, OBJ or glTF file, relative to the folder of the machine file")
     unit: PositiveLength = Field(default=1.0, description="length of one unit of the file")
     position: Position | None = Field(
         default=None, description="of the file's origin in the body frame; default the origin"

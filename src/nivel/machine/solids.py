@@ -97,7 +97,7 @@ def _of_round_bar(radii_squared: float, bar_length: float, along: str | None) ->
 
 
 def _of_capsule(radius: float, straight: float, along: str | None) -> Array:
-    """Per unit mass, of a cylinder and two half balls, whose centroids are 3/8 of the radius off their flat sides."""
+    """Per unit mass, of a cylinder and two hemispheres, whose centroids are 3/8 of the radius off their flat sides."""
     bar, balls = straight, 4 / 3 * radius  # volumes over π R²
     across = bar * (radius**2 / 4 + straight**2 / 12)
     across += balls * (0.4 * radius**2 + straight**2 / 4 + 3 / 8 * radius * straight)

@@ -16,6 +16,7 @@ MACHINES = (
     "rope-crane",
     "stewart-platform",
     "washing-machine",
+    "wedge-press",
 )
 
 
@@ -123,3 +124,16 @@ def test_the_rope_carries_the_load_and_shortens_by_what_the_winch_hauls_in():
     length = result.array("state.rope.length")
     assert length[-1] - length[0] == pytest.approx(-2.0, abs=1e-9)
     assert np.degrees(result.array("slewing.angle")[-1]) == pytest.approx(90, abs=0.1)
+
+
+def test_the_wedge_is_pushed_with_the_force_of_its_slope_and_friction():
+    """F = W (tan α + μ)/(1 - μ tan α) where the speed is largest and the block does not accelerate; W its load and weight."""
+    result = simulated("wedge-press")
+    k = int(np.argmin(np.abs(result.time - 0.5)))
+    slope, mu = 0.25, 0.15
+    section = 0.05 * (0.06 + (0.06 - 0.05 * slope)) / 2
+    weight = 2000 + 9.81 * 7850 * 0.04 * section
+    force = weight * (slope + mu) / (1 - mu * slope)
+    assert -result.array("driver.push.effort")[k] == pytest.approx(force, rel=1e-5)
+    sunk = result.array("force.faces.depth")[-1] * np.sqrt(1 + slope**2)
+    np.testing.assert_allclose(result.array("guide.displacement")[-1], 0.08 * slope - sunk, atol=1e-8)

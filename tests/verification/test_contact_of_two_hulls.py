@@ -141,6 +141,18 @@ def test_the_force_is_the_derivative_of_the_energy_of_the_overlap(names, seed):
         np.testing.assert_allclose(sign * torque, force[3:], atol=1e-6 * LENGTH * np.abs(force[:3]).max())
 
 
+@pytest.mark.parametrize("turn", [(1.2e-5, -9e-3), (0.0, 1e-6), (3e-4, 1e-17), (1e-2, 1e-8)])
+def test_a_box_that_is_hardly_tilted_touches_with_its_edge_and_corner(turn):
+    """A tenth of a micrometre deep: what overlaps is long and thin, and round-off of heights reaches far along the slope."""
+    R, plate, brick = Rotation.from_rotvec([*turn, 0]).as_matrix(), SHAPES["plate"][1], SHAPES["brick"][1]
+    r = np.array([0.013, 0.007, 0.01 - (brick @ R.T)[:, 2].min() - 1e-7])
+    upper = box(BRICK, position=r.tolist(), orientation=orientation(R))
+    result = simulate(touching(box(PLATE), upper), duration=1e-6, step=1e-6)
+    energy, depth = energy_and_depth(plate, brick, R, r)
+    assert result.array("force.hit.depth")[0] == pytest.approx(depth, rel=1e-5)
+    assert result.array("potential_energy")[0] == pytest.approx(energy, rel=1e-4)
+
+
 def test_a_box_on_a_larger_one_presses_by_closed_form():
     """At the depth s of a surface inside both, a footprint (a - 2s)(b - 2s) is left: F = K ∫₀^δ (a - t)(b - t) dt."""
     a, b, _ = BRICK
@@ -300,7 +312,7 @@ def test_what_two_hulls_are_not_is_told():
         ),
         (
             touching(ball, {**ball}, foundation_modulus=1e9),
-            "is not for spheres, but for the shapes box, extrusion, mesh: give `stiffness`",
+            "is for two of box, extrusion, mesh; two spheres take a `stiffness`",
         ),
         (touching(box(BRICK), box(PLATE), foundation_modulus="3 N/m"), r"a foundation modulus .N/m\^3. was expected"),
     ]

@@ -161,7 +161,7 @@ def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
     elif pair and known and entry(contact, "foundation_modulus") is not None:
         yield (
             (*place, "foundation_modulus"),
-            f"is not for spheres, but for the shapes {', '.join(HULLS)}: give `stiffness`",
+            f"is for two of {', '.join(HULLS)}; two spheres take a `stiffness`",
         )
 
 

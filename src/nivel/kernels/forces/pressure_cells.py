@@ -21,8 +21,8 @@ from nivel.native.function import leaf
 
 # normals whose difference is shorter than this belong to parallel faces: their cells do not meet
 PARALLEL = 1e-13
-# Boxes are larger by this share of the size of the hulls than what they hold.
-SLACK = 1e-9
+# Boxes are larger by this share of the size of the hulls than what they hold, which is cut off by so much more than the overlap.
+SLACK, MARGIN = 1e-9, 1e-11
 
 
 @leaf
@@ -51,18 +51,22 @@ def overlap_under(n, face, corners, count):
 
 @leaf
 def bound_cap(n, face, corners, count, edges, size, box):
-    """box (6,) := least and largest coordinates of the part of a hull under a face. edges (·) : numbers of two corners each."""
+    """box (6,) := least and largest coordinates of the part of a hull under a face. edges (·) : numbers of two corners each.
+
+    A face that is a little higher counts: along a slight slope its round-off reaches far.
+    """
+    margin = MARGIN * size
     for a in range(3):
         box[a], box[a + 3] = np.inf, -np.inf
     for k in range(count):
         p = corners + 3 * k
-        if real(depth_under(n, face, n[p], n[p + 1], n[p + 2])) >= 0.0:
+        if real(depth_under(n, face, n[p], n[p + 1], n[p + 2])) >= -margin:
             for a in range(3):
                 box[a], box[a + 3] = min(real(box[a]), real(n[p + a])), max(real(box[a + 3]), real(n[p + a]))
     for k in range(0, edges.shape[0], 2):
         p, q = corners + 3 * np.int64(edges[k]), corners + 3 * np.int64(edges[k + 1])
-        here = real(depth_under(n, face, n[p], n[p + 1], n[p + 2]))
-        there = real(depth_under(n, face, n[q], n[q + 1], n[q + 2]))
+        here = real(depth_under(n, face, n[p], n[p + 1], n[p + 2])) + margin
+        there = real(depth_under(n, face, n[q], n[q + 1], n[q + 2])) + margin
         if here * there < 0.0:
             share = here / (here - there)
             for a in range(3):

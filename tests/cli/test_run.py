@@ -226,7 +226,7 @@ def test_everything_that_does_not_go_together_is_said_at_once_and_before_anythin
     for part in (
         "'penalty' does not go with `coordinates: independent`",
         "'euler-angles' are rotation coordinates of `formulation: lagrange`",
-        "'geometric' scales velocities to the energy they should have, and turn prescribes",
+        "'geometric' scales velocities to conserve energy, and turn prescribes",
         "`tolerance` has no effect here",
         "4 faults",
     ):

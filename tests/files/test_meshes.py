@@ -120,7 +120,7 @@ def test_a_machine_file_names_a_mesh_beside_it(tmp_path):
         ("cut.stl", FILES["a.stl"][:-7], "damaged|no STL|cut short|no triangles|fewer"),
         ("empty.stl", b"", "no STL"),
         ("empty.obj", b"# nothing", "no triangles"),
-        ("far.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9", "corner that is not there"),
+        ("far.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9", "corner that does not exist"),
         ("nan.obj", b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", "not finite"),
         ("words.obj", b"v one 0 0\nf 1 2 3", "damaged"),
         ("text.glb", b"hello, this is text", "no binary glTF"),

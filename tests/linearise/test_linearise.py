@@ -331,7 +331,7 @@ def test_bad_options_are_explained(given, said):
 
 
 def test_friction_that_sticks_is_refused():
-    with pytest.raises(nivel.ModelError, match="has no slope where it sticks"):
+    with pytest.raises(nivel.ModelError, match="has no derivative where it sticks"):
         nivel.load(f"{EXAMPLES}/friction-brake.yaml").linearise()
 
 

@@ -60,6 +60,18 @@ HOME_MADE = {
     r"counts? the other way": "changes its sign",
     r"seen from the (folder of the )?machine file": "relative to the machine file",
     r"(die|dies|dying|died) out": "decays",
+    r"forces? left over": "unbalanced forces",
+    r"there and back": "round trip",
+    r"habits?": "features, differences",
+    r"to be played": "animation",
+    r"turns too far": "rotates too far",
+    r"as everywhere": "as for other commands",
+    r"throws? .{1,20} apart": "the force would be huge: say what happens",
+    r"round-off rules": "round-off dominates",
+    r"damped away": "damped numerically",
+    r"rounded away": "below round-off",
+    r"on either way": "in more than one way",
+    r"fixed steps? stays? (fixed|as they are)": "is fixed: say what to use",
 }
 # besides these, of pages
 IN_PAGES = {
@@ -67,6 +79,8 @@ IN_PAGES = {
     r"held against|hold it against": "compared with, checked against",
     r"passed over": "ignored",
     r"wants to be": "should be",
+    r"looked (at|for)": "examined, searched for",
+    r"what is known when": "order of computation",
 }
 
 

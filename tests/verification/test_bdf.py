@@ -124,7 +124,7 @@ def test_matrix_is_that_of_differences():
     ("settings", "words"),
     [
         ({"corrector": {"iteration": "functional"}}, "'functional' does not go with `integrator: bdf`"),
-        ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
+        ({"coordinates": "independent", "formulation": "penalty"}, "there is no violation to feed back"),
         ({"stabilisation": "baumgarte"}, "take direct, or own coefficients"),
     ],
 )

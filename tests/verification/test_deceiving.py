@@ -79,7 +79,7 @@ def test_what_was_missed_is_named_with_its_time_scale():
     assert line.verdict == "red"
     assert line.row == "push.vector.x"
     assert line.time == pytest.approx(0.7, abs=1e-3)
-    assert "within 1e-5 s, in steps of 0.001 s; take steps of 1e-6 s" in line.text
+    assert "within 1e-5 s, with steps of 0.001 s; use steps of 1e-6 s" in line.text
 
 
 def test_turns_that_cannot_be_counted_are_red_without_a_second_run():

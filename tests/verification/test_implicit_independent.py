@@ -297,8 +297,8 @@ def test_a_step_to_where_the_machine_cannot_be_names_joint_and_coordinate():
 def test_what_stays_refused_says_why():
     for integrator, settings, words in (
         ("energy-momentum", {"stabilisation": "none"}, "balances the momenta of each body"),
-        ("newmark", {"stabilisation": "baumgarte"}, "no violation is left to feed back"),
-        ("radau", {"formulation": "penalty"}, "no violation is left to feed back"),
+        ("newmark", {"stabilisation": "baumgarte"}, "there is no violation to feed back"),
+        ("radau", {"formulation": "penalty"}, "there is no violation to feed back"),
     ):
         with pytest.raises(ModelError, match=words):
             run(machines.slider_crank(), integrator=integrator, coordinates="independent", **settings)

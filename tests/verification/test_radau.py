@@ -385,7 +385,7 @@ def test_stabilisations(stabilisation):
 @pytest.mark.parametrize(
     ("settings", "reason"),
     [
-        ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
+        ({"coordinates": "independent", "formulation": "penalty"}, "there is no violation to feed back"),
         ({"stabilisation": "baumgarte"}, "take direct, or own coefficients"),
     ],
 )

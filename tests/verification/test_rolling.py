@@ -277,12 +277,12 @@ def test_a_wheel_that_would_have_to_be_pulled_down_is_told():
     ],
 )
 def test_methods_that_close_positions_alone_are_refused(settings):
-    with pytest.raises(ModelError, match="without slip holds velocities"):
+    with pytest.raises(ModelError, match="without slip constrains velocities"):
         simulate(coin(), duration=0.1, **settings)
 
 
 def test_kinematics_and_inverse_dynamics_are_refused():
-    with pytest.raises(ModelError, match="where a wheel comes to depends on the way"):
+    with pytest.raises(ModelError, match="the position of a wheel depends on its path"):
         machine(coin()).kinematics(drive="floor.x", end=1.0)
     with pytest.raises(ModelError, match="drive the wheels with `nivel run`"):
         machine(coin()).inverse(actuators="floor.x")

@@ -100,8 +100,8 @@ def test_chunks_change_nothing(coordinates):
 
 def test_what_does_not_go_with_it_is_refused():
     for settings, words in (
-        ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
-        ({"coordinates": "independent", "stabilisation": "baumgarte"}, "no violation is left to feed back"),
+        ({"coordinates": "independent", "formulation": "penalty"}, "there is no violation to feed back"),
+        ({"coordinates": "independent", "stabilisation": "baumgarte"}, "there is no violation to feed back"),
         ({"stabilisation": "baumgarte"}, "does not iterate and has order one there"),
     ):
         with pytest.raises(ModelError, match=words):

@@ -20,23 +20,23 @@ class CommandPlace(NamedTuple):
 
 
 COMMANDS: Final[dict[str, CommandPlace]] = {
-    "new": CommandPlace("nivel.cli.new", "Write a commented machine file that runs, to start from."),
-    "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
+    "new": CommandPlace("nivel.cli.new", "Write a small example machine file with comments."),
+    "check": CommandPlace("nivel.cli.check", "Check and assemble a machine, and describe it."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
-    "demo": CommandPlace("nivel.cli.demo", "Drive a machine that comes with nivel."),
+    "demo": CommandPlace("nivel.cli.demo", "Operate one of the machines that come with nivel."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
-    "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or by other methods."),
-    "budget": CommandPlace("nivel.cli.budget", "Say what a machine costs in real time, by method and by part."),
-    "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
+    "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or with other methods."),
+    "budget": CommandPlace("nivel.cli.budget", "Measure the computing time of a step, by method and by part."),
+    "statics": CommandPlace("nivel.cli.statics", "Find the static equilibrium of a machine under its loads."),
     "kinematics": CommandPlace("nivel.cli.kinematics", "Positions, velocities and reactions of a driven machine."),
     "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),
     "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
-    "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
-    "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),
-    "view": CommandPlace("nivel.cli.view", "Play a result, or move a machine, in the browser."),
-    "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
-    "loads": CommandPlace("nivel.cli.loads", "Peak reactions, power and work, cycles of any signal."),
-    "stress": CommandPlace("nivel.cli.stress", "Say where and when a flexible body is stressed most."),
+    "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
+    "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
+    "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),
+    "explain": CommandPlace("nivel.cli.explain", "Show how far a result can be trusted, and why."),
+    "loads": CommandPlace("nivel.cli.loads", "Peak reactions, power and work, and load cycles of signals."),
+    "stress": CommandPlace("nivel.cli.stress", "Find the largest stresses in a flexible body."),
     "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),
 }
@@ -86,13 +86,13 @@ def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
 
 @click.group(cls=LazyGroup, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
 @click.option(
-    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_say_version, help="Say the version."
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_say_version, help="Print the version."
 )
 @click.pass_context
 def main(ctx: click.Context) -> None:
-    """Simulate machines and mechanisms: joints that close loops, numbers one can trust.
+    """Simulate machines and mechanisms (multibody dynamics), with an estimate of the error of each result.
 
-    `nivel COMMAND --help` says more about a command.
+    `nivel COMMAND --help` describes a command.
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

@@ -13,16 +13,23 @@ if TYPE_CHECKING:
     from nivel.live.budget import Cost
 
 
-@click.command(short_help="Say what a machine costs in real time, by method and by part.")
+@click.command(short_help="Measure the computing time of a step, by method and by part.")
 @file_argument("machine")
 @override_option
 @allow_code_option
 @click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
 @click.option(
-    "--tick", type=float, metavar="SECONDS", help="Time from input to input: whole steps; default 1 ms, or the step."
+    "--tick",
+    type=float,
+    metavar="SECONDS",
+    help="Time between two readings of the inputs: a whole number of steps. Default: 1 ms, or one step if that is longer.",
 )
 @click.option(
-    "--integrators", metavar="NAMES", multiple=True, callback=separated, help="Default: all that are compiled already."
+    "--integrators",
+    metavar="NAMES",
+    multiple=True,
+    callback=separated,
+    help="Methods to compare; default: that of the file and all that need no compilation.",
 )
 @method_option("formulation")
 @method_option("coordinates")
@@ -37,11 +44,12 @@ def command(
     quiet: bool,
     **methods: Any,
 ) -> None:
-    """Run MACHINE for some seconds as fast as it goes, with its levers pushed to and fro, and say what a tick of live operation costs.
+    """Measure the computing time of a tick of live operation.
 
-    The last column says how far the farthest body is at the end from where steps of half the length by the method of the file have it.
+    MACHINE is simulated for some seconds as fast as possible while its inputs are moved to and fro. The default methods have fixed steps:
+    that of the machine file, and all others that need no compilation.
 
-    Without `--integrators` methods with fixed steps are tried: that of the machine file, and all that need no compiler.
+    The last column is the largest distance of a body, at the end, from a run by the method of the file with half the step.
     """
     from nivel.api import load
     from nivel.cli.progress import progress_listener

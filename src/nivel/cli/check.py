@@ -11,15 +11,19 @@ import click
 from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
 
 
-@click.command(short_help="Check and assemble a machine; say what it is.")
+@click.command(short_help="Check and assemble a machine, and describe it.")
 @file_argument("machine")
 @override_option
 @allow_code_option
-@click.option("--circuit", type=click.Path(dir_okay=False), help="Draw the hydraulic circuit into this SVG file.")
+@click.option("--circuit", type=click.Path(dir_okay=False), help="Draw the hydraulic circuit to this SVG file.")
 @click.option(
-    "--mass", metavar="MARKER", help="Also mass, centre of mass and inertia about a marker, a body's frame or ground."
+    "--mass",
+    metavar="MARKER",
+    help="Also print mass, centre of mass and inertia about a marker, a body's frame or ground.",
 )
-@click.option("--of", metavar="BODIES", multiple=True, callback=separated, help="Bodies of --mass; default: all.")
+@click.option(
+    "--of", metavar="BODIES", multiple=True, callback=separated, help="Bodies that --mass includes; default: all."
+)
 @json_option
 def command(
     machine: str,
@@ -30,9 +34,10 @@ def command(
     of: tuple[str, ...] | None,
     as_json: bool,
 ) -> None:
-    """Check MACHINE: read it, assemble it, count its degrees of freedom.
+    """Check MACHINE: read it, assemble it and count its degrees of freedom.
 
-    Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
+    Lists every joint with its first and second body, its zero and its positive direction. If the file has faults, all of them are listed
+    and the exit code is 2.
     """
     from nivel.analysis.progress.listener import Listener
     from nivel.api import load

@@ -34,7 +34,7 @@ WIDEST: Final = 1000  # a line of the table is a line also in a narrow terminal 
 STYLES: Final = {"failed": "red", "refused": "yellow"}
 
 
-@click.command(short_help="Run many methods and say how fast and how exact each is.")
+@click.command(short_help="Run many methods and compare their speed and accuracy.")
 @file_argument("machine")
 @method_option("integrator", plural=True)
 @method_option("formulation", plural=True)
@@ -46,17 +46,21 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     metavar="TIMES",
     multiple=True,
     callback=separated,
-    help="Of integrators with a fixed step, e.g. 1ms,2ms.",
+    help="Steps of integrators with a fixed step, e.g. 1ms,2ms.",
 )
 @click.option(
-    "--tolerances", metavar="NUMBERS", multiple=True, callback=separated, help="Of integrators that choose their steps."
+    "--tolerances",
+    metavar="NUMBERS",
+    multiple=True,
+    callback=separated,
+    help="Tolerances of integrators that choose their steps.",
 )
 @click.option(
     "--repeat",
     type=click.IntRange(1),
     default=3,
     show_default=True,
-    help="Run every combination so often; its time is the least.",
+    help="Number of runs of every combination; the fastest counts.",
 )
 @duration_option
 @output_interval_option
@@ -69,10 +73,12 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     "--out",
     multiple=True,
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Table, .csv or .json; may be repeated; default: both, MACHINE-compare.csv and .json, here.",
+    help="Table, .csv or .json. May be repeated; default: NAME-compare.csv and .json in the working directory.",
 )
 @click.option(
-    "--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the table with .html."
+    "--report",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="HTML page; default: the name of the table with .html.",
 )
 @no_report_option
 @force_option
@@ -101,12 +107,14 @@ def command(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Run MACHINE with all combinations of the given words, and say for each how fast and how exact it is.
+    """Run MACHINE with all combinations of the given words, and compare their computing times and errors.
 
-    Words are separated by commas; what is not given is as in the machine file. Every run is compared with a reference solution
-    of another method, whose own error is estimated. A combination that fails or has no meaning is reported and does not end the
-    comparison. Exit code 0 the combinations were run, 2 the input is at fault, 3 every run failed, 130 interrupted; what was computed
-    is written.
+    Words are separated by commas. A setting without an option is that of the machine file. Every run is compared with a reference
+    solution of another method, whose own error is estimated. A combination that fails or is impossible is reported, and the others are
+    still run.
+
+    Exit codes: 0 the combinations were run, 2 fault in the input, 3 every run failed, 130 interrupted. The results computed so far are
+    always written.
     """
     from nivel.api import load
     from nivel.errors import ModelError

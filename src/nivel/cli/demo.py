@@ -7,15 +7,15 @@ import click
 from nivel.demos.catalogue import DEMOS, demo_file
 
 
-@click.command(short_help="Drive a machine that comes with nivel.")
+@click.command(short_help="Operate one of the machines that come with nivel.")
 @click.argument("name", type=click.Choice(tuple(DEMOS)), default=next(iter(DEMOS)))
-@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: a free one.")
-@click.option("--no-browser", is_flag=True, help="Open no browser.")
+@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: any free port.")
+@click.option("--no-browser", is_flag=True, help="Do not open a browser.")
 @click.pass_context
 def command(ctx: click.Context, name: str, port: int, no_browser: bool) -> None:
-    """Drive the machine NAME in the browser; without a name the loader crane.
+    """Operate a machine that comes with nivel, in the browser; default: the loader crane.
 
-    It is the same as `nivel live` with the machine file whose place is printed.
+    The command prints the path of the machine file. `nivel live` with this file does the same.
     """
     from nivel.cli.live import command as live
 

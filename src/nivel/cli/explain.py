@@ -15,13 +15,13 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 SIGNS = {"green": "✓", "amber": "!", "red": "✕"}
 
 
-@click.command(short_help="Say how far a result can be trusted, and why.")
+@click.command(short_help="Show how far a result can be trusted, and why.")
 @file_argument("result")
 @json_option
 def command(result: str, as_json: bool) -> None:
     """Print the trust report of RESULT: every number, its threshold, and the reason for the threshold.
 
-    RESULT may be of a run that still goes on or was killed.
+    The run of RESULT may still be going on, or may have been killed.
     """
     from nivel.results import Result
 

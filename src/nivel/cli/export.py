@@ -19,13 +19,13 @@ BESIDE = "\0"  # stands for `--csv` without a file
     is_flag=False,
     flag_value=BESIDE,
     metavar="[FILE]",
-    help="Write a table, one row per frame; default: the result's name with .csv, here. '-' is standard output.",
+    help="Write a table, one row per frame; default: NAME.csv in the working directory. '-' is standard output.",
 )
 @click.option(
     "--select",
     multiple=True,
     metavar="NAMES",
-    help="Only these columns, separated by commas: hinge.angle, crank.position, crank, '*.force'. May be repeated.",
+    help="Write only these columns, separated by commas: hinge.angle, crank.position, crank, '*.force'. May be repeated.",
 )
 @force_option
 @click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
@@ -33,10 +33,11 @@ BESIDE = "\0"  # stands for `--csv` without a file
 def command(
     source: str, target: str | None, select: tuple[str, ...], force: bool, folder: str | None, overrides: dict[str, str]
 ) -> None:
-    """Write SOURCE in another form: a result as a table, or a machine as a C library.
+    """Write a result as a table, or a machine as a C library.
 
-    A result may be of a run that still goes on or was killed. Numbers are written so that they are read back exactly.
-    The library steps the machine with the fixed step of its simulation settings; `make` builds it and an example.
+    A table has enough digits to read the numbers back exactly. The run of a result may still be going on, or may have been killed.
+
+    A C library simulates the machine with the fixed step of its simulation settings. `make` builds it and an example.
     """
     if folder is not None:
         if target is not None or select or force:

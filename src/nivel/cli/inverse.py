@@ -32,14 +32,21 @@ _values = assignments("NAME=VALUE, e.g. hinge.angle='20 N m'")
     metavar="NAMES",
     multiple=True,
     callback=separated,
-    help="Joint coordinates or motors; default: the motors, or what the drivers prescribe.",
+    help="Joint coordinates or motors; default: the motors, or the coordinates that the drivers prescribe.",
 )
 @click.option(
-    "--motion", metavar="RESULT.nc", help="A result of a run or of kinematics; default: what the drivers prescribe."
+    "--motion",
+    metavar="RESULT.nc",
+    help="Result of a run or of kinematics; default: the motion that the drivers prescribe.",
 )
-@click.option("--trajectory", metavar="FILE.csv", help="Joint coordinates over time, in place of a motion.")
+@click.option("--trajectory", metavar="FILE.csv", help="Table of joint coordinates over time, instead of --motion.")
 @click.option(
-    "--limit", "limits", metavar="NAME=VALUE", multiple=True, callback=_values, help="Greatest effort. May be repeated."
+    "--limit",
+    "limits",
+    metavar="NAME=VALUE",
+    multiple=True,
+    callback=_values,
+    help="Greatest effort of an actuator. May be repeated.",
 )
 @click.option(
     "--weight",
@@ -47,19 +54,27 @@ _values = assignments("NAME=VALUE, e.g. hinge.angle='20 N m'")
     metavar="NAME=NUMBER",
     multiple=True,
     callback=_values,
-    help="Of an effort, where there are more than needed. May be repeated.",
+    help="Weight of an effort, if there are more actuators than needed. May be repeated.",
+)
+@click.option("--hold", metavar="DRIVERS", multiple=True, callback=separated, help="Drivers that remain active.")
+@click.option(
+    "--positions", metavar="NUMBER", help="Number of positions of the drivers' motion or of a trajectory; default 361."
 )
 @click.option(
-    "--hold", metavar="DRIVERS", multiple=True, callback=separated, help="Drivers that go on holding their motion."
+    "--path",
+    metavar="FILE.csv",
+    help="Inverse kinematics: path of --point as a table time,x,y,z, optionally with Euler parameters e0,e1,e2,e3.",
 )
-@click.option("--positions", metavar="NUMBER", help="Of the motion of drivers or of a trajectory; default 361.")
-@click.option(
-    "--path", metavar="FILE.csv", help="Path of --point: time,x,y,z, and Euler parameters or not; inverse kinematics."
-)
-@click.option("--point", metavar="MARKER", help="Marker, or body, that is led along --path.")
+@click.option("--point", metavar="MARKER", help="Marker or body that follows --path.")
 @override_option
 @allow_code_option
-@click.option("-o", "--out", metavar="FILE.nc", type=click.Path(), help="Histories. Default: NAME-inverse.nc, here.")
+@click.option(
+    "-o",
+    "--out",
+    metavar="FILE.nc",
+    type=click.Path(),
+    help="Result file; default: NAME-inverse.nc in the working directory.",
+)
 @force_option
 @no_report_option
 @quiet_option
@@ -79,10 +94,10 @@ def command(
 ) -> None:
     """Find the efforts of actuators that make MACHINE follow a motion: that of its drivers, a recorded one, or joint trajectories.
 
-    With --path and --point the joint coordinates are found that lead the point along the path, as a table NAME-joints.csv, which
-    --trajectory reads.
+    With --path and --point (inverse kinematics), find the joint coordinates for which a point follows a path. They are written to
+    NAME-joints.csv, which --trajectory can read.
 
-    Exit code 0 done, 2 the input is at fault, 3 the motion cannot be reached, 130 interrupted.
+    Exit codes: 0 done, 2 fault in the input, 3 the motion cannot be reached, 130 interrupted.
     """
     from nivel.api import load
 

@@ -29,17 +29,26 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Positions, velocities and reactions of a driven machine.")
 @file_argument("machine")
-@click.option("--drive", metavar="COORDINATE", help="Drive a joint coordinate evenly, e.g. hinge.angle.")
-@click.option("--from", "start", metavar="VALUE", help="Where it begins, e.g. '10 deg'; default: where it is.")
-@click.option("--to", "end", metavar="VALUE", help="Where it ends; default: one turn further.")
-@click.option("--range", "ranged", is_flag=True, help="Find how far the coordinate of --drive can go both ways.")
+@click.option("--drive", metavar="COORDINATE", help="Drive a joint coordinate at constant speed, e.g. hinge.angle.")
+@click.option(
+    "--from",
+    "start",
+    metavar="VALUE",
+    help="First value of this coordinate, e.g. '10 deg'; default: its value in the assembled machine.",
+)
+@click.option("--to", "end", metavar="VALUE", help="Last value of this coordinate; default: one turn more.")
+@click.option(
+    "--range", "ranged", is_flag=True, help="Find how far the coordinate of --drive can move in both directions."
+)
 @click.option(
     "--through",
     is_flag=True,
-    help="Follow all positions, past turning points of the coordinate of --drive; a table NAME-way.nc.",
+    help="Follow all positions, also past turning points of the coordinate of --drive; writes NAME-way.nc.",
 )
-@click.option("--duration", metavar="TIME", help="Of the motion; default that of the machine, 1 s with --drive.")
-@click.option("--positions", metavar="NUMBER", help="So many, both ends included; default 361.")
+@click.option(
+    "--duration", metavar="TIME", help="Duration of the motion; default: that of the machine, 1 s with --drive."
+)
+@click.option("--positions", metavar="NUMBER", help="Number of positions, both ends included; default 361.")
 @click.option(
     "--transmission",
     metavar="JOINTS",
@@ -47,13 +56,20 @@ if TYPE_CHECKING:
     help="Transmission angle at the second of three joints, e.g. pin,rocker_pin,pivot. May be repeated.",
 )
 @click.option(
-    "--curve", metavar="POINT", multiple=True, help="Path of a marker or of BODY:X,Y,Z in its frame. May be repeated."
+    "--curve",
+    metavar="POINT",
+    multiple=True,
+    help="Path of a marker, or of a point BODY:X,Y,Z in the frame of its body. May be repeated.",
 )
-@click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
+@click.option("--coordinates", metavar="NAME", help="Coordinates of the equations: auto, absolute, relative.")
 @override_option
 @allow_code_option
 @click.option(
-    "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-kinematics.nc, here."
+    "-o",
+    "--out",
+    metavar="FILE.nc",
+    type=click.Path(),
+    help="Result file; default: NAME-kinematics.nc in the working directory.",
 )
 @force_option
 @no_report_option
@@ -74,10 +90,11 @@ def command(
     curve: tuple[str, ...],
     **options: Any,
 ) -> None:
-    """Move MACHINE through its positions, as its drivers say or by driving one joint coordinate, without integration.
+    """Move MACHINE by its drivers, or by driving one joint coordinate, without integration over time.
 
-    Where it cannot go on, the message says which driver is held by which joints. Exit code 0 done, 2 the input is at fault, 3 the machine
-    cannot go on, 130 interrupted; the positions until then are kept.
+    If the machine cannot move any further, the message names the driver and the joints that hold it.
+
+    Exit codes: 0 done, 2 fault in the input, 3 the machine cannot move any further, 130 interrupted. The positions up to there are kept.
     """
     from nivel.api import load
     from nivel.errors import ModelError, SolveError

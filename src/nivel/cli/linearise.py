@@ -30,32 +30,48 @@ MOST = 1000  # values of a parameter
 
 @click.command(short_help="Eigenvalues, modes and the linear model about a state.")
 @file_argument("machine")
-@click.option("--about", metavar="STATE", help="start, equilibrium, or a time to which the machine is run, e.g. '2 s'.")
+@click.option(
+    "--about",
+    metavar="STATE",
+    help="State to linearise about: start, equilibrium, or a time up to which the machine is simulated, e.g. '2 s'.",
+)
 @click.option(
     "--inputs",
     metavar="NAMES",
     multiple=True,
     callback=separated,
-    help="Default: motors and drivers. E.g. hinge.angle.",
+    help="Inputs, e.g. hinge.angle; default: motors and drivers.",
 )
 @click.option(
-    "--outputs", metavar="NAMES", multiple=True, callback=separated, help="Default: sensors, or all joint coordinates."
+    "--outputs",
+    metavar="NAMES",
+    multiple=True,
+    callback=separated,
+    help="Outputs; default: sensors, or all joint coordinates.",
 )
-@click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
+@click.option("--coordinates", metavar="NAME", help="Coordinates of the equations: auto, absolute, relative.")
 @click.option(
     "--over",
     metavar="PATH=FROM:TO:COUNT UNIT",
-    help="Eigenvalues over the values of a number of the file, e.g. parameters.rope='1:8:15 m'.",
+    help="Eigenvalues as functions of a number in the file, e.g. parameters.rope='1:8:15 m'.",
 )
 @click.option(
-    "--orders", metavar="NUMBERS", multiple=True, callback=separated, help="Multiples of a speed in --over: Campbell."
+    "--orders",
+    metavar="NUMBERS",
+    multiple=True,
+    callback=separated,
+    help="Campbell diagram: multiples of the rotational speed that --over varies.",
 )
 @override_option
 @allow_code_option
 @click.option(
-    "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
+    "-o",
+    "--out",
+    metavar="FILE.nc",
+    type=click.Path(),
+    help="Result file; default: NAME-linear.nc in the working directory.",
 )
-@click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write mode N as a page to be played.")
+@click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write an animation of mode N.")
 @force_option
 @no_report_option
 @quiet_option
@@ -77,10 +93,11 @@ def command(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Make the equations of motion of MACHINE linear about a state: natural frequencies, damping and modes of small motions, and the
-    state-space model between inputs and outputs.
+    """Linearise the equations of motion of MACHINE about a state.
 
-    Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130 interrupted.
+    Computes natural frequencies, damping and modes of small motions, and the state-space model between inputs and outputs.
+
+    Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
     from nivel.api import load
     from nivel.errors import Fault, ModelError

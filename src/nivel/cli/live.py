@@ -29,7 +29,10 @@ if TYPE_CHECKING:
 @allow_code_option
 @click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
 @click.option(
-    "--tick", type=float, metavar="SECONDS", help="Time from input to input: whole steps; default 1 ms, or the step."
+    "--tick",
+    type=float,
+    metavar="SECONDS",
+    help="Time between two readings of the inputs: a whole number of steps. Default: 1 ms, or one step if that is longer.",
 )
 @method_option("integrator")
 @method_option("formulation")
@@ -37,11 +40,17 @@ if TYPE_CHECKING:
 @method_option("stabilisation")
 @click.option("--record", type=click.Path(dir_okay=False), help="Write the recording to this file, for `nivel replay`.")
 @force_option
-@click.option("--udp", metavar="HOST:PORT", help="Take inputs from datagrams that come in here; pages only look then.")
-@click.option("--udp-to", metavar="HOST:PORT", help="Send sensors there with every frame.")
-@click.option("--host", default="127.0.0.1", help="Address to listen at; others than this machine need the token then.")
-@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: a free one.")
-@click.option("--no-browser", is_flag=True, help="Open no browser.")
+@click.option(
+    "--udp", metavar="HOST:PORT", help="Receive inputs as datagrams at this address. Pages can then only watch."
+)
+@click.option("--udp-to", metavar="HOST:PORT", help="Send the sensors to this address with every frame.")
+@click.option(
+    "--host",
+    default="127.0.0.1",
+    help="Address to listen at. With another address than the default, clients need the token.",
+)
+@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: any free port.")
+@click.option("--no-browser", is_flag=True, help="Do not open a browser.")
 @click.option("--no-priority", is_flag=True, help="Do not ask for real-time priority and locked memory.")
 @quiet_option
 def command(
@@ -60,10 +69,10 @@ def command(
     quiet: bool,
     **methods: Any,
 ) -> None:
-    """Run MACHINE in real time; its page in the browser shows it and sends what its operator does. Ctrl-C ends it, and a report of the
-    timing is printed.
+    """Simulate MACHINE in real time and operate it on a page in the browser.
 
-    Inputs are those under `inputs:` of the machine file. The solver runs in a process of its own, at fixed steps.
+    The section `inputs` of the machine file defines the inputs. The solver has fixed steps and runs in a process of its own. Ctrl-C ends
+    the run and prints a report of the timing.
     """
     from nivel.api import load
     from nivel.cli.progress import progress_listener

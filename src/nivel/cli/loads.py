@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from nivel.results import Result
 
 
-@click.command(short_help="Peak reactions, power and work, cycles of any signal.")
+@click.command(short_help="Peak reactions, power and work, and load cycles of signals.")
 @file_argument("result")
 @click.option(
     "--cycles",
@@ -23,14 +23,19 @@ if TYPE_CHECKING:
     metavar="NAMES",
     multiple=True,
     callback=separated,
-    help="Rainflow cycles of signals, e.g. pin.force.x.",
+    help="Count rainflow cycles of signals, e.g. pin.force.x.",
 )
-@click.option("--repeating", is_flag=True, help="The history goes on as it began: no half cycles.")
-@click.option("--period", metavar="TIME", help="Of a cycle of the machine: work in the last whole one, e.g. '0.5 s'.")
+@click.option("--repeating", is_flag=True, help="The history is periodic: count no half cycles.")
+@click.option(
+    "--period",
+    metavar="TIME",
+    help="Period of the machine, e.g. '0.5 s': also print the work in the last whole period.",
+)
 @json_option
 def command(result: str, signals: tuple[str, ...] | None, repeating: bool, period: str | None, as_json: bool) -> None:
-    """Print the loads of RESULT: the largest and the RMS reaction of every joint, power and work of everything that drives the machine,
-    and with --cycles the rainflow cycles of signals (ASTM E1049).
+    """Print the loads of RESULT: peak and RMS reactions of every joint, and power and work of drivers and forces.
+
+    With --cycles, also count the rainflow cycles of signals (ASTM E1049).
     """
     from nivel.errors import Fault, ModelError
     from nivel.results import Result

@@ -17,14 +17,17 @@ SUFFIX: Final = ".yaml"
 SCHEMA_NAME: Final = "nivel.schema.json"
 
 
-@click.command(short_help="Write a commented machine file that runs, to start from.")
+@click.command(short_help="Write a small example machine file with comments.")
 @click.argument("name", type=click.Path(path_type=Path))
 @force_option
 @click.option(
-    "--schema", "with_schema", is_flag=True, help=f"Also write {SCHEMA_NAME} beside it, with which editors help."
+    "--schema",
+    "with_schema",
+    is_flag=True,
+    help=f"Also write {SCHEMA_NAME}: with it editors complete and check machine files.",
 )
 def command(name: Path, force: bool, with_schema: bool) -> None:
-    """Write NAME.yaml: a small machine with comments, ready for `nivel run NAME.yaml`."""
+    """Write NAME.yaml: a small machine file with comments. `nivel run NAME.yaml` simulates it."""
     target = _target(name)
     text = new_machine(target.stem)
     if with_schema:

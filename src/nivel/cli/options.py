@@ -50,18 +50,18 @@ input_option = click.option(
     multiple=True,
     metavar="NAME=TABLE.csv",
     callback=assignments("NAME=TABLE.csv, e.g. lever=lever.csv, or NAME=NUMBER"),
-    help="What an input of the machine follows: a file of columns time,value, or a number. May be repeated.",
+    help="Value of an input of the machine: a CSV file with the columns time,value, or a number. May be repeated.",
 )
 
 allow_code_option = click.option(
-    "--allow-code", is_flag=True, help="Laws of the machine may be Python functions; they run with all your rights."
+    "--allow-code", is_flag=True, help="Allow Python functions in the machine file. They run with all your rights."
 )
 
 force_option = click.option("--force", is_flag=True, help="Overwrite existing files.")
 
 no_report_option = click.option("--no-report", is_flag=True, help="Write no HTML report.")
 
-json_option = click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
+json_option = click.option("--json", "as_json", is_flag=True, help="Print the results as JSON on standard output.")
 
 quiet_option = click.option("--quiet", is_flag=True, help="Print errors only.")
 
@@ -90,13 +90,13 @@ class MethodOption(click.Option):
 
 # Settings that are words, and what their help says before the words.
 METHODS: Final[dict[str, str]] = {
-    "integrator": "How the run steps through time:",
+    "integrator": "Time integration method:",
     "formulation": "Equations of motion:",
-    "coordinates": "What the equations are written in:",
-    "rotations": "Rotation coordinates of lagrange in absolute coordinates:",
-    "stabilisation": "What keeps the joints closed:",
-    "start": "What the run starts from:",
-    "step_control": "Steps of implicit integrators, fixed or chosen for the tolerance:",
+    "coordinates": "Coordinates of the equations:",
+    "rotations": "Rotation coordinates, for lagrange in absolute coordinates:",
+    "stabilisation": "Constraint stabilisation:",
+    "start": "Initial state:",
+    "step_control": "Step size control of implicit integrators:",
 }
 
 
@@ -113,25 +113,29 @@ duration_option = click.option("--duration", metavar="TIME", help="Simulated tim
 output_interval_option = click.option(
     "--output-interval",
     metavar="TIME",
-    help="Time between frames of the result; a multiple of the step where the integrator has a fixed one.",
+    help="Time between frames of the result. With a fixed step: a multiple of it.",
 )
 largest_step_option = click.option(
-    "--largest-step", metavar="TIME", help="Of integrators that choose their steps; default: the duration."
+    "--largest-step", metavar="TIME", help="Longest step of integrators that choose their steps; default: the duration."
 )
 cut_option = click.option(
     "--cut",
     metavar="JOINT",
     multiple=True,
-    help="A joint that stays a constraint in relative coordinates. May be repeated; default: chosen.",
+    help="A joint that closes a loop: it stays a constraint in relative coordinates. May be repeated; default: chosen automatically.",
 )
 
 _SIMULATION: Final[dict[str, Any]] = {
     "duration": duration_option,
-    "step": click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'; the first where it is chosen."),
+    "step": click.option(
+        "--step", metavar="TIME", help="Time step, e.g. '1 ms'. First step of integrators that choose their steps."
+    ),
     "output_interval": output_interval_option,
     **{setting: method_option(setting) for setting in METHODS},
     "tolerance": click.option(
-        "--tolerance", metavar="NUMBER", help="Of the motion, relative: for integrators that choose their steps."
+        "--tolerance",
+        metavar="NUMBER",
+        help="Relative tolerance of the motion, for integrators that choose their steps.",
     ),
     "largest_step": largest_step_option,
     "cut": cut_option,

@@ -19,23 +19,25 @@ if TYPE_CHECKING:
 SHOWN = 15  # modes in the table of the terminal
 
 
-@click.command(short_help="Make a flexible body of a finite-element model.")
+@click.command(short_help="Reduce a finite-element model to a flexible body.")
 @file_argument("model")
 @override_option
 @click.option(
     "-o",
     "--out",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Body file; default: the name of the model with .nc, here.",
+    help="Body file; default: NAME.nc in the working directory.",
 )
 @click.option(
-    "--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the body file."
+    "--report",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="HTML page; default: the name of the body file with .html.",
 )
 @no_report_option
 @click.option(
     "--vtk",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Also write the modes for ParaView: .pvd, with .vtu beside it.",
+    help="Also write the modes for ParaView: a .pvd file and its .vtu files.",
 )
 @force_option
 @quiet_option
@@ -51,11 +53,11 @@ def command(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Reduce the finite-element model of the model file MODEL to a flexible body: Craig–Bampton modes, inertia invariants, modal
-    stresses.
+    """Reduce a finite-element model to a flexible body: Craig–Bampton modes, inertia invariants, modal stresses.
 
-    MODEL says where the model comes from, its interfaces, and how it is reduced. Exit code 0 done, 2 the input is at fault, 3 the
-    computation failed, 130 interrupted.
+    The model file MODEL describes the finite-element model, its interfaces and the reduction.
+
+    Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
     # more threads make the small dense products of sparse factors slower; this must be set before NumPy is loaded
     for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):

@@ -16,15 +16,17 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 
-@click.command(short_help="Repeat a recorded live run exactly, or by other methods.")
+@click.command(short_help="Repeat a recorded live run exactly, or with other methods.")
 @file_argument("recording")
 @simulation_options
-@click.option("--take", type=click.IntRange(1), help="Which motion of the recording, from 1; default: the longest.")
+@click.option(
+    "--take", type=click.IntRange(1), help="Number of the take in the recording, from 1; default: the longest take."
+)
 @click.option(
     "-o",
     "--out",
     type=click.Path(dir_okay=False),
-    help="Result file; default: the machine's name with .replay.nc, here.",
+    help="Result file; default: NAME.replay.nc in the working directory.",
 )
 @force_option
 @allow_code_option
@@ -40,9 +42,10 @@ def command(
 ) -> None:
     """Repeat the RECORDING of `nivel live --record` and write a result.
 
-    Without further options it is done tick by tick as it was, and every frame is compared with the recorded one: exit code 3 says that they
-    are not equal to the last bit. With other methods, a step or a tolerance the same inputs are simulated again;
-    `nivel view one.nc other.nc` lays the results over each other.
+    Without further options the run is repeated tick by tick, and every frame is compared with the recorded one. Exit code 3: they are
+    not equal to the last bit.
+
+    With another method, step or tolerance the same inputs are simulated again. `nivel view one.nc other.nc` shows both results together.
     """
     from nivel.errors import ModelError
     from nivel.live.recording import read_recording

@@ -41,14 +41,14 @@ if TYPE_CHECKING:
 @input_option
 @allow_code_option
 @click.option(
-    "-o", "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here."
+    "-o", "--out", type=click.Path(dir_okay=False), help="Result file; default: NAME.nc in the working directory."
 )
 @force_option
-@click.option("--no-verify", is_flag=True, help="Make no second run, and say nothing of how exact the result is.")
+@click.option("--no-verify", is_flag=True, help="Make no second run, so the error is not estimated.")
 @click.option(
     "--verify-limit",
     metavar="TIME",
-    help="How long the second run may go on after the first, e.g. '1 min'; default: as long again as that took, and at least 10 s.",
+    help="How long the second run may continue after the first, e.g. '1 min'; default: the duration of the first, and at least 10 s.",
 )
 @no_report_option
 @quiet_option
@@ -69,11 +69,11 @@ def command(
 ) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
 
-    A second run with other steps, on another core, estimates the error of every number in the result.
+    A second run with other step sizes runs at the same time and estimates the error of every number in the result.
 
-    Options override the settings of the machine file under `simulation:`. The file may have settings of several methods; an option
-    without effect on the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
-    interrupted; what was computed is kept in every case.
+    Options override the section `simulation` of the machine file. An option that has no effect on the chosen methods is refused.
+
+    Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted. The results computed so far are always kept.
     """
     if out is not None:  # before all that takes time
         refuse_to_replace(None if no_report else beside(Path(out)), Path(out), force, Path(machine))

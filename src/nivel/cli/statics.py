@@ -27,21 +27,23 @@ if TYPE_CHECKING:
 SHOWN: Final = 12  # vibrations, and joint coordinates, in the terminal
 
 
-@click.command(short_help="Find where a machine rests under its loads.")
+@click.command(short_help="Find the static equilibrium of a machine under its loads.")
 @file_argument("machine")
-@click.option("--duration", metavar="TIME", help="To which time loads and drivers go on, e.g. 1; 0: only t = 0.")
-@click.option("--step", metavar="TIME", help="Of time, between states; default: a twentieth of the duration.")
+@click.option("--duration", metavar="TIME", help="Last time of the loads and drivers, e.g. 1; 0: only t = 0.")
+@click.option("--step", metavar="TIME", help="Time between two states; default: a twentieth of the duration.")
 @click.option("--arc-length", is_flag=True, help="Follow the path through limit points, where time turns back.")
 @click.option(
-    "--tolerance", metavar="NUMBER", help="Of the last change, in lengths of the machine and radians; default 1e-10."
+    "--tolerance",
+    metavar="NUMBER",
+    help="Largest last correction of Newton's method, in lengths of the machine and in radians; default 1e-10.",
 )
-@click.option("--most-iterations", metavar="NUMBER", help="Of Newton's method for a state; default 25.")
-@click.option("--no-line-search", is_flag=True, help="Take full steps of Newton's method always.")
-@click.option("--modes", metavar="NUMBER", help="Natural frequencies and modes about every state: so many.")
+@click.option("--most-iterations", metavar="NUMBER", help="Limit of Newton iterations for a state; default 25.")
+@click.option("--no-line-search", is_flag=True, help="Use only full Newton steps.")
+@click.option("--modes", metavar="NUMBER", help="Number of natural frequencies and modes about every state.")
 @click.option(
-    "--buckling", metavar="NUMBER", help="Linearised buckling loads from the first and the last state: so many."
+    "--buckling", metavar="NUMBER", help="Number of linearised buckling loads, from the first and the last state."
 )
-@click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
+@click.option("--coordinates", metavar="NAME", help="Coordinates of the equations: auto, absolute, relative.")
 @override_option
 @allow_code_option
 @click.option(
@@ -49,7 +51,7 @@ SHOWN: Final = 12  # vibrations, and joint coordinates, in the terminal
     "--out",
     metavar="FILE.nc",
     type=click.Path(),
-    help="Result file. Default: NAME-statics.nc in the working directory.",
+    help="Result file; default: NAME-statics.nc in the working directory.",
 )
 @force_option
 @no_report_option
@@ -67,10 +69,11 @@ def command(
     no_line_search: bool,
     **options: Any,
 ) -> None:
-    """Find the static equilibrium of MACHINE, and how it changes while time, on which its loads and drivers depend, goes on.
+    """Find the static equilibrium of MACHINE, and follow it while time changes its loads and drivers.
 
-    Velocities are zero: dampers and the speeds of drivers have no part. Exit code 0 done, 2 the input is at fault, 3 no equilibrium was
-    found, 130 interrupted; what was computed is kept in every case.
+    Velocities are zero, so dampers and the speeds of drivers have no effect.
+
+    Exit codes: 0 done, 2 fault in the input, 3 no equilibrium found, 130 interrupted. The states found so far are always kept.
     """
     from nivel.api import load
     from nivel.errors import ModelError, SolveError

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 FILE = click.Path(dir_okay=False, path_type=Path)
 
 
-@click.command(short_help="Say where and when a flexible body is stressed most.")
+@click.command(short_help="Find the largest stresses in a flexible body.")
 @file_argument("result")
-@click.option("--body", metavar="NAME", help="Which flexible body; not needed where there is only one.")
-@click.option("--body-file", type=FILE, help="Where the file of the body is now, if it was moved since the run.")
-@click.option("--count", type=click.IntRange(min=1), default=5, show_default=True, help="How many hot spots.")
+@click.option("--body", metavar="NAME", help="Flexible body; needed if there are several.")
+@click.option("--body-file", type=FILE, help="Body file, if it was moved since the run.")
+@click.option("--count", type=click.IntRange(min=1), default=5, show_default=True, help="Number of hot spots.")
 @click.option(
     "--node",
     "nodes",
@@ -36,14 +36,14 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     metavar="TIMES",
     multiple=True,
     callback=separated,
-    help="State at these times, e.g. '0.5 s, 1 s': the frames nearest to them.",
+    help="State at the frames nearest to these times, e.g. '0.5 s, 1 s'.",
 )
-@click.option("--strain", "strains", is_flag=True, help="Write strains too, with --csv and --node.")
+@click.option("--strain", "strains", is_flag=True, help="Also write strains, with --csv and --node.")
 @click.option(
     "--csv",
     "table",
     type=FILE,
-    help="Write a table: with --node a row per frame, with --at the states, else the largest stress of every station.",
+    help="Write a table: one row per frame with --node, the states with --at, otherwise the largest stress of every station.",
 )
 @click.option("--rainflow", "cycles", type=FILE, help="Write the cycles at the nodes of --node as a table.")
 @click.option("--plot", "picture", type=FILE, help="Draw the history at the nodes of --node (.png, .svg, .pdf).")
@@ -67,9 +67,9 @@ def command(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Recover the stress of a flexible body from RESULT: hot spots with the time of their worst state, histories, cycles.
+    """Recover the stress of a flexible body from RESULT: hot spots with the time of the largest stress, histories, cycles.
 
-    RESULT may be of a run that still goes on or was killed. The file of the body must be the one of the run.
+    The run of RESULT may still be going on, or may have been killed. The body file must be the one of the run.
     """
     _refuse_without_nodes(nodes, {"--rainflow": cycles, "--plot": picture, "--strain": strains})
     if strains and table is None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MACHINES = (".yaml", ".yml")
 
 
-@click.command(short_help="Play a result, or move a machine, in the browser.")
+@click.command(short_help="Show a result or move a machine in the browser.")
 @file_argument("file")
 @click.argument("ghosts", nargs=-1, type=click.Path(dir_okay=True))
 @click.option(
@@ -26,36 +26,49 @@ MACHINES = (".yaml", ".yml")
     "exports",
     multiple=True,
     type=click.Path(dir_okay=False),
-    help="Write FILE.html, one page with everything inside, or a film FILE.mp4 or FILE.gif; nothing is opened.",
+    help="Write a page FILE.html that needs no other file, or a film FILE.mp4 or FILE.gif. No browser is opened.",
 )
 @click.option(
     "--mode", "vibration", type=int, metavar="N", help="Play vibration N about the last state of a statics result."
 )
-@click.option("--still", type=click.Path(dir_okay=False), help="Write a picture FILE.png; nothing is opened.")
+@click.option("--still", type=click.Path(dir_okay=False), help="Write a picture FILE.png. No browser is opened.")
 @click.option("--at", "moment", type=float, help="Time of the still [s]; default: the start.")
-@click.option("--size", default="1280x720", show_default=True, metavar="WxH", help="Of stills and films, in pixels.")
 @click.option(
-    "--from", "side", default="first", show_default=True, help="Side that stills and films show: front, right, top, …"
+    "--size", default="1280x720", show_default=True, metavar="WxH", help="Size of stills and films in pixels."
 )
 @click.option(
-    "--frames-per-second", "rate", default=25, show_default=True, type=click.IntRange(1, 60), help="Of films."
+    "--from",
+    "side",
+    default="first",
+    show_default=True,
+    help="Direction of view of stills and films: front, right, top, …",
 )
-@click.option("--speed", default=1.0, show_default=True, type=float, help="Of films: seconds of motion in a second.")
+@click.option(
+    "--frames-per-second",
+    "rate",
+    default=25,
+    show_default=True,
+    type=click.IntRange(1, 60),
+    help="Frames per second of films.",
+)
+@click.option(
+    "--speed", default=1.0, show_default=True, type=float, help="Speed of films: seconds of motion per second."
+)
 @click.option(
     "--colours",
     default="",
     metavar="QUANTITY",
-    help="What beams or flexible bodies show in stills and films: axial force, …",
+    help="Quantity shown by the colours of beams and flexible bodies in stills and films: axial force, …",
 )
-@click.option("--dark", is_flag=True, help="Dark stills and films.")
-@click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port to listen at; default: a free one.")
+@click.option("--dark", is_flag=True, help="Dark background for stills and films.")
+@click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port to listen at; default: any free port.")
 @click.option(
     "--host",
     default="127.0.0.1",
     show_default=True,
-    help="Address to listen at; others than this machine's own need a token.",
+    help="Address to listen at. With another address than the default, clients need the token.",
 )
-@click.option("--no-browser", is_flag=True, help="Open no browser, only say the address.")
+@click.option("--no-browser", is_flag=True, help="Do not open a browser, only print the address.")
 @force_option
 @override_option
 @allow_code_option
@@ -81,10 +94,10 @@ def command(
     allow_code: bool,
     quiet: bool,
 ) -> None:
-    """Show FILE: a result (.nc), or a machine file (.yaml) that is assembled and can be moved by hand.
+    """Show FILE in the browser: a result (.nc), or a machine file (.yaml) whose joints can be moved by hand.
 
-    Results after the first are laid over it as ghosts. The page is served on this machine only, unless --host says otherwise; it needs
-    no network. With --export or --still files are written and nothing is opened.
+    Further results are drawn transparently over the first one. The page is served only on this computer, unless --host is given, and
+    needs no network. With --export or --still files are written and no browser is opened.
     """
     from nivel.errors import ModelError
     from nivel.view.capture import Look

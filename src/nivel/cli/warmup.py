@@ -12,9 +12,9 @@ from nivel.cli.options import quiet_option
 @click.command(short_help="Compile all kernels ahead of the first run.")
 @quiet_option
 def command(quiet: bool) -> None:
-    """Compile every formulation, integrator and kind of force into the user's cache, on all processors.
+    """Compile every formulation, integrator and type of force into the user's cache, on all processors.
 
-    What is there already is not compiled again; an interrupted command goes on where it stopped.
+    Entries that are compiled already are kept. After an interruption, the next call continues.
     """
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn

@@ -14,7 +14,7 @@ _BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (
     (b"CDF\x02", "this is a NetCDF-3 file, not a machine file"),
     (b"<!doctype html", "this is a page for a browser, such as a report of nivel, not a machine file"),
     (b"<html", "this is a page for a browser, such as a report of nivel, not a machine file"),
-    (b"PK\x03\x04", "this is a packed file (zip), not a machine file"),
+    (b"PK\x03\x04", "this is a zip file, not a machine file"),
     (b"solid ", "this is a mesh (STL), not a machine file; a body refers to it: `shape: {{type: mesh, file: {file}}}`"),
     (b"iso-10303-21", "this is a CAD file (STEP), which nivel does not read; save the parts as meshes (STL)"),
 )

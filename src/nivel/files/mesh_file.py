@@ -89,7 +89,7 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
     if len(triangles) > MOST_TRIANGLES:
         raise NotReadError(f"it has {len(triangles)} triangles, more than {MOST_TRIANGLES}; make it coarser")
     if triangles.min() < 0 or triangles.max() >= len(vertices):
-        raise NotReadError("a triangle has a corner that is not there")
+        raise NotReadError("a triangle refers to a corner that does not exist")
     if not np.all(np.isfinite(vertices)):
         raise NotReadError("it has coordinates that are not finite")
     return vertices, triangles.astype(np.uint32)
@@ -223,7 +223,7 @@ def _buffer(uri: str, file: str) -> bytes:
     if uri.startswith("data:"):
         return base64.b64decode(uri.partition(",")[2])
     if "://" in uri or FilePath(uri).is_absolute() or ".." in FilePath(uri).parts:
-        raise NotReadError(f"it names `{uri}`, and only files beside it are read")
+        raise NotReadError(f"it refers to `{uri}`, and only files beside it are read")
     try:
         return (FilePath(file).parent / uri).read_bytes()
     except OSError:

@@ -50,13 +50,13 @@ def _any_force(force: ForceElement, scene: Scene) -> Changes:
     """Functions of signals follow the part, and so do points between which it acts; what else would turn needs a rule of the kind."""
     coordinate = getattr(force, "coordinate", None)
     if coordinate is not None and scene.is_opposite(coordinate):
-        raise NotRepresentableError(f"a {force.type} cannot act on a coordinate that changes its sign")
-    if coordinate is None and not isinstance(force, Between) and scene.placement.turns:
-        raise NotRepresentableError(f"what a {force.type} would be in a part that is turned is not known")
-    if any(isinstance(value, tuple) and any(isinstance(each, _FUNCTIONS) for each in value) for _, value in force):
         raise NotRepresentableError(
-            f"what a {force.type} with several functions would be in a placed part is not known"
+            f"a {force.type} on a coordinate whose sign is reversed by the placement is not supported"
         )
+    if coordinate is None and not isinstance(force, Between) and scene.placement.turns:
+        raise NotRepresentableError(f"a {force.type} in a rotated part is not supported")
+    if any(isinstance(value, tuple) and any(isinstance(each, _FUNCTIONS) for each in value) for _, value in force):
+        raise NotRepresentableError(f"a {force.type} with several functions is not supported in a placed part")
     changes = placed_ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
     return changes | {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
 

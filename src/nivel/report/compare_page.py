@@ -28,9 +28,9 @@ WANTED = (1e-3, 1e-6, 1e-9)  # errors to which the cheapest cell is told
 MEANINGS = (
     (
         "Loop time",
-        "process time inside the compiled time loop, frames included, the least of all repeats; assembling is not in it",
+        "process time of the compiled time loop with its frames, without assembly; the smallest of all repeats",
     ),
-    ("Steps, rejected", "accepted steps, and those that an integrator tried again because their error was too large"),
+    ("Steps, rejected", "accepted steps, and steps that were repeated because their error was too large"),
     (
         "Evaluations, iterations",
         "evaluations of the equations of motion, and iterations of correctors, penalties and friction",
@@ -44,12 +44,12 @@ MEANINGS = (
     ("Energy", "the largest error of the energy balance as a share of the largest kinetic energy, and in joules"),
     (
         "Motion",
-        f"how far the motion is from the reference: {DEFINITION}. Below it the body and the time where it is largest",
+        f"distance of the motion from the reference: {DEFINITION}. Below it are the body and the time of the largest value",
     ),
     (
         "Reference",
-        "a solution of another integrator at a much finer step or tolerance; its own error is estimated by computing it twice. An error "
-        "below three times that of the reference is only known to be about so small",
+        "a solution of another integrator at a much finer step or tolerance. Its own error is estimated by a second solution. If an "
+        "error is less than three times that of the reference, the true error has this size or is smaller",
     ),
     (
         "Order",
@@ -57,9 +57,9 @@ MEANINGS = (
     ),
     (
         "Spread",
-        "the distance between those two methods that are furthest apart, each at its finest step or tolerance. A method whose own two "
-        f"finest runs are more than {CONVERGED:g} apart is left out. Methods that share no equations and still agree are right about this "
-        "machine, or wrong for the same reason",
+        "the largest distance between two methods, each at its finest step or tolerance. A method is left out if its own two finest "
+        f"runs differ by more than {CONVERGED:g}. If methods with different equations agree, they are right for this machine, or have "
+        "the same error",
     ),
 )
 

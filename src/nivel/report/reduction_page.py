@@ -21,31 +21,31 @@ GOOD, FAIR = 0.01, 0.05  # relative errors of frequencies
 MEANINGS: Final = (
     (
         "Whole model",
-        "elastic frequencies of the finite-element model with nothing holding it; its six rigid motions are left out",
+        "elastic frequencies of the free finite-element model, without its six rigid-body modes",
     ),
     (
         "Reduced",
-        "the same of the reduced body. It can only be stiffer, so these frequencies are too high, never too low",
+        "the same for the reduced body. It can only be stiffer, so these frequencies are never too low",
     ),
     (
         "MAC",
-        "modal assurance criterion, weighted with the mass: one where a reduced mode has the shape of the whole model's, zero where not. "
-        "In brackets the reduced mode that is most similar, where it stands elsewhere in the order",
+        "modal assurance criterion, weighted with the mass: one if the shapes of both modes are equal, zero if they are "
+        "orthogonal. If the most similar reduced mode has another number, this number stands in brackets",
     ),
     (
         "Normal modes",
-        "of the body held at its interfaces. Effective masses are what such a mode moves of the whole mass and inertia; shares along and "
-        "about x, y, z. A sum near one says that no more modes are needed for forces through the interfaces",
+        "modes of the body held at its interfaces. The effective mass of a mode is its share of the whole mass and inertia, "
+        "along and about x, y, z. If the sum is near one, no more modes are needed for forces through the interfaces",
     ),
     (
         "Condition of the basis",
-        "ratio of the largest and smallest eigenvalue of its mass matrix, vectors scaled to unit mass. Above 1e10 interfaces coincide or "
-        "move next to no mass",
+        "ratio of the largest and smallest eigenvalue of its mass matrix, for vectors of unit mass. Above 1e10 interfaces "
+        "coincide or move almost no mass",
     ),
     (
         "Neglecting I5, I8, I9",
-        "the largest change of the mass matrix, relative, if this inertia invariant is switched off while one mode bends the body by 1 % "
-        "of its size, or turns a node by 0.05 rad. I5 and I9 cost most computing",
+        "the largest relative change of the mass matrix if this inertia invariant is neglected, while one mode bends the body "
+        "by 1 % of its size or rotates a node by 0.05 rad. I5 and I9 need most computing time",
     ),
 )
 

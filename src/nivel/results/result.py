@@ -281,7 +281,7 @@ class Result:
 
     @checked_arguments
     def view(self, *others: Result, height: int = 520) -> Inline:
-        """The motion, to be played in a notebook; `others` are laid over it as ghosts. height : in pixels."""
+        """Animation of the motion in a notebook; `others` are drawn transparently over it. height : in pixels."""
         from nivel.view.inline import Inline
 
         return Inline([self, *others], height)

@@ -16,13 +16,13 @@ def refuse_for_inverse(machine: MachineRecord) -> None:
             0,
             0,
             f"bodies.{body.name}.flexible",
-            "the motion of a body that bends is not given by its frame: leave it rigid",
+            "the frame of a flexible body does not determine its motion: make the body rigid",
         )
         for body in machine.bodies
         if body.flexible is not None
     ]
     faults += [
-        Fault("", 0, 0, f"beams.{beam.name}", "the motion of a beam that bends is not given by drivers: leave it out")
+        Fault("", 0, 0, f"beams.{beam.name}", "drivers do not determine the motion of a beam: leave the beam out")
         for beam in machine.beams
     ]
     if faults:

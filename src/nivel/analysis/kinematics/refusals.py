@@ -18,13 +18,17 @@ def refuse_what_bends(machine: MachineRecord) -> None:
     refuse_rolling(machine, "use `nivel run`")
     faults = [
         Fault(
-            "", 0, 0, f"bodies.{body.name}.flexible", "a body that bends is not moved by drivers alone: use `nivel run`"
+            "",
+            0,
+            0,
+            f"bodies.{body.name}.flexible",
+            "drivers alone do not determine the motion of a flexible body: use `nivel run`",
         )
         for body in machine.bodies
         if body.flexible is not None
     ]
     faults += [
-        Fault("", 0, 0, f"beams.{beam.name}", "a beam that bends is not moved by drivers alone: use `nivel run`")
+        Fault("", 0, 0, f"beams.{beam.name}", "drivers alone do not determine the motion of a beam: use `nivel run`")
         for beam in machine.beams
     ]
     faults += [
@@ -47,7 +51,8 @@ def refuse_free_motions(machine: MachineRecord, prepared: Prepared) -> None:
     driven = [name for name in redundancy.redundant_rows if name.endswith(".driver")]
     if driven:
         names = ", ".join(name.removesuffix(".driver") for name in driven)
-        message = f"the drivers prescribe more motions than there are: {names} follows from the others; leave one out"
+        message = f"the drivers prescribe more motions than there are degrees of freedom: {names} follows from the others; leave "
+        "one out"
         raise ModelError(Fault("", 0, 0, "drivers", message))
     count = redundancy.degrees_of_freedom
     if count == 0:
@@ -56,7 +61,7 @@ def refuse_free_motions(machine: MachineRecord, prepared: Prepared) -> None:
     what = f"{count} motion{'s are' if count > 1 else ' is'} not driven"
     how = f"drive {' and '.join(free)}, by `drivers` in the file or `--drive`" if free else "add drivers"
     if free and len(free) < count:
-        how += f"; {count - len(free)} of them no joint coordinate measures, as a rod that spins between two ball joints: hold it"
+        how += f"; {count - len(free)} of them no joint coordinate measures, e.g. the spin of a rod between two ball joints: hold it"
     raise ModelError(Fault("", 0, 0, "machine", f"{what}, and kinematics needs all of them: {how}; or use `nivel run`"))
 
 

@@ -17,7 +17,7 @@ def refuse_jumps(machine: MachineRecord) -> None:
             0,
             0,
             f"forces.{force.name}.model",
-            f"'{force.model}' friction has no slope where it sticks: leave it out, give the joint a damper, or take `lugre`",
+            f"'{force.model}' friction has no derivative where it sticks: leave it out, use a damper in the joint, or use `lugre`",
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model != "lugre"
@@ -28,7 +28,7 @@ def refuse_jumps(machine: MachineRecord) -> None:
             0,
             0,
             f"states.{state.name}.update",
-            "a sampled state changes in jumps, which linear equations in continuous time do not know: write it as a `rate`",
+            "a sampled state changes in jumps, which linear equations in continuous time cannot describe: write it as a `rate`",
         )
         for state in machine.states
         if state.update is not None
@@ -39,8 +39,8 @@ def refuse_jumps(machine: MachineRecord) -> None:
             0,
             0,
             f"control.{block.name}.sample_time",
-            "a sampled block changes in jumps, which linear equations in continuous time do not know: without `sample_time` it is "
-            "continuous, and without the block the loop is open",
+            "a sampled block changes in jumps, which linear equations in continuous time cannot describe: leave out `sample_time` "
+            "to make it continuous, or leave out the block to open the loop",
         )
         for block in machine.control
         if block.sample_time is not None

@@ -37,7 +37,7 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
 def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
     """What feeds violations of constraints back, in coordinates that have none."""
     faults = []
-    left = "they solve the constraints for the dependent coordinates after every step, so no violation is left to feed back"
+    left = "the constraints are solved for the dependent coordinates after every step, so there is no violation to feed back"
     if stabilisation == "baumgarte":
         message = f"'baumgarte' does not go with `coordinates: independent`: {left}; take none, direct or geometric"
         faults.append(_fault("stabilisation", message))
@@ -77,14 +77,14 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
     name, faults = f"`integrator: {settings.integrator}`", []
     if FORMULATIONS[settings.formulation].factor > 0.0:
         message = (
-            f"'{settings.formulation}' does not go with {name}, whose multipliers close the positions: take newton-euler, whose motion is "
-            f"the same"
+            f"'{settings.formulation}' does not go with {name}, whose multipliers solve the position constraints: use newton-euler, "
+            f"which gives the same motion"
         )
         faults.append(_fault("formulation", message))
     if settings.formulation == "lagrange":
         message = (
-            f"'lagrange' does not go with {name}, which balances momenta along angular velocities, not along rates of rotation "
-            f"coordinates: take newton-euler, whose motion is the same"
+            f"'lagrange' does not go with {name}, which balances momenta for angular velocities, not for rates of rotation "
+            f"coordinates: use newton-euler, which gives the same motion"
         )
         faults.append(_fault("formulation", message))
     if coordinates != "absolute":
@@ -92,8 +92,8 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
         faults.append(_fault("coordinates", message))
     if settings.stabilisation != "none":
         message = (
-            f"'{settings.stabilisation}' does not go with {name}: it closes the positions itself, and a change of velocities after a step "
-            f"would take the energy that it keeps: take none"
+            f"'{settings.stabilisation}' does not go with {name}: it solves the position constraints itself, and a change of "
+            f"velocities after a step would change the energy that it conserves: use none"
         )
         faults.append(_fault("stabilisation", message))
     if settings.corrector.iteration == "functional":
@@ -111,9 +111,9 @@ def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
         return []  # no corrector at all
     why = "solves with one exact matrix a step and does not iterate"
     if facts.chooses_steps:
-        why = "chooses steps and orders by what its matrix has cost so far"
+        why = "chooses steps and orders by the cost of its matrix so far"
     elif facts.implicit:
-        why = "makes its matrix by differences, anew where the iteration slows down"
+        why = "computes its matrix by differences, again when the iteration converges slowly"
     message = (
         f"'full' does not go with `integrator: {settings.integrator}`, which {why}: take newmark, hht or generalised-alpha, or leave "
         f"`matrix` out"

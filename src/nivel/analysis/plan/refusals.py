@@ -47,8 +47,8 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
             deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
             if depth > deepest:
                 message = (
-                    f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): it would throw the "
-                    f"machine apart; move the bodies, or the ends of the way"
+                    f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): the contact force "
+                    f"would be huge; move the bodies, or the limits of the stop"
                 )
                 faults.append(Fault("", 0, 0, f"forces.{force.name}", message))
     if faults:
@@ -73,8 +73,8 @@ def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: 
         count = round(time / step)
         if count < 1 or abs(count * step - time) > WHOLE * time:
             message = (
-                f"{time:.6g} s is no whole number of steps of {step:.6g} s, and fixed steps stay as they are: "
-                f"`simulation: {{step: {time / max(count, 1):.6g}}}` would fit, or an integrator that chooses its steps"
+                f"{time:.6g} s is no whole number of steps of {step:.6g} s: use `simulation: {{step: {time / max(count, 1):.6g}}}`, "
+                f"or an integrator that chooses its steps"
             )
             faults.append(Fault("", 0, 0, place, message))
     if faults:
@@ -91,8 +91,8 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
     }
     if constraints and settings.stabilisation == "none" and undamped.get(settings.integrator):
         message = (
-            f"'none' makes `integrator: {settings.integrator}` solve the positions' constraints alone (index 3), and without damping its "
-            f"multipliers never settle after a load changes: take direct (stabilised index 2), or damp: "
+            f"'none' makes `integrator: {settings.integrator}` solve the positions' constraints alone (index 3), and without "
+            f"damping its multipliers oscillate after a load changes: use direct (stabilised index 2), or damping: "
             f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
         )
         raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
@@ -108,8 +108,8 @@ def refuse_stiction_over_steps(machine: MachineRecord) -> None:
             0,
             0,
             f"forces.{force.name}.model",
-            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, while "
-            f"sticking is a matter of the acceleration at a time: take generalised-alpha, or lugre, which sticks too",
+            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, "
+            f"while sticking depends on the acceleration at a time: use generalised-alpha, or `model: lugre`",
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model == "stiction"
@@ -127,15 +127,15 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
     sudden = [force.name for force in machine.forces if isinstance(force, Contact | Stop)]
     if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
         message = (
-            f"'geometric' scales all velocities to the energy they should have, also for what a step of fixed size misses when "
-            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch within it: take direct, or `integrator: dopri5`, whose steps "
+            f"'geometric' scales all velocities to conserve energy. It would also correct the error of a fixed step in which "
+            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch: use direct, or `integrator: dopri5`, whose steps "
             f"end there"
         )
         faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
     if machine.drivers:
         names = ", ".join(driver.name for driver in machine.drivers)
         message = (
-            f"'geometric' scales velocities to the energy they should have, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
+            f"'geometric' scales velocities to conserve energy, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
             f"velocities: take direct"
         )
         faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
@@ -151,9 +151,7 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
     for owner, table in _motions(machine):
         message = ""
         if isinstance(table, PythonLaw) and (wrong := false_derivative(table, settings.duration)):
-            message = (
-                f"the law `{table.function}` must return value, rate and acceleration that belong together: {wrong}"
-            )
+            message = f"the law `{table.function}` must return consistent value, rate and acceleration: {wrong}"
         elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].velocity_jumps:
             message = _jump_of(table, settings)
         if message:
@@ -230,8 +228,8 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
     if INTEGRATORS[machine.simulation.integrator].step_residual and gradients:
         message = (
-            f"'{machine.simulation.integrator}' does not go with {gradients}, whose velocities at the tips of gradients are no means of "
-            f"those at both ends of a step: take generalised-alpha, or beams of another `model`"
+            f"'{machine.simulation.integrator}' does not go with {gradients}, because the velocities of its gradients are not the "
+            f"mean of those at both ends of a step: use generalised-alpha, or beams of another `model`"
         )
         faults.append(("integrator", message))
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
@@ -292,8 +290,8 @@ def refuse_struck_nodes(
             0,
             0,
             f"beams.{owners[name]}",
-            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an impact. Give "
-            f"the beam its `velocity` (of its start) and `angular_velocity`, with which it moves as a whole",
+            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an "
+            f"impact. Give the beam the `velocity` of its start and the `angular_velocity` with which it moves as a rigid body",
         )
         for name, change, turn in struck
     ]
@@ -310,7 +308,7 @@ def refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> No
             if joint in redundancy.non_unique_joints:
                 message = (
                     f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(redundancy.redundant_rows)} "
-                    f"repeat other constraints; give a `normal_load`, or replace joints until nothing is redundant"
+                    f"repeat other constraints; give a `normal_load`, or replace joints until no constraint is redundant"
                 )
                 faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
     if faults:

@@ -16,7 +16,7 @@ def refuse_rolling(machine: MachineRecord, instead: str) -> None:
             0,
             0,
             f"joints.{joint.name}.type",
-            f"'rolling' without slip holds velocities, not positions, and where a wheel comes to depends on the way it took: {instead}",
+            f"'rolling' without slip constrains velocities, not positions, so the position of a wheel depends on its path: {instead}",
         )
         for joint in machine.joints
         if joint.type == "rolling"
@@ -32,7 +32,7 @@ def refuse_rolling_by_positions(machine: MachineRecord, coordinates: str) -> Non
     if integrator.step_residual:
         refuse_rolling(
             machine,
-            f"`integrator: {settings.integrator}` closes positions over a step; take generalised-alpha, radau or rk4",
+            f"`integrator: {settings.integrator}` solves position constraints only; use generalised-alpha, radau or rk4",
         )
     feeds_back = FORMULATIONS[settings.formulation].factor > 0.0
     closes_positions = settings.stabilisation == "none" and not feeds_back and coordinates != "independent"

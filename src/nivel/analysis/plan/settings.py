@@ -94,9 +94,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         message = f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step, or a shorter duration"
         faults.append(_fault("step", message))
     if facts is not None and facts.implicit and settings.corrector.tolerance < LEAST_CHANGE:
-        message = (
-            f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off rules; ask for no less"
-        )
+        message = f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off dominates; use a larger value"
         faults.append(_fault("corrector.tolerance", message))
     steps, every, interval = 0, 0, settings.duration
     if chosen_steps:
@@ -112,7 +110,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
             wanted = f"{settings.largest_step:.6g} s would take more than {MOST_STEPS:.0e} steps"
             faults.append(_fault("largest_step", f"{wanted} in a `duration` of {settings.duration:.6g} s"))
         if settings.tolerance < LEAST_TOLERANCE:
-            message = f"{settings.tolerance:.3g} is below {LEAST_TOLERANCE:.0e}, where round-off rules; ask for no less"
+            message = f"{settings.tolerance:.3g} is below {LEAST_TOLERANCE:.0e}, where round-off dominates; use a larger value"
             faults.append(_fault("tolerance", message))
     elif countable:
         steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
@@ -184,8 +182,7 @@ def _every(settings: SimulationSettings, steps: int, faults: list[Fault]) -> int
         )
         choices = " or ".join(f"{k * settings.step:.6g}" for k in near)
         message = (
-            f"{settings.output_interval:.6g} s is not a multiple of the step {settings.step:.6g} s: a fixed step stays fixed; "
-            f"use {choices} s"
+            f"{settings.output_interval:.6g} s is not a multiple of the step {settings.step:.6g} s; use {choices} s"
         )
         faults.append(_fault("output_interval", message))
     return max(1, every)

@@ -18,9 +18,9 @@ def refuse_friction(machine: MachineRecord) -> None:
             0,
             0,
             f"forces.{force.name}.model",
-            f"'{force.model}' holds at rest with any force up to static friction, so there are many equilibria, and which one is taken "
-            f"depends on the motion before: leave the friction out, or take coulomb, which makes no force at rest; or let a run with a "
-            f"damper come to rest",
+            f"'{force.model}' holds at rest with any force up to static friction, so there are many equilibria, and the actual one "
+            f"depends on the previous motion: leave the friction out, use coulomb, which exerts no force at rest, or simulate with "
+            f"a damper until the machine rests",
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model != "coulomb"
@@ -60,11 +60,11 @@ def at_rest(machine: MachineRecord) -> tuple[str, ...]:
     ]
     out = []
     if damping:
-        out.append(f"dampers make no force at rest ({_named(damping)})")
+        out.append(f"dampers exert no force at rest ({_named(damping)})")
     if rubbing:
-        out.append(f"coulomb friction depends on speed and makes no force at rest ({_named(rubbing)})")
+        out.append(f"coulomb friction depends on speed and exerts no force at rest ({_named(rubbing)})")
     if machine.events:
-        out.append("events are not looked for")
+        out.append("events are ignored")
     return tuple(out)
 
 

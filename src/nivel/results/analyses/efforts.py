@@ -100,7 +100,7 @@ class Efforts:
             some = ", ".join(self.held[:NAMED]) + (
                 f" and {len(self.held) - NAMED} more" if len(self.held) > NAMED else ""
             )
-            said = f"the motion has no history of {some}: they keep the values of the start"
+            said = f"the motion has no history of {some}: they keep their initial values"
             out.append(f"{said}, and what forces make of them is not that of the motion; give the result of a run")
         if not self.complete:
             k = int(np.argmax(self.missing_share))

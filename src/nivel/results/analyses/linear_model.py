@@ -220,7 +220,7 @@ class LinearModel:
         return xarray.Dataset(values, coords=coordinates, attrs=facts)
 
     def mode(self, number: int) -> Result:
-        """Mode `number` (from 1) as a motion, to be played: a period of a second, an amplitude that can be seen.
+        """Mode `number` (from 1) as an animated motion: a period of a second, an amplitude that can be seen.
 
         Raises ModelError where there is no such mode.
         """

@@ -1,4 +1,4 @@
-"""A mode of a linear model as a motion, to be played."""
+"""A mode of a linear model as an animated motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A vibration about an equilibrium as a motion, to be played."""
+"""A vibration about an equilibrium as an animated motion."""
 
 from __future__ import annotations
 

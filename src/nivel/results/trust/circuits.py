@@ -56,9 +56,9 @@ def guard_items(guard: Guard | None) -> Iterator[Item]:
         return
     share = guard.guarded / guard.steps
     verdict = "green" if share < GUARDED_GREEN else "amber" if share < GUARDED_AMBER else "red"
-    divided = f"{guard.divided} of {guard.steps} steps were made in parts"
+    divided = f"{guard.divided} of {guard.steps} steps were divided into parts"
     counted = f"{divided}, {guard.guarded} parts were not extrapolated"
-    largest = f"pressures of one step and of two half ones differed by at most {guard.difference / 1e5:.3g} bar"
+    largest = f"pressures after a full step and two half steps differed by at most {guard.difference / 1e5:.3g} bar"
     advice = "" if verdict == "green" else "; take a shorter step, or larger small volumes"
     text = f"Pressure steps: {counted} (green below {100 * GUARDED_GREEN:g} % of the steps), {largest}{advice}"
     yield Item("pressure steps", verdict, text, share, GUARDED_GREEN, GUARDED_AMBER)
@@ -79,7 +79,7 @@ def _energy_item(result: Readable) -> Item:
     fraction = float(error[k]) / scale if scale > NO_ENERGY else 0.0
     threshold = THRESHOLDS["energy"]
     given, into_bodies, heat, kept = (quantity(float(each[-1]), "J") for each in flows)
-    balance = f"{given} supplied = {into_bodies} given to bodies + {heat} lost + {kept} stored"
+    balance = f"{given} supplied = {into_bodies} work on bodies + {heat} losses + {kept} stored"
     said = f"{balance}; error {number(fraction)} of the largest of these ({threshold})"
     return Item(
         "hydraulics",
@@ -103,7 +103,7 @@ def _mass_item(result: Readable) -> Item:
     scale = float(np.max(np.abs(mass))) + float(np.max(np.abs(taken)))
     fraction = float(error[k]) / scale if scale > 0.0 else 0.0
     threshold = THRESHOLDS["energy"]
-    text = f"Fluid: what tanks gave and what volumes hold agrees to {number(fraction)} of it ({threshold})"
+    text = f"Fluid: mass taken from tanks and mass in volumes differ by {number(fraction)} of it ({threshold})"
     verdict = threshold.verdict(fraction)
     return Item("fluid mass", verdict, text, fraction, threshold.green, threshold.amber, time=float(result.time[k]))
 
@@ -137,5 +137,5 @@ def _saturation_items(result: Readable) -> Iterator[Item]:
             text = f"Saturation: the valve {name} is at the end of its stroke for the whole run; does its command have the right scale?"
             yield Item("saturation", "amber", text, row=name)
         if kind == "relief-valve" and len(position) and np.all(position > AT_END):
-            text = f"Saturation: the relief valve {name} is fully open for the whole run and bounds no pressure; is its flow right?"
+            text = f"Saturation: the relief valve {name} is fully open for the whole run and limits no pressure; is its flow right?"
             yield Item("saturation", "amber", text, row=name)

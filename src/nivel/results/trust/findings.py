@@ -115,9 +115,9 @@ def _unseen_items(unseen: Sequence[Unseen], agreed: float | None) -> Iterator[It
     for each in told[:SHOWN]:
         by = "" if each.of == "time" else f" along {each.of}"
         said = f"the steps miss {number(min(each.share, 1.0))} of {each.name} at t = {each.time:.6g} s, where it changes{by} within"
-        advice = f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(min(each.scale, each.step) / 10.0)} s"
+        advice = f"{number(each.scale)} s, with steps of {number(each.step)} s; use steps of {number(min(each.scale, each.step) / 10.0)} s"
         if each.share < CHECKS["loads"].green:
-            much = f"that is {number(each.hidden)} of it over the whole run, more than two runs are apart by, and neither need see it"
+            much = f"this is {number(each.hidden)} of it over the whole run, more than the two runs differ, and both may miss it"
             yield Item("loads", "amber", f"Loads: {said} {advice} ({much})", each.share, row=each.name, time=each.time)
         else:
             yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
@@ -134,17 +134,16 @@ def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
     told = sorted((each for each in between if not each.share < CHECKS["sampling"].green), key=lambda each: -each.share)
     for each in told[:SHOWN]:
         said = f"after t = {each.time:.6g} s {each.name} changes by {number(each.share)} of its range and back between two samples"
-        advice = (
-            f"{number(each.step)} s apart, as fast as in {number(each.scale)} s; sample faster if that is to be seen"
-        )
+        advice = f"{number(each.step)} s apart, within {number(each.scale)} s; use a shorter sample_time if the block shall see it"
         yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
 
 
 def _passed_item(passed: Passed) -> Item:
     text = (
         f"Contact: {' and '.join(passed.bodies)} pass through each other at t = {passed.time:.6g} s, by {number(passed.overlap)} of "
-        f"{passed.of}, and {passed.contact} does not push them apart: they overlap for {number(passed.lasted)} s "
-        f"only; take steps of {number(passed.lasted / 10.0)} s, or a method that chooses its steps (green when none does, red otherwise)"
+        f"{passed.of}, and {passed.contact} does not push them apart: they overlap for only "
+        f"{number(passed.lasted)} s; use steps of {number(passed.lasted / 10.0)} s, or a method that chooses its steps "
+        f"(green if none do, red otherwise)"
     )
     return Item("contact", "red", text, passed.overlap, row=passed.contact, time=passed.time)
 
@@ -155,21 +154,23 @@ def steps_item(fast: Fast) -> Item:
     step = fast.held if fast.step > fast.held else CHECKS["steps"].green / fast.rate
     does = "holds" if fast.step > fast.held else "follows"
     said = f"the fastest rate of the machine is {number(fast.rate)}/s{of}, and {fast.method} {does} it with steps below {number(step)} s"
-    text = f"Steps: {said}, not {number(fast.step)} s; take those, or `integrator: radau`"
+    text = f"Steps: {said}, but the step is {number(fast.step)} s; use a shorter step, or `integrator: radau`"
     return _measured("steps", text, fast.step * fast.rate, None, fast.part)
 
 
 def _turn_item(turn: Turn) -> Item:
     threshold = Threshold(CHECKS["turn"].amber, math.inf, "") if turn.counted else CHECKS["turn"]
-    lost = "what depends on its angle is not followed" if turn.counted else "its turns can no longer be counted"
+    lost = "forces that depend on its angle are not resolved" if turn.counted else "its turns can no longer be counted"
     meaning = lost if turn.angle > CHECKS["turn"].amber else "that is more than the method resolves"
-    said = f"Turning: {turn.body} turns by {number(turn.angle)} rad in one step at t = {turn.time:.6g} s, and {meaning}"
-    return _measured("turn", f"{said}; take shorter steps", turn.angle, turn.time, turn.body, threshold)
+    said = (
+        f"Turning: {turn.body} rotates by {number(turn.angle)} rad in one step at t = {turn.time:.6g} s, and {meaning}"
+    )
+    return _measured("turn", f"{said}; use shorter steps", turn.angle, turn.time, turn.body, threshold)
 
 
 def _rounding_item(rounding: Rounding) -> Item:
-    far = f"{rounding.body} is {number(rounding.distance)} m from the origin, where places are rounded to {number(rounding.unit)} m"
-    lost = f"in all steps that may add up to {number(rounding.share)} of the machine's size"
+    far = f"{rounding.body} is {number(rounding.distance)} m from the origin, where positions are rounded to {number(rounding.unit)} m"
+    lost = f"over all steps this may add up to {number(rounding.share)} of the machine's size"
     return _measured(
         "rounding", f"Round-off: {far}; {lost}; move the machine to the origin", rounding.share, None, rounding.body
     )
@@ -183,7 +184,9 @@ def _own_item(own: OwnError) -> Item:
 
 def _part_item(part: PartError) -> Item:
     its = f"{number(part.share)} of its largest energy {quantity(part.energy, 'J')}"
-    said = f"Parts: the energy of {part.body} and what is joined to it is wrong by {its}, at t = {part.time:.6g} s"
+    said = (
+        f"Parts: the energy of {part.body} and the bodies joined to it has an error of {its}, at t = {part.time:.6g} s"
+    )
     return _measured("parts", said, part.share, part.time, part.body, THRESHOLDS["energy"])
 
 
@@ -192,15 +195,15 @@ def _passage_item(passages: Sequence[Passage]) -> Item:
     joints = ", ".join(dict.fromkeys(name for each in passages for name in each.joints))
     text = (
         f"Singular: at t = {times} s the machine passes a position where its motion branches (constraints of {joints} depend on each "
-        f"other); the computed motion continues by inertia, a real machine may take another branch; reactions near this position are not "
-        f"reliable (green when none, amber otherwise)"
+        f"other); the computed motion continues by inertia, but a real machine may take another branch; reactions near this position are "
+        f"not reliable (green if none, amber otherwise)"
     )
     return Item("singular", "amber", text, row=joints, time=passages[0].time)
 
 
 def _unstiffened_item(found: Bent) -> Item:
     said = (
-        f"Stiffening: {found.body} has no geometric stiffness and turns so fast at t = {found.time:.6g} s that the square of its speed is "
+        f"Stiffening: {found.body} has no geometric stiffness; at t = {found.time:.6g} s the square of its rotational speed is "
         f"{number(found.value)} of that of its lowest frequency; reduce it with `stiffening: true`"
     )
     return _measured("stiffening", said, found.value, found.time, found.body)
@@ -208,33 +211,33 @@ def _unstiffened_item(found: Bent) -> Item:
 
 def _bent_item(found: Bent) -> Item:
     said = (
-        f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s; modes are made for small "
-        f"displacements: take a beam in its place, or several bodies"
+        f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s, but modes describe small "
+        f"displacements: use a beam in its place, or several bodies"
     )
     return _measured("bending", said, found.value, found.time, found.body)
 
 
 def _coarse_item(coarse: Coarse) -> Item:
-    advice = "take twice as many, or `order: 2`" if coarse.order == 1 else "take twice as many"
+    advice = "use twice as many, or `order: 2`" if coarse.order == 1 else "use twice as many"
     said = (
         f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
-        f"t = {coarse.time:.6g} s, as curvatures change within them; {advice}"
+        f"t = {coarse.time:.6g} s, because the curvature changes within them; {advice}"
     )
     return _measured("mesh", said, coarse.share, coarse.time, coarse.beam)
 
 
 def _meshed_item(found: Bent) -> Item:
     said = (
-        f"Mesh: the finite elements of {found.body} make {number(found.value)} of its strain energy wrong at t = {found.time:.6g} s; "
-        f"reduce it with smaller ones"
+        f"Mesh: the finite elements of {found.body} have an error of {number(found.value)} of its strain energy at t = {found.time:.6g} s; "
+        f"reduce it with smaller elements"
     )
     return _measured("mesh", said, found.value, found.time, found.body)
 
 
 def _lacking_item(lacking: Lacking) -> Item:
     said = (
-        f"Modes: {lacking.body} has {lacking.modes} modes, and those left out, one at {number(lacking.frequency)} Hz above all, would take "
-        f"{number(lacking.share)} of its strain energy at t = {lacking.time:.6g} s; take more `modes`"
+        f"Modes: {lacking.body} has {lacking.modes} modes; those left out, mainly one at {number(lacking.frequency)} Hz, would have "
+        f"{number(lacking.share)} of its strain energy at t = {lacking.time:.6g} s; use more `modes`"
     )
     return _measured("modes", said, lacking.share, lacking.time, lacking.body)
 
@@ -243,17 +246,17 @@ def _damped_item(damped: Damped, method: str) -> Item:
     by = f"{method} takes" if method else "the method takes"
     text = (
         f"Damped: {by} {quantity(damped.lost, 'J')} from the motion, and {quantity(damped.lost_finer, 'J')} with finer steps: "
-        f"vibrations faster than the steps are damped away; take steps of a tenth of their period, or say that they do not "
-        f"matter by damping them yourself "
-        f"(green where finer steps lose less, amber otherwise)"
+        f"vibrations faster than the steps are damped numerically; use steps of a tenth of their period, or add damping to the "
+        f"model if these vibrations do not matter "
+        f"(green if finer steps lose less, amber otherwise)"
     )
     return Item("damped", "amber", text, damped.lost)
 
 
 def _growth_item(growth: Growth) -> Item:
     text = (
-        f"Sensitivity: neighbouring motions part by a factor e every {number(growth.time_constant)} s, and have parted at t = "
-        f"{growth.parted:.6g} s: the motion is chaotic, and what follows is one of many; only means and extremes of it tell anything "
-        f"(green where they stay together, amber otherwise)"
+        f"Sensitivity: neighbouring motions separate by a factor e every {number(growth.time_constant)} s, and have separated at t = "
+        f"{growth.parted:.6g} s: the motion is chaotic; after that time only means and extremes are meaningful "
+        f"(green if they stay together, amber otherwise)"
     )
     return Item("sensitivity", "amber", text, time=growth.parted)

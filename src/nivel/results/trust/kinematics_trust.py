@@ -14,8 +14,8 @@ from nivel.results.trust.verdicts import Item, Trust, Verdict, worst
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: every position was found"),
-    "interrupted": ("amber", "Outcome: interrupted; the positions until then are here"),
-    "failed": ("red", "Outcome: the machine cannot go on; the positions until then are here"),
+    "interrupted": ("amber", "Outcome: interrupted; the result has the positions up to there"),
+    "failed": ("red", "Outcome: the machine cannot move any further; the result has the positions up to there"),
 }
 # shares of the largest speed by which rates of constraints may be violated
 GREEN, AMBER = 1e-9, 1e-6
@@ -87,7 +87,7 @@ def _items(trust: Trust, facts: KinematicsFacts, rate: float) -> Iterator[Item]:
     tone: Verdict = "green" if rate <= GREEN else "amber" if rate <= AMBER else "red"
     yield Item("velocities", tone, f"{said} (green up to {GREEN:g})", time=trust.constraint_rate_violation_time)
     if facts.halved:
-        said = f"Steps: {facts.halved} were shortened, where the machine moves fast or nears a singular position"
+        said = f"Steps: {facts.halved} were shortened, because the machine moves fast or comes near a singular position"
         yield Item("steps", "green", f"{said} (said, always green)")
     if facts.nearest is not None:
         yield _singular(facts, facts.nearest)
@@ -95,9 +95,9 @@ def _items(trust: Trust, facts: KinematicsFacts, rate: float) -> Iterator[Item]:
         some = ", ".join(facts.held[:SHOWN]) + (
             f" and {len(facts.held) - SHOWN} more" if len(facts.held) > SHOWN else ""
         )
-        said = f"States: {some} have a history, which kinematics does not compute: they keep the values of the start"
-        more = "efforts and reactions that depend on them are not those of the motion"
-        yield Item("states", "amber", f"{said}, and {more} (green without states)")
+        said = f"States: {some} have a history, which kinematics does not compute: they keep their initial values"
+        more = "efforts and reactions that depend on them are wrong"
+        yield Item("states", "amber", f"{said}, and {more} (green if there are none)")
     yield redundancy_item(trust)
 
 
@@ -108,8 +108,10 @@ def _singular(facts: KinematicsFacts, nearest: tuple[float, float]) -> Item:
     if facts.passed:
         some = ", ".join(f"{a:.6g} and {b:.6g} s" for a, b in facts.passed[:SHOWN])
         more = f" and {len(facts.passed) - SHOWN} times more" if len(facts.passed) > SHOWN else ""
-        said = f"Branches: a singular position is passed between {some}{more}{among}: the positions behind it are one of several that"
-        return Item("branches", "amber", f"{said} fit the drivers (amber where any is passed)", time=facts.passed[0][1])
+        said = f"Branches: a singular position is passed between {some}{more}{among}: the positions beyond it are one of several branches"
+        return Item(
+            "branches", "amber", f"{said} that fit the drivers (amber if any is passed)", time=facts.passed[0][1]
+        )
     if share < NEAR:
         said = f"Branches: the machine comes near a singular position at t = {time:.6g} s{among}, where branches of positions meet"
         return Item("branches", "amber", f"{said} (amber below {NEAR:g} of the distance at the start)", time=time)

@@ -28,8 +28,8 @@ def _wheel_item(result: Readable, wheel: str) -> Item:
     least, largest = int(np.argmin(normal)), float(np.max(np.abs(normal)))
     if normal[least] < -PULLED * largest:
         said = (
-            f"the plane would have to pull {name} down with {number(-float(normal[least]))} N at t = {time[least]:.6g} s: a real wheel "
-            f"lifts off, from t = {time[int(np.argmax(normal < -PULLED * largest))]:.6g} s on; take a contact there"
+            f"the plane would have to pull {name} with {number(-float(normal[least]))} N at t = {time[least]:.6g} s: a real wheel "
+            f"lifts off, from t = {time[int(np.argmax(normal < -PULLED * largest))]:.6g} s on; use a contact there"
         )
         return Item("rolling", "amber", f"Rolling: {said}", row=name, time=float(time[least]))
     pressed = normal > PULLED * largest
@@ -39,4 +39,4 @@ def _wheel_item(result: Readable, wheel: str) -> Item:
     needs = (
         f"it does not slip where the coefficient of friction is {ratio[worst]:.3g} or more (t = {time[worst]:.6g} s)"
     )
-    return Item("rolling", "green", f"Rolling: {said}, and {needs} (green while nothing pulls)", row=name)
+    return Item("rolling", "green", f"Rolling: {said}, and {needs} (green if it never pulls)", row=name)

@@ -21,9 +21,9 @@ from nivel.results.trust.verdicts import (
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),
-    "interrupted": ("amber", "Outcome: interrupted; what was computed until then is here"),
-    "failed": ("red", "Outcome: the computation failed; what was computed until then is here"),
-    "running": ("amber", "Outcome: the file was never closed: the run is still going on, or it was killed"),
+    "interrupted": ("amber", "Outcome: interrupted; the result ends there"),
+    "failed": ("red", "Outcome: the computation failed; the result ends there"),
+    "running": ("amber", "Outcome: the file was not closed: the run is still going on, or it was killed"),
 }
 
 
@@ -41,7 +41,7 @@ def statements(
     """
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
-        text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
+        text = f"Outcome: the event {stopped_by} ended the run, as intended"
     yield Item("outcome", verdict, f"{text}: {failure}" if failure else text)
     yield _energy_item(trust, unresolved)
     if trust.constraint_violation_row:
@@ -64,7 +64,7 @@ def _energy_item(trust: Trust, unresolved: Unresolved | None) -> Item:
     error, scale = trust.energy_error_max, trust.energy_scale
     fraction = error / scale if scale > 0.0 else 0.0 if error == 0.0 else math.nan if math.isnan(error) else math.inf
     if not math.isfinite(error):
-        said = f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
+        said = f"the energy is not a number from t = {trust.energy_error_time:.6g} s on"
     elif scale > 0.0:
         said = f"error {number(fraction)} of the {trust.energy_scale_kind} {quantity(scale, 'J')}"
     elif not trust.energy_scale_kind:
@@ -87,8 +87,8 @@ def _unresolved_words(unresolved: Unresolved) -> str:
         f"{number(its.work / its.energy)} times all other energy of the run" if its.energy else "and there is no energy"
     )
     return (
-        f"; {its.force} does {quantity(its.work, 'J')} in one step of {number(its.step)} s at t = {its.time:.6g} s, {share}: what it does "
-        f"decays, or vibrates, within a step, and its work is not known. Take a shorter step, or an integrator that chooses "
+        f"; {its.force} does {quantity(its.work, 'J')} in one step of {number(its.step)} s at t = {its.time:.6g} s, {share}: its effect "
+        f"decays or vibrates within a step, so its work is not known. Use a shorter step, or an integrator that chooses "
         f"its steps (radau)"
     )
 
@@ -117,11 +117,11 @@ def _rate_item(trust: Trust) -> Item:
     said_scale = f"{number(scale)} {trust.constraint_rate_violation_units}"
     against = f"the largest speed {'' if length else 'over size '}{said_scale}"
     if trust.at_rest:
-        against = f"{said_scale}, the least that counts: the machine is at rest"
+        against = f"{said_scale}, the lower limit: the machine is at rest"
     units = trust.constraint_rate_violation_units
     value = number(trust.constraint_rate_violation_max)
     if fraction < CLOSED:
-        said = "Joint rates: right to round-off" + ("; the machine is at rest" if trust.at_rest else "")
+        said = "Joint rates: exact to round-off" + ("; the machine is at rest" if trust.at_rest else "")
         return numeric(
             "rate_violation", said, fraction, trust.constraint_rate_violation_time, trust.constraint_rate_violation_row
         )
@@ -133,7 +133,8 @@ def _rate_item(trust: Trust) -> Item:
 def _accuracy_item(trust: Trust, estimate: float, blind: str) -> Item:
     fraction = estimate / trust.size
     if blind:
-        said = f"Accuracy: a second run with {trust.accuracy_refinement} agrees within {number(estimate)} m, which says little: {blind}"
+        agrees = f"a second run with {trust.accuracy_refinement} agrees within {number(estimate)} m"
+        said = f"Accuracy: {agrees}, but both may have the same error: {blind}"
         return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
     if fraction < ROUND_OFF:
         said = f"Accuracy: exact for this model, except for round-off, by a second run with {trust.accuracy_refinement}"
@@ -147,14 +148,14 @@ def _accuracy_item(trust: Trust, estimate: float, blind: str) -> Item:
 
 
 def _partly_verified_item(trust: Trust, until: float) -> Item:
-    text = f"Verified: up to t = {until:.6g} s only, nothing is known of what follows: {trust.verification_ended}"
-    return Item("verified", "amber", f"{text} (green where to the end, amber otherwise)", time=until)
+    text = f"Verified: up to t = {until:.6g} s only, not verified beyond: {trust.verification_ended}"
+    return Item("verified", "amber", f"{text} (green if verified to the end, amber otherwise)", time=until)
 
 
 def _neglected_item(trust: Trust, share: float) -> Item:
     """What flexible bodies lack that move without some inertia invariants."""
     names = " and ".join(trust.neglected_names)
-    lacks = f"without {names} the mass matrix of {trust.neglected_body} lacks at most {number(share)} as far as it bends here"
+    lacks = f"without {names} the mass matrix of {trust.neglected_body} lacks at most {number(share)} for the deflections of this run"
     when = f", at t = {trust.neglected_time:.6g} s" if trust.neglected_time is not None else ""
     return numeric("neglected", f"Neglected: {lacks}{when}", share, trust.neglected_time, trust.neglected_body)
 
@@ -164,14 +165,16 @@ def freedom_item(trust: Trust) -> Item:
     count = trust.degrees_of_freedom or 0
     if count < 1 and trust.drivers:
         prescribed = "the driver prescribes" if trust.drivers == 1 else f"{trust.drivers} drivers prescribe"
-        return Item("degrees_of_freedom", "green", f"Freedom: none is left, {prescribed} every motion (green then)")
+        return Item("degrees_of_freedom", "green", f"Freedom: 0 degrees of freedom, {prescribed} every motion (green)")
     if count < 1:
-        return Item("degrees_of_freedom", "amber", "Freedom: no degree of freedom: nothing can move (green from 1 on)")
+        return Item(
+            "degrees_of_freedom", "amber", "Freedom: 0 degrees of freedom: nothing can move (green with 1 or more)"
+        )
     degrees = "1 degree of freedom" if count == 1 else f"{count} degrees of freedom"
     if trust.position_freedoms is not None and trust.position_freedoms > count:
         degrees += f" of velocities, {trust.position_freedoms} of positions, as wheels roll without slip"
     modes = f", with {trust.modes} modes of flexible bodies" if trust.modes else ""
-    return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green from 1 on)")
+    return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green with 1 or more)")
 
 
 def redundancy_item(trust: Trust) -> Item:
@@ -180,18 +183,18 @@ def redundancy_item(trust: Trust) -> Item:
         return Item(
             "redundancy",
             "green",
-            "Redundancy: no redundant constraints, every reaction is unique (green when none)",
+            "Redundancy: no redundant constraints, every reaction is unique (green if none)",
         )
     rows = ", ".join(trust.redundant_rows)
     count = len(trust.redundant_rows)
     repeats = "1 constraint row repeats others" if count == 1 else f"{count} constraint rows repeat others"
     unsure = (
-        f"how {', '.join(trust.non_unique_joints)} share the load is not unique: `nivel check` says which components are, and how far the "
-        "others may differ"
+        f"how {', '.join(trust.non_unique_joints)} share the load is not unique: `nivel check` lists the unique components, and the range "
+        "of the others"
         if trust.non_unique_joints
         else "the reactions are unique"
     )
-    text = f"Redundancy: {repeats} ({rows}). The motion does not depend on them; {unsure} (green when none, amber otherwise)"
+    text = f"Redundancy: {repeats} ({rows}). They do not change the motion; {unsure} (green if none, amber otherwise)"
     return Item("redundancy", "amber", text)
 
 
@@ -199,7 +202,7 @@ def _shared_item(shared: Sequence[Shared]) -> Item:
     """Frictions that hold a joint at rest together with what prescribes its motion, or with other frictions."""
     text = (
         f"Friction: {'; '.join(map(in_words, shared))}. The motion does not depend on how they share the load, which is not unique "
-        f"(green when none, amber otherwise)"
+        f"(green if none, amber otherwise)"
     )
     return Item("shared_friction", "amber", text, time=min(each.spans[0][0] for each in shared))
 

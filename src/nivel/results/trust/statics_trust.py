@@ -16,8 +16,8 @@ SHOWN = 6
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: every state of equilibrium was found"),
-    "interrupted": ("amber", "Outcome: interrupted; the states until then are here"),
-    "failed": ("red", "Outcome: the computation failed; the states until then are here"),
+    "interrupted": ("amber", "Outcome: interrupted; the result has the states up to there"),
+    "failed": ("red", "Outcome: the computation failed; the result has the states up to there"),
 }
 
 
@@ -83,11 +83,11 @@ def _items(result: Readable, trust: Trust, facts: StaticsFacts) -> Iterator[Item
     if facts.critical:
         yield _critical(facts)
     if facts.without_potential:
-        said = "Potential: some loads have none, as forces that follow a body or torques that keep their axis: flutter is not looked for"
-        yield Item("potential", "amber", f"{said} (green when all have one)")
+        said = "Potential: some loads have no potential (follower forces, or torques about a fixed axis): flutter is not examined"
+        yield Item("potential", "amber", f"{said} (green if all loads have one)")
     if facts.rigid:
-        said = f"Vibrations: {facts.rigid} of no frequency: the machine moves freely in as many ways"
-        yield Item("vibrations", "amber", f"{said} (green when none)")
+        said = f"Vibrations: {facts.rigid} with frequency zero: rigid-body motions of the machine"
+        yield Item("vibrations", "amber", f"{said} (green if none)")
     if facts.at_rest:
         yield Item("at_rest", "green", f"At rest: {'; '.join(facts.at_rest)} (said, always green)")
     if trust.degrees_of_freedom is not None:
@@ -100,7 +100,7 @@ def _residual(result: Readable) -> Item:
     left = peak(result, "residual")
     values, rounded = result.array("residual"), result.array("residual_round_off")
     said = (
-        f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
+        f"Equilibrium: unbalanced forces are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
     )
     if RESIDUAL.verdict(left.value) != "green" and np.all(values <= np.maximum(rounded, RESIDUAL.green)):
         said += "; round-off of the positions makes as much of them, with parts so stiff"
@@ -112,11 +112,14 @@ def _stability(result: Readable) -> Item:
     counts, time = result.array("unstable_directions"), result.time
     unstable = np.flatnonzero(counts > 0)
     if np.any(counts < 0):
-        text = "Stability: not judged, since it depends on what is sampled; a run that starts there shows whether it stays (amber)"
+        text = (
+            "Stability: not determined, because it depends on sampled blocks; a run from this state shows whether the machine "
+            "stays there (amber)"
+        )
         return Item("stability", "amber", text)
     if not len(unstable):
         return Item(
-            "stability", "green", "Stability: every state is stable: no direction of negative stiffness (green then)"
+            "stability", "green", "Stability: every state is stable: no direction of negative stiffness (green)"
         )
     first, total = int(unstable[0]), len(counts)
     most = int(counts.max())
@@ -136,4 +139,4 @@ def _critical(facts: StaticsFacts) -> Item:
         for kind, t, between in facts.critical
     ]
     more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
-    return Item("critical", "amber", f"Critical points: {', '.join(named[:SHOWN])}{more} (amber where there are any)")
+    return Item("critical", "amber", f"Critical points: {', '.join(named[:SHOWN])}{more} (amber if there are any)")

@@ -34,32 +34,31 @@ THRESHOLDS = {
     "energy": Threshold(
         1e-4,
         1e-2,
-        "Friction and inertia data of real machines are rarely known to 1 %: above it the run invents or loses more "
-        "energy than the model can explain. 1e-4 is two decades below, where the error is seen in no curve.",
+        "Friction and inertia of real machines are rarely known to 1 %. A larger energy error cannot be explained by uncertain data. "
+        "1e-4 is two decades below: the error is not visible in any curve.",
     ),
     "violation": Threshold(
         1e-6,
         1e-4,
-        "1e-6 of a machine of one metre is a micrometre, less than the play of a good bearing; 1e-4 is a tenth of a "
-        "millimetre, the play of a worn one: above it the joint is visibly open.",
+        "For a machine of one metre, 1e-6 is a micrometre, less than the play of a good bearing. 1e-4 is a tenth of a millimetre, the play "
+        "of a worn bearing: above it the joint is visibly open.",
     ),
     "rate_violation": Threshold(
         1e-5,
         1e-3,
-        "A joint whose parts slip past each other at 1e-3 of the machine's speed feeds in or loses energy of the same "
-        "order; at 1e-5 this is below what the energy balance counts as green.",
+        "If the parts of a joint move apart at 1e-3 of the machine's speed, the energy error has the same order. At 1e-5 it is below the "
+        "green limit of the energy balance.",
     ),
     "accuracy": Threshold(
         1e-4,
         1e-2,
-        "No point is off by more than 1e-4 of the machine, a tenth of a millimetre in a metre: finer than manufacturing tolerances. "
-        "Above 1e-2 the curves of the run and of the exact motion are seen apart.",
+        "1e-4 of a machine of one metre is a tenth of a millimetre, less than manufacturing tolerances. Above 1e-2 the curves of the run "
+        "and of the exact motion are visibly different.",
     ),
     "neglected": Threshold(
         1e-3,
         1e-2,
-        "Inertia of real bodies is rarely known to 1 %: above it the invariants that a flexible body does without are missed. 1e-3 is a "
-        "decade below.",
+        "Inertia of real bodies is rarely known to 1 %. Above this limit the neglected inertia invariants matter. 1e-3 is a decade below.",
     ),
 }
 # of what is told only where it is not green
@@ -67,79 +66,79 @@ CHECKS = {
     "loads": Threshold(
         1e-2,
         1e-1,
-        "A hundredth of an impulse that the steps do not see is as much as loads of real machines are known to; a tenth is seen in every "
+        "Loads of real machines are known to about a hundredth. If the steps miss a tenth of an impulse, the error is visible in every "
         "curve.",
     ),
     "sampling": Threshold(
         0.3,
         math.inf,
-        "By this share of its range a function goes beyond two samples between them: a sine with less than three samples a period, or a "
-        "pulse that they do not see. The model samples, so its motion is as exact as ever.",
+        "Between two samples the function leaves their values by this share of its range: a sine with less than three samples a period, or "
+        "a pulse. The model itself samples, so its motion is still exact.",
     ),
     "steps": Threshold(
         0.3,
         math.inf,
-        "The fastest rate of the machine times the step, reported where a run is red: beyond 0.3 an explicit method does not follow "
-        "motions that fast, beyond 1 to 3 it diverges.",
+        "The fastest rate of the machine times the step, reported if a run is red. Above 0.3 an explicit method does not resolve motions "
+        "of this rate; above 1 to 3 it diverges.",
     ),
     "turn": Threshold(
         0.5,
         3.0,
-        "In radians a step: methods of order four lose 2e-4 rad a turn at 0.5. Beyond half a turn, with a margin, no method can tell "
-        "which way a body turned.",
+        "Rotation in a step, in radians. At 0.5 the error of methods of order four is 2e-4 rad a turn. Near half a turn (3 rad) no method "
+        "can determine the sense of the rotation.",
     ),
     "rounding": Threshold(
         1e-6,
         1e-3,
-        "Half a unit in the last place of a coordinate, in every step and always to the same side, as a share of the machine's size: as "
-        "much as open joints may be.",
+        "Half a unit in the last place of a coordinate, added in every step with the same sign, as a share of the machine's size. The "
+        "limit is that of the constraint violation.",
     ),
     "parts": Threshold(
         1e-2,
         1e-1,
-        "Errors of a body, or of a joint coordinate, as a share of its own motion: below a hundredth its curves lie on each other, above "
-        "a tenth they are others.",
+        "Error of a body or of a joint coordinate as a share of its own motion. Below a hundredth it is hardly visible in a curve; "
+        "above a tenth the curve is a different one.",
     ),
     "stiffening": Threshold(
         1e-2,
         1e-1,
-        "Centrifugal forces make a slender body stiffer by about this share: a hundredth is what its stiffness is known to, a tenth is "
-        "seen.",
+        "Centrifugal forces increase the stiffness of a slender body by about this share. Stiffness is known to about a hundredth; a tenth "
+        "is visible.",
     ),
     "bending": Threshold(
         5e-2,
         2e-1,
-        "A body bent by the share x of its length becomes shorter by about x²/2 of it, which modes do not know: 1e-3 at 0.05, a "
-        "fiftieth at 0.2.",
+        "A body that bends by the share x of its length becomes shorter by about x²/2 of its length: 1e-3 for x = 0.05, a fiftieth for "
+        "x = 0.2. Linear modes do not include this.",
     ),
     "modes": Threshold(
         1e-2,
         1e-1,
-        "Energy of modes that are left out, of the strain energy that the body has, or would have if it were bent by 1e-4 of its size: "
-        "displacements lack about this share. A hundredth is what stiffness is known to, a tenth is seen.",
+        "Energy of the modes that are left out, as a share of the strain energy of the body (at least of that of a deflection of 1e-4 of "
+        "its size). Displacements are too small by about this share. Stiffness is known to about a hundredth; a tenth is visible.",
     ),
     "mesh": Threshold(
         1e-2,
         1e-1,
-        "Displacements are too small by about the share of the energy that elements miss: a hundredth is what stiffness is known to, a "
-        "tenth is seen.",
+        "Displacements are too small by about the share of the energy that the elements miss. Stiffness is known to about a hundredth; a "
+        "tenth is visible.",
     ),
 }
 # what no second run of the same model and method sees, by the names of items
 BLIND = {
     "loads": "their steps miss {row}",
     "contact": "their steps pass {row}",
-    "turn": "{row} turns too far in a step",
-    "rounding": "{row} is so far from the origin that steps are rounded away",
-    "damped": "their method damps vibrations away",
-    "singular": "at t = {time} s the motion may go on either way",
+    "turn": "{row} rotates too far in a step",
+    "rounding": "{row} is so far from the origin that the motion in a step is below round-off",
+    "damped": "their method damps vibrations",
+    "singular": "at t = {time} s the motion may continue in more than one way",
 }
 # of states of equilibrium
 RESIDUAL = Threshold(
     1e-8,
     1e-5,
-    "Forces that are left over, as a share of the largest load. Loads are rarely known to 1e-3; 1e-5 is two decades below, and Newton's "
-    "method ends far below 1e-8 unless stiff parts hide what holds the soft ones.",
+    "Largest unbalanced force as a share of the largest load. Loads are rarely known to 1e-3; 1e-5 is two decades below. Newton's method "
+    "ends far below 1e-8, unless the machine has both very stiff and very soft parts.",
 )
 
 
@@ -154,20 +153,18 @@ OPENING_WORK = 1e5  # times the work of the loads over what closed joints are op
 POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
 
 RULES = {
-    "energy_scale": "the largest kinetic energy, or the largest change of potential energy, work of external forces or "
-    "dissipated energy where one of these is larger; at least what a machine at rest is made of: 1e-9 of the largest potential energy; "
-    "1e-9, or of a machine at rest whose steps are chosen the tolerance, of the largest load (less what dampers do in the same frame) and "
-    "the weight times the size, and of the kinetic energy of travelling by the size in the time of the run; 1e5 times the work of these "
-    "loads over what joints are open by, as far as that is 1e-12 of the size at most. There is no fixed number of joules: where all "
-    "energies are zero, an error of zero is a fraction of zero",
+    "energy_scale": "the largest of: the kinetic energy, the change of potential energy, the work of external forces, the dissipated "
+    "energy. For a machine at rest the scale has lower limits: 1e-9 of the largest potential energy; 1e-9 (or the tolerance, at rest with "
+    "chosen steps) of the largest load, without dampers, and the weight, times the size, and of the kinetic energy of moving by the size "
+    "during the run; 1e5 times the work of these loads over the opening of the joints, if this is at most 1e-12 of the size. There is no "
+    "fixed number of joules: if all energies are zero, an error of zero is the fraction zero",
     "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
-    "Where all of them are one point: of the box around its path, or twice the largest radius of gyration where that is larger; where it "
-    "has neither, because it is a point mass or moves by less than 1e-9 of what its loads would move it, 1 m by convention. Constraint "
-    "rows that are cosines of angles are compared with 1",
-    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r, r the radius of gyration of "
-    "a body that has no other point than its origin). A "
-    "machine that travels less than 1e-3 of its size in the time of the run at this speed is at rest, and compared with the "
-    "speed that would. Rates of cosines of angles are compared with speed / size",
+    "If all of them are one point, the larger of: the diagonal of the box around its path, and twice the largest radius of gyration. If "
+    "both are missing (a point mass, or one that moves by less than 1e-9 of what its loads would move it), 1 m by convention. "
+    "Constraint rows that are cosines of angles are compared with 1",
+    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r, where r is the radius of "
+    "gyration of a body without other points). If the machine moves at this speed by less than 1e-3 of its size during the run, it is at "
+    "rest, and the speed that moves it by 1e-3 of its size is used. Rates of cosines of angles are compared with speed / size",
 }
 
 

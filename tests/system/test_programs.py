@@ -124,3 +124,13 @@ def test_where_a_side_has_no_value_differences_decide():
 
 def test_conditions_on_time_alone_are_no_switches():
     assert switching_program(Expression("if(time > 1, a.angle, abs(time - 2))"), SIGNALS).switches == []
+
+
+def test_every_switch_keeps_a_side_of_its_own():
+    """Of min(max(a, -1), 1/2): max takes a where a > -1, and min its limit where the result is above."""
+    program = switching_program(Expression("min(max(a.angle, -1), 0.5)"), SIGNALS)
+    assert len(program.switches) == 2
+    (inner, _), (outer, _) = switching_value(program, [0.0, 0.0], 0.0, 2.0, 0.0)[1]
+    assert inner != outer
+    for held in ([inner, -outer], [-inner, outer]):
+        assert [side for side, _ in switching_value(program, held, 0.0, 2.0, 0.0)[1]] == held

@@ -185,8 +185,8 @@ class _Program:
         """Place of the side of first - second, whose sign does not depend on how it is written."""
         difference = first if second == ZERO else Negative(second) if first == ZERO else Operation("-", first, second)
         if difference not in self._sides:
-            held = self._arguments + len(self._sides)
             place = self.place_of(difference)
+            held = self._arguments + len(self._sides)  # `difference` may have switches of its own
             self._sides[difference] = self._operation(kernel.SIDE, place, held), place
         return self._sides[difference][0]
 

@@ -196,18 +196,21 @@ def _add_force(draft: SystemBuilder, force: Any) -> None:
 
 
 def _watched(draft: SystemBuilder) -> Watched:
-    """Events, and the surfaces of contacts and stops."""
+    """Events, the surfaces of contacts and stops, and the switches of all functions."""
     events, taking = [], {state.event for state in draft.machine.states}
     for event in draft.machine.events:
         ends = ENDS_RUN if event.stop else ENDS_STEP if event.name in taking else NOTED
         with located(f"events.{event.name}.when"):
-            events.append((draft.function(event.when), DIRECTIONS[event.direction], ends))
-    surfaces = draft.elements.surfaces()
+            events.append((draft.function(event.when, switching=False), DIRECTIONS[event.direction], ends))
+    surfaces, switches = draft.elements.surfaces(), draft.functions.switches
+    count = len(events) + len(surfaces) + len(switches)
     return Watched(
         event=index_array(events, 3),
         surface=index_array(surfaces, 2),
-        value=np.zeros(len(events) + len(surfaces)),
-        rate=np.zeros(len(events) + len(surfaces)),
+        switch=index_array(switches, 2),
+        held=np.zeros(len(switches)),
+        value=np.zeros(count),
+        rate=np.zeros(count),
         followed=np.zeros(1, dtype=np.uint32),
     )
 

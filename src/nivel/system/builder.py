@@ -187,13 +187,24 @@ class SystemBuilder:
         self._note(*self.coordinates.markers(index))
         return self.coordinates.use(index)
 
-    def function(self, value: PartFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
-        """Index of a new function; `local` are the symbols that only this one knows."""
+    def function(
+        self,
+        value: PartFunction,
+        local: dict[str, Signal] | None = None,
+        *,
+        motion: bool = False,
+        switching: bool = True,
+    ) -> int:
+        """Index of a new function; `local` are the symbols that only this one knows.
+
+        switching : every evaluation finds its value, and once.
+        """
 
         def find(path: str) -> Signal:
             return local[path] if local is not None and path in local else self.signal(path)
 
-        return self.functions.add(value, find, motion=motion, end=self.machine.simulation.duration)
+        end = self.machine.simulation.duration
+        return self.functions.add(value, find, motion=motion, end=end, switching=switching)
 
     def signal_at(self, path: str) -> Signal:
         """The signal of a part of a block; what it depends on is noted."""

@@ -75,7 +75,13 @@ def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
             if each.part.role == "signal":
                 table.add_signal(index, _function(draft, each))
             elif each.part.begins is not None:
-                table.add(index, draft.function(each.present), period=ONCE, offset=each.block.offset, at_once=True)
+                table.add(
+                    index,
+                    draft.function(each.present, switching=False),
+                    period=ONCE,
+                    offset=each.block.offset,
+                    at_once=True,
+                )
             else:
                 table.add(
                     index,
@@ -94,7 +100,7 @@ def _function(draft: SystemBuilder, each: PartOf) -> int:
     """Index of the function of a part; one that nothing has asked for before reads what forces report."""
     if each.path not in draft.functions_of:
         with located(_place(each)):
-            draft.functions_of[each.path] = draft.function(each.part.function)
+            draft.functions_of[each.path] = draft.function(each.part.function, switching=False)
     return draft.functions_of[each.path]
 
 
@@ -111,7 +117,8 @@ def _noted(draft: SystemBuilder, each: PartOf) -> int:
     with draft.noting(), located(_place(each)):
         if each.part.role != "signal":
             draft.signal_at(each.path)
-        function = draft.function(each.part.function)
+        in_motion = each.part.role in ("signal", "state") and not each.block.is_sampled
+        function = draft.function(each.part.function, switching=in_motion)
     if each.part.role == "signal":
         draft.behind_signals[each.path] = draft.noted[-1]
     draft.functions_of[each.path] = function

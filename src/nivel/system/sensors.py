@@ -60,7 +60,8 @@ def sensor_columns(draft: SystemBuilder) -> list[list[int]]:
                         assert sensor.value is not None  # the record was checked
                         output = draft.outputs.add((f"sensor.{sensor.name}", sensor.units, f"sensor {sensor.name}"))
                         with located(f"sensors.{sensor.name}.value"):
-                            columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
+                            function = draft.function(sensor.value, switching=False)
+                        columns.append([output, kernel.FUNCTION, function, NONE])
     return columns
 
 

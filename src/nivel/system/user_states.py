@@ -21,7 +21,7 @@ def add_states(draft: SystemBuilder) -> None:
             own = draft.own_state(_fact(state))
             key = "rate" if state.rate is not None else "update"
             with located(f"states.{state.name}.{key}"):
-                function = draft.function(getattr(state, key))
+                function = draft.function(getattr(state, key), switching=state.rate is not None)
             if state.rate is not None or state.every is not None:
                 draft.elements.add(state_rate, [own, function, int(state.rate is None)])
 
@@ -45,11 +45,11 @@ def sampled_states(draft: SystemBuilder) -> Sampled:
         if state.update is None:
             continue
         with located(f"states.{state.name}.update"):
-            function = draft.function(state.update)
+            function = draft.function(state.update, switching=False)
         event = NONE if state.event is None else events.index(state.event)
         table.add(draft.state(state.name), function, period=state.every or 0.0, event=event)
     for state, begins in draft.begins:
-        table.add(state, draft.function(begins), period=ONCE)
+        table.add(state, draft.function(begins, switching=False), period=ONCE)
     add_samples(draft, table)
     count = len(table.rows)
     state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7

@@ -3,7 +3,7 @@ minimum or a maximum of expressions of time alone changes sides."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from typing import TypeGuard
 
@@ -83,7 +83,7 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
     from scipy.optimize import root_scalar  # takes a fifth of a second to import
 
     times = np.linspace(0.0, end, SAMPLES + 1)
-    for first, second in _sides(expression.tree):
+    for first, second in sides(expression.tree, _of_time_alone, curves=True):
 
         def difference(time: float, first: Node = first, second: Node | None = second) -> float:
             return evaluate(first, time) - (evaluate(second, time) if second is not None else 0.0)
@@ -112,32 +112,36 @@ def _holds(expression: Expression, time: float) -> bool:
     return True
 
 
-def _sides(node: Node) -> Iterator[tuple[Node, Node | None]]:
-    """Pairs of expressions of time alone whose order decides about a value within `node`."""
+def _of_time_alone(*nodes: Node) -> bool:
+    return not any(signals(node) for node in nodes)
+
+
+def sides(node: Node, counts: Callable[..., bool], *, curves: bool) -> Iterator[tuple[Node, Node | None]]:
+    """Pairs of expressions whose order decides about a value within `node`, those of which `counts` says so. curves : with the points of
+    curves."""
     match node:
         case Negative(operand):
-            yield from _sides(operand)
+            yield from sides(operand, counts, curves=curves)
         case Operation(symbol, left, right):
-            yield from _sides(left)
-            yield from _sides(right)
-            if symbol in COMPARISONS and not signals(node):
+            yield from sides(left, counts, curves=curves)
+            yield from sides(right, counts, curves=curves)
+            if symbol in COMPARISONS and counts(left, right):
                 yield left, right
         case Lookup(argument, kind, points, _, _):
-            yield from _sides(argument)
-            if not signals(argument) and kind != "quintic":
+            yield from sides(argument, counts, curves=curves)
+            if curves and counts(argument) and kind != "quintic":
                 yield from ((argument, Number(point)) for point in points)
         case Call(function, arguments):
             for argument in arguments:
-                yield from _sides(argument)
-            alone = [argument for argument in arguments if not signals(argument)]
-            if function == "abs":
-                yield from ((argument, None) for argument in alone)
-            elif function in ("if", "not", "sign") and not signals(arguments[0]) and not _is_truth(arguments[0]):
-                yield arguments[0], None
-            elif function in ("step", "ramp", "step_rate", "step_acceleration") and not signals(node):
+                yield from sides(argument, counts, curves=curves)
+            if function in ("abs", "if", "not", "sign"):
+                if counts(arguments[0]) and not _is_truth(arguments[0]):
+                    yield arguments[0], None
+            elif function in ("step", "ramp", "step_rate", "step_acceleration") and counts(*arguments):
                 yield from ((arguments[0], arguments[k]) for k in (1, 3))
             elif function in ("min", "max"):
-                yield from ((first, second) for k, first in enumerate(alone) for second in alone[:k])
+                pairs = ((first, second) for k, first in enumerate(arguments) for second in arguments[:k])
+                yield from (pair for pair in pairs if counts(*pair))
 
 
 def _is_truth(node: Node) -> bool:

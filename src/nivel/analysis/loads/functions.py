@@ -49,13 +49,15 @@ class Curve(Protocol):
 class Varying:
     """A function of a part of a machine.
 
-    name : as users know it, `push.vector.x`. of : name of the part in results, `force.push`. sampling : as of `MachineFunction`.
+    name : as users know it, `push.vector.x`. of : name of the part in results, `force.push`. sampling, motion : as of
+    `MachineFunction`.
     """
 
     name: str
     of: str
     curve: Curve
     sampling: Sampling | None = None
+    motion: bool = False
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,7 @@ def varying(machine: MachineRecord) -> Iterator[Varying]:
                 f"{OF.get(each.section, each.section)}.{each.part}",
                 _curve(function, each.motion),
                 each.sampling,
+                each.motion,
             )
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from nivel.analysis.loads.functions import Varying, varying
 from nivel.analysis.loads.path import Path, Steps, path_of
 from nivel.analysis.loads.sight import as_seen
+from nivel.analysis.loads.switches import cut_at_switches
 from nivel.integrate.catalogue import IntegratorFacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import TIME
@@ -34,14 +35,19 @@ BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
 FEATURE, MOST_FEATURES = 2048, 32
 
 
-def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts) -> Iterator[Unseen]:
-    """What the steps of a run have missed of each function that is looked at in every step and whose signals are known."""
+def unseen_loads(
+    machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts, *, chosen: bool
+) -> Iterator[Unseen]:
+    """What the steps of a run have missed of each function that is looked at in every step and whose signals are known.
+
+    chosen : the steps were chosen, and end at switches.
+    """
     for function in varying(machine):
         if function.sampling is not None:
             continue
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
-            found = missed(function, path, steps, facts)
+            found = missed(function, path, cut_at_switches(function, path, steps) if chosen else steps, facts)
             if found is not None:
                 yield found
 

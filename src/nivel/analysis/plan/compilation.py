@@ -7,6 +7,7 @@ from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from time import perf_counter
 
+from nivel.analysis.loads.switches import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import NivelError
@@ -276,8 +277,8 @@ def _node_modules(methods: Methods) -> list[str]:
 
 
 def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
-    """Whether events are looked for: of the machine, or where steps are chosen contacts and stops."""
-    return bool(machine.events) or (chooses_steps and _has_surfaces(machine))
+    """Whether events are looked for: of the machine, or where steps are chosen contacts, stops and switches."""
+    return bool(machine.events) or (chooses_steps and (_has_surfaces(machine) or has_switches(machine)))
 
 
 def _has_surfaces(machine: MachineRecord) -> bool:

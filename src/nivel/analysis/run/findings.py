@@ -134,4 +134,4 @@ def _unseen(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result
     step = settings.step if settings.steps else None
     ends = corners(plan.machine) if step is None or prepared.integrator.knows_corners else ()
     steps = steps_of(finished.pace, settings.duration, step, ends)
-    return list(unseen_loads(plan.machine, result, steps.until(end), prepared.integrator))
+    return list(unseen_loads(plan.machine, result, steps.until(end), prepared.integrator, chosen=step is None))

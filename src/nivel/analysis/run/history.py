@@ -33,6 +33,7 @@ from nivel.integrate.loop.run import (
     STEP,
     SWITCHED,
     TOLERANCE,
+    VALUE_ROWS,
     Run,
 )
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
@@ -75,7 +76,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     _begin_states(prepared, y)
     _refer_energies(prepared, y)
     values = _watch(system, chosen=settings.steps == 0)
-    count[SWITCHED] = system.record.watched.followed[0]
+    count[SWITCHED] = values > len(system.record.watched.event)
     return Run(
         clock=_clock(settings, _open_limit(prepared, settings)),
         counter=count,
@@ -95,7 +96,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         turns=system.map.turns,
         dense=np.zeros((DENSE_ROWS, len(y))),
         frames=np.zeros((rows, width)),
-        event_values=np.zeros((6, values)),
+        event_values=np.zeros((VALUE_ROWS, values)),
         samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
         corners=np.array(prepared.corners, dtype=float),
         pace=_pace(prepared, settings),
@@ -157,6 +158,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
         record.newton.level[0] = constraint_index(settings.formulation, settings.stabilisation, prepared.path)
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
+    record.watched.held[:] = 0.0
     record.sampled.came[:] = 0
     record.circuit.guard[:] = 0.0
     record.circuit.secant[:] = settings.integrator == SECANT
@@ -198,11 +200,11 @@ def _refer_energies(prepared: Prepared, y: Array) -> None:
 
 
 def _watch(system: System, *, chosen: bool) -> int:
-    """Number of values whose zeros are looked for: events, and where steps are chosen, contacts and stops."""
+    """Number of values whose zeros are looked for: events, and where steps are chosen, contacts, stops and switches."""
     watched = system.record.watched
     if chosen:
         watched.followed[0] = int(len(watched.surface) > 0)
-    count = len(watched.event) + (len(watched.surface) if watched.followed[0] else 0)
+    count = len(watched.event) + (len(watched.surface) + len(watched.switch) if chosen else 0)
     if count:
         system.record.hooks.address[WATCH] = watch.address
     return count

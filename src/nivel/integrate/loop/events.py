@@ -28,6 +28,7 @@ from nivel.integrate.loop.run import (
     run_at,
 )
 from nivel.integrate.loop.surfaces import find_contacts
+from nivel.integrate.loop.switches import first_switch, has_switches, note_slopes, pass_unseen
 from nivel.kernels.core.status import BUFFER_FULL, OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import ENDS_RUN, NOTED, STOP, record_at
@@ -40,8 +41,9 @@ def begin_events(machine, history):
     run, values = run_at(history), run_at(history).event_values
     events = record_at(machine).watched.event.shape[0]
     status = read_values(machine, history, BEFORE, run.clock[TIME])
-    for k in range(values.shape[1]):
-        values[SIDE, k], values[WHEN, k] = side_of(values[BEFORE, k], k, events), NEVER
+    values[WHEN, :] = NEVER
+    for k in range(min(values.shape[1], first_switch(machine))):
+        values[SIDE, k] = side_of(values[BEFORE, k], k, events)
     return status
 
 
@@ -59,7 +61,7 @@ def first_stop(watched, when, fixed):
 @leaf
 def find_events(evaluate, correct, machine, history):
     """Look at the step just done: events into row WHEN. The step ends earlier where an event ends the run or takes a sample, or a contact
-    begins or ends.
+    begins or ends, or a switch changes.
 
     Returns a status. With counter[KNOWN] the state reached is evaluated already, its rate is run.scratch.
     """
@@ -76,6 +78,8 @@ def find_events(evaluate, correct, machine, history):
     if counter[DENSE] == 0:
         cubic(run, run.rate, run.scratch)
     values[WHEN, :] = NEVER
+    if has_switches(machine, run):
+        pass_unseen(evaluate, machine, history)
     status, end = find_contacts(evaluate, correct, machine, history, events)
     if status == OK:
         status = find_crossings(evaluate, correct, machine, history, 0, events, end)
@@ -85,10 +89,11 @@ def find_events(evaluate, correct, machine, history):
         status = end_at(evaluate, correct, machine, history, end)
         if watched.event[stop, STOP] == ENDS_RUN:
             counter[STOPPED] = stop + 1
+    note_slopes(machine, run)
     for k in range(count):
         now = side_of(values[AFTER, k], k, events)
         if k >= events:
-            values[SIDE, k] = now
+            values[SIDE, k] = now if k < first_switch(machine) else values[SIDE, k]
         elif values[WHEN, k] <= end:
             values[SIDE, k] = -values[SIDE, k]
             record_at(machine).sampled.came[k] = 1

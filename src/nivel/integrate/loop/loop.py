@@ -40,6 +40,7 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.loop.samples import find_bound, take_samples
 from nivel.integrate.loop.step_control import fastest_turn
+from nivel.integrate.loop.switches import change_sides, has_switches, note_sides
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK, OPEN
 from nivel.kernels.output.observe import accept, observe
 from nivel.kernels.record.function import NEAR
@@ -194,10 +195,10 @@ def accept_state(evaluate, machine, history, due):
     counter[EVALUATED] = 1
     accept(machine, clock[TIME])
     note_energy(machine, run)
+    if has_switches(machine, run):
+        note_sides(machine, run)
     if counter[SWITCHED] == 1:
-        # contacts and stops are on the sides of this state from here on
-        counter[SWITCHED] = 0
-        status = evaluate_accepted(evaluate, machine, history)
+        status = change_sides(evaluate, machine, history)
         if status == OK and not finite(run.rate):
             status = NOT_FINITE
     if status == OK and record.sampled.state.shape[0] > 0:

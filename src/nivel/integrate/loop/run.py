@@ -22,6 +22,9 @@ POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED, FACTORISATIONS, CORNER = 18, 19,
 COUNTS = 25
 # rows of Run.event_values
 BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
+# those of switches
+MIDDLE, LAST, JUMP, WAIT, PATIENCE, SLOPE, PAST = 6, 7, 8, 9, 10, 11, 12
+VALUE_ROWS = 13
 # most rows of Run.dense
 DENSE_ROWS = 13
 # rows of Run.pace, and parts of the duration
@@ -45,7 +48,8 @@ class Run(NamedTuple):
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
     # whether frames and events inside the last step have to be handed out, number of the event that ended the run (from 1), events in
-    # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts change sides,
+    # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts and
+    # switches change sides,
     # matrices of Newton's iteration found, number of the next corner
     counter: I1
     y: F1  # (ny,) state
@@ -65,8 +69,11 @@ class Run(NamedTuple):
     turns: U2  # (·, 2)
     dense: F2  # (DENSE_ROWS, ny) the state inside the last step, see `nivel.integrate.loop.dense`
     frames: F2  # (capacity, width) output
-    # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see `nivel.integrate.loop.events`
-    event_values: F2  # (6, values watched)
+    # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see
+    # `nivel.integrate.loop.events`. Of switches, whose SIDE is 1, or 0 where they are let go: the margin in the MIDDLE of the step, the
+    # LAST side, the JUMP of the rates at its change as a share of their scales [1/s], steps to WAIT until it is kept again and the
+    # PATIENCE that it had last, the mean SLOPE of the margin in the step before [1/s], the length of that, PAST [s], or 0: other sides
+    event_values: F2  # (VALUE_ROWS, values watched)
     samples: I1  # (sampled states,) taken so far of those with a period
     # [s] ascending: explicit methods that choose their steps end one there; implicit ones know corners themselves
     corners: F1

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.loop.crossing import read_values
-from nivel.integrate.loop.run import BEFORE, BOUND, CORNER, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
+from nivel.integrate.loop.run import BEFORE, BOUND, CORNER, DONE_STEPS, END, RESTART, TIME, run_at
+from nivel.integrate.loop.switches import change_sides, has_switches, release_sides, restore_sides
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import NEAR
-from nivel.kernels.record.hook import call_evaluate, call_hook
+from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import NONE, SAMPLE, record_at
 from nivel.native.function import leaf
 
@@ -62,6 +63,8 @@ def take_samples(evaluate, machine, history):
     run, sampled = run_at(history), record_at(machine).sampled
     if not find_due(sampled, run):
         return OK
+    if has_switches(machine, run):
+        release_sides(machine)
     status = call_hook(machine, SAMPLE, 0, run.clock[TIME])
     first = np.int64(run.y.shape[0]) - 2 - record_at(machine).elements.state.shape[0]
     changed = False
@@ -72,10 +75,11 @@ def take_samples(evaluate, machine, history):
         if run.y[place] != sampled.value[k]:
             run.y[place] = run.previous[place] = sampled.value[k]
             changed = True
+    if not changed and has_switches(machine, run):
+        restore_sides(machine, run)
     if status != OK or not changed:
         return status
-    run.counter[EVALUATIONS] += 1
-    status = call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
+    status = change_sides(evaluate, machine, history)
     if run.counter[DONE_STEPS] > 0:
         run.counter[RESTART] = 1
         if status == OK and run.event_values.shape[1] > 0:

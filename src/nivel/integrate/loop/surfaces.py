@@ -1,4 +1,4 @@
-"""Contacts and stops where steps are chosen: a step ends where a surface begins or ceases to touch."""
+"""Contacts, stops and switches where steps are chosen: a step ends where a surface begins or ceases to touch, or a switch changes."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from nivel.integrate.loop.run import (
     WHEN,
     run_at,
 )
+from nivel.integrate.loop.switches import find_between, first_switch, has_switches, let_go
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
@@ -68,20 +69,23 @@ def look_into(evaluate, correct, machine, history, k):
 
 @leaf
 def find_contacts(evaluate, correct, machine, history, events):
-    """(status, θ) where the step has to end because a contact or stop begins or ends; 1 where none does."""
+    """(status, θ) where the step has to end because a contact or stop begins or ends, or a switch changes; 1 where none does."""
     run = run_at(history)
     values = run.event_values
     if values.shape[1] == events:
         return OK, 1.0
     status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], 1.0)
-    for k in range(events, values.shape[1]):
+    for k in range(events, first_switch(machine)):
         if status == OK and values[WHEN, k] == NEVER:
             status, theta, value = look_into(evaluate, correct, machine, history, k)
             if status == OK and theta < NEVER and side_of(value, k, events) != values[SIDE, k]:
                 status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+    if status == OK and has_switches(machine, run):
+        status = find_between(evaluate, correct, machine, history)
     end = first_of(values[WHEN], events)
     if end < NEVER:
         run.counter[RESTART], run.counter[SWITCHED] = 1, 1
+        let_go(machine, run, end)
         if status == OK:
             status = end_at(evaluate, correct, machine, history, end)
     return status, min(end, 1.0)

@@ -14,8 +14,8 @@ from nivel.native.signature import COMPLEX_LAW, LAW
 NEAR = 16.0 * 2.220446049250313e-16
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
 CONSTANT, TABLE_HELD, TABLE_EXTENDED, CODE, LINEAR = 0, 1, 2, 3, 4
-# kinds of signals: index and component say of what
-NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE, OUTPUT = 0, 1, 2, 3, 4, 5, 6, 7, 8
+# kinds of signals: index and component say of what; HELD is the side that a switch keeps
+NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE, OUTPUT, HELD = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
 
 
 # call_law(address, arguments): the value of a law or an expression; about 3 ns
@@ -77,6 +77,8 @@ def read_arguments(machine, k, t):
             functions.arguments[place] = record.elements.state[index]
         elif kind == OUTPUT:
             functions.arguments[place] = record.outputs.value[index]
+        elif kind == HELD:
+            functions.arguments[place] = record.watched.held[index]
 
 
 @leaf

@@ -4,6 +4,10 @@ A program stands in a row of numbers, with all that it works on. Its instruction
 result, the places of the operands (one of no meaning where there is one operand). Constants, intermediate results, arguments and what is
 left behind them have places in the same row. A curve has the place of its numbers as its second operand. An instruction takes one to three
 nanoseconds, and what sin, exp, … take.
+
+A switch is a difference whose sign decides about a value: of what is compared, of a limit. Its side is 1 where the difference is greater
+than zero, else -1. Where a side is held, it stays what it is while the difference passes zero, so that the value is smooth over a step;
+beyond its own side an expression may have no value (a root of what is then negative), and then differences decide at once.
 """
 
 from __future__ import annotations
@@ -19,8 +23,8 @@ LENGTH = 4  # of an instruction
 END, ADD, SUBTRACT, MULTIPLY, DIVIDE, POWER, ATAN2, MIN, MAX = range(9)
 COPY, NEGATIVE, SQUARE, SIN, COS, TAN, ASIN, ACOS, ATAN, SQRT, EXP, LOG, ABS = range(9, 22)
 # 1 where the comparison holds, else 0; the first operand where what stands at the place of the result is greater than zero, else the
-# second; the whole number below; a curve
-LESS, LESS_EQUAL, CHOOSE, FLOOR, TANH, CURVE = range(22, 28)
+# second; the whole number below; a curve; the side of a difference, or that of its second operand where it is held
+LESS, LESS_EQUAL, CHOOSE, FLOOR, TANH, CURVE, SIDE = range(22, 29)
 # numbers of a curve: points, values before the first and behind the last point; points and six coefficients a piece follow
 POINTS, BEFORE, BEHIND, FIRST, COEFFICIENTS = 0, 1, 2, 3, 6
 
@@ -116,15 +120,27 @@ def place(x):
     return np.uint64(np.int64(real(x)))
 
 
+@leaf
+def side(difference, held):
+    """1 or -1; no number where the difference is none."""
+    found = truth(difference, 0.0, real(difference) > 0.0)
+    return 2.0 * found - 1.0 if real(held) == 0.0 else real(held) + 0.0 * found
+
+
 @law
 def run(row):
     """Value of the program that the row begins with."""
-    at = np.uint64(0)
+    at, holds = np.uint64(0), 1.0
     while True:
         operation, to = place(row[at]), place(row[at + 1])
         if operation == END:
-            return row[to]
-        if operation == CURVE:
+            if holds == 0.0 or np.abs(real(row[to])) < np.inf:
+                return row[to]
+            at, holds = np.uint64(0), 0.0
+            continue
+        if operation == SIDE:
+            row[to] = side(row[place(row[at + 2])], holds * row[place(row[at + 3])])
+        elif operation == CURVE:
             row[to] = curve(row, np.int64(real(row[at + 3])), row[place(row[at + 2])])
         else:
             row[to] = operate(operation, row[place(row[at + 2])], row[place(row[at + 3])], row[to])

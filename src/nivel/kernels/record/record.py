@@ -226,12 +226,14 @@ class Sensors(NamedTuple):
 
 
 class Watched(NamedTuple):
-    """Values whose zeros are looked for: those of events, then overlaps of contacts and stops."""
+    """Values whose zeros are looked for: those of events, then overlaps of contacts and stops, then margins of switches."""
 
     event: U2  # (events, 3) FUNCTION, DIRECTION, STOP: see ENDS_RUN
     surface: U2  # (surfaces, 2) element, place in its `depth`
-    value: F1  # (events + surfaces,) in the state last evaluated
-    rate: F1  # (events + surfaces,) of the surfaces, zero for events
+    switch: U2  # (switches, 2) places in `functions.arguments`: of the side, 1 or -1, and of the difference that decides about it
+    held: F1  # (switches,) the side that a switch keeps, or 0: the difference decides at once
+    value: F1  # (events + surfaces + switches,) in the state last evaluated
+    rate: F1  # the same, of the surfaces; zero for others
     followed: (
         U1  # (1,) whether contacts and stops keep the side of the accepted state, see `nivel.kernels.forces.impact`
     )

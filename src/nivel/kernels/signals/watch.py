@@ -1,11 +1,16 @@
-"""The hook of machines with events, and of those whose contacts and stops are followed: values whose zeros are looked for."""
+"""The hook of machines with events, and of those whose contacts, stops and switches are followed: values whose zeros are looked for."""
 
 from __future__ import annotations
+
+import numpy as np
 
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import FUNCTION, record_at
+
+# the margin of a switch of which no side can be told
+NOT_BEYOND = 1e-300
 
 
 @family
@@ -20,4 +25,10 @@ def watch(machine, job, t):
         element, place = watched.surface[k, 0], watched.surface[k, 1]
         watched.value[events + k] = elements.depth[element, place]
         watched.rate[events + k] = elements.depth_rate[element, place]
+    first = events + watched.surface.shape[0]
+    arguments = record.functions.arguments
+    for k in range(watched.switch.shape[0]):
+        margin = arguments[watched.switch[k, 0]] * arguments[watched.switch[k, 1]]
+        # a difference of zero belongs to both sides, and one that is no number to neither
+        watched.value[first + k] = margin if 0.0 < np.abs(margin) < np.inf else NOT_BEYOND
     return OK

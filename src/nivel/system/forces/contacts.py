@@ -75,9 +75,9 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         stiffness = 4.0 / 3.0 / compliance / math.sqrt(curvature)
     law = NONE
     if force.law is not None:
-        law = draft.function(
-            force.law, {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
-        )
+        symbols = {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
+        # every point that touches asks for it
+        law = draft.function(force.law, symbols, switching=False)
     loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
     numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels.record.function import CODE, CONSTANT, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
+from nivel.kernels.record.function import CODE, CONSTANT, HELD, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.record.program import run
 from nivel.kernels.record.record import Functions
 from nivel.machine.control.part import PartFunction
@@ -19,7 +19,14 @@ from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction, linear_function
 from nivel.system.laws.laws import law_address
-from nivel.system.laws.program import curve_motion_program, curve_program, expression_program, motion_program
+from nivel.system.laws.program import (
+    Switching,
+    curve_motion_program,
+    curve_program,
+    expression_program,
+    motion_program,
+    switching_program,
+)
 from nivel.system.tables import Array, index_array
 
 Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.record.function`
@@ -28,7 +35,10 @@ Find = Callable[[str], Signal]
 
 @dataclass
 class FunctionTable:
-    """Functions of a machine in numbers. Laws are compiled, or loaded from the cache, when they are added."""
+    """Functions of a machine in numbers. Laws are compiled, or loaded from the cache, when they are added.
+
+    switches : places in `arguments` of the side of each switch, and of its difference.
+    """
 
     kind: list[int] = field(default_factory=list)
     value: list[float] = field(default_factory=list)
@@ -39,9 +49,19 @@ class FunctionTable:
     coefficients: list[Sequence[float]] = field(default_factory=list)
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
+    switches: list[tuple[int, int]] = field(default_factory=list)
 
-    def add(self, function: PartFunction, find: Find, *, motion: bool = False, end: float = math.inf) -> int:
+    def add(
+        self,
+        function: PartFunction,
+        find: Find,
+        *,
+        motion: bool = False,
+        end: float = math.inf,
+        switching: bool = False,
+    ) -> int:
         """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
+        switching : every evaluation of the machine finds its value once, so that its corners with signals can be switches.
 
         Raises ModelError where a law cannot be compiled.
         """
@@ -60,14 +80,14 @@ class FunctionTable:
                 return self._append(TABLE_HELD, [function.of], find, table=(times, rows))
             case LinearFunction():
                 return self._append_linear(function, find)
-            case Expression() if not motion and (linear := linear_function(function.tree)) is not None:
+            case Expression() if motion:
+                return self._append(CODE, [TIME_SYMBOL], find, address=run.address, program=motion_program(function))
+            case Expression() if (linear := linear_function(function.tree)) is not None:
                 return self._append_linear(linear, find)
-            case Expression():
+            case Expression() | Formula():
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
-                program = motion_program(function) if motion else expression_program(function, signals)
-                return self._append(CODE, signals, find, address=run.address, program=program)
-            case Formula():
-                signals = [TIME_SYMBOL, *function.signals]
+                if switching:
+                    return self._append_switching(switching_program(function, signals), signals, find)
                 program = expression_program(function, signals)
                 return self._append(CODE, signals, find, address=run.address, program=program)
             case PythonLaw():
@@ -79,6 +99,12 @@ class FunctionTable:
         factors, paths = [factor for factor, _ in function.terms], [path for _, path in function.terms]
         return self._append(LINEAR, paths, find, value=function.offset, table=(factors, [[0.0] * 4] * len(factors)))
 
+    def _append_switching(self, program: Switching, signals: list[str], find: Find) -> int:
+        start, first = len(self.arguments), len(self.switches)
+        self.switches += [(start + side, start + difference) for side, difference in program.switches]
+        held: list[Signal] = [(HELD, first + k, 0) for k in range(len(program.switches))]
+        return self._append(CODE, [*signals, *held], find, address=run.address, program=program.row)
+
     def add_table(self, knots: Sequence[float], coefficients: Array) -> int:
         """Index of a new table that goes on beyond its ends; `coefficients` (n, 4) as `Functions.coefficients`."""
         return self._append(TABLE_EXTENDED, [], _nothing, table=(knots, coefficients.tolist()))
@@ -86,7 +112,7 @@ class FunctionTable:
     def _append(
         self,
         kind: int,
-        arguments: Sequence[str | float],
+        arguments: Sequence[str | float | Signal],
         find: Find,
         *,
         value: float = 0.0,
@@ -98,7 +124,9 @@ class FunctionTable:
         place = start + len(program)
         self.arguments += program
         for n, argument in enumerate(arguments):
-            if not isinstance(argument, str):
+            if isinstance(argument, tuple):
+                signal, number = argument, 0.0
+            elif not isinstance(argument, str):
                 signal, number = (NUMBER, 0, 0), float(argument)
             else:
                 signal, number = (TIME, 0, 0) if argument == TIME_SYMBOL else find(argument), 0.0

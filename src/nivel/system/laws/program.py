@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from nivel.kernels.record import program as kernel
-from nivel.machine.units.arithmetic import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.units.arithmetic import (
+    COMPARISONS,
+    LOGICAL,
+    TIME,
+    Call,
+    Lookup,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    Signal,
+    Time,
+    signals,
+)
 from nivel.machine.units.elementary import COMPOUND, elementary
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
@@ -33,6 +47,24 @@ def expression_program(expression: Expression | Formula, signals: Sequence[str])
     program = _Program(signals)
     program.end(program.place_of(expression.tree))
     return program.row()
+
+
+@dataclass(frozen=True)
+class Switching:
+    """A program with switches. Behind it are expected its arguments, then the side that each switch keeps.
+
+    switches : places of the side of each, and of its difference.
+    """
+
+    row: list[float]
+    switches: list[tuple[int, int]]
+
+
+def switching_program(expression: Expression | Formula, paths: Sequence[str]) -> Switching:
+    """The program of an expression of signals, of which the first is the time, whose corners and jumps with other signals are switches."""
+    program = _Program(paths, switching=True)
+    program.end(program.place_of(expression.tree))
+    return Switching(program.row(), program.switches())
 
 
 def curve_program(kind: str, points: Sequence[float], values: Sequence[float]) -> list[float]:
@@ -67,11 +99,13 @@ class _Program:
     """Instructions, and numbers that stand behind them. Places are known when all is there: until then they count from the arguments
     back, from the last number with -1."""
 
-    def __init__(self, signals: Sequence[str]) -> None:
+    def __init__(self, paths: Sequence[str], *, switching: bool = False) -> None:
         self._instructions: list[tuple[int, int, int, int]] = []
         self._numbers: list[float] = []
+        self._arguments, self._switching = len(paths), switching
+        self._sides: dict[Node, tuple[int, int]] = {}
         self._places: dict[Node, int] = {
-            Time() if path == TIME else Signal(path): place for place, path in enumerate(signals)
+            Time() if path == TIME else Signal(path): place for place, path in enumerate(paths)
         }
 
     def place_of(self, node: Node) -> int:
@@ -81,6 +115,8 @@ class _Program:
         return self._places[node]
 
     def _find(self, node: Node) -> int:
+        if self._switching and (place := self._find_switching(node)) is not None:
+            return place
         match node:
             case Number(value, _):
                 return self._cell(value)
@@ -109,6 +145,50 @@ class _Program:
                     place = self._operation(OPERATIONS[function], place, self.place_of(other))
                 return place
         raise ValueError(f"{node} is not bound")
+
+    def _find_switching(self, node: Node) -> int | None:
+        """Place of the value of a node that has corners or jumps where a difference of signals changes its sign; None of others."""
+        match node:
+            case Operation("<" | ">" as symbol, left, right) if signals(node):
+                low, high = (left, right) if symbol == "<" else (right, left)
+                return self._operation(kernel.LESS, self.place_of(ZERO), self._side(high, low))
+            case Operation("<=" | ">=" as symbol, left, right) if signals(node):
+                low, high = (left, right) if symbol == "<=" else (right, left)
+                return self._operation(kernel.LESS, self._side(low, high), self.place_of(ZERO))
+            case Operation("and" | "or" as symbol, left, right):
+                place = self._operation(
+                    kernel.MIN if symbol == "and" else kernel.MAX, self._condition(left), self._condition(right)
+                )
+                return self._operation(kernel.LESS, self.place_of(ZERO), place)
+            case Call("not", (x,)):
+                return self._operation(kernel.LESS_EQUAL, self._condition(x), self.place_of(ZERO))
+            case Call("if", (condition, yes, no)):
+                return self._choice(self._condition(condition), self.place_of(yes), self.place_of(no))
+            case Call("abs", (x,)) if signals(x):
+                below = self._operation(kernel.NEGATIVE, self._side(ZERO, x))
+                return self._operation(kernel.MULTIPLY, below, self.place_of(x))
+            case Call("min" | "max" as function, (first, second, *others)) if others:
+                return self.place_of(Call(function, (Call(function, (first, second)), *others)))
+            case Call("min" | "max" as function, (first, second)) if signals(node):
+                side = self._side(second, first) if function == "max" else self._side(first, second)
+                return self._choice(side, self.place_of(second), self.place_of(first))
+        return None
+
+    def _condition(self, node: Node) -> int:
+        """Place of a number that is greater than zero where a condition holds, and that changes its sign with switches alone."""
+        is_truth = (isinstance(node, Operation) and node.symbol in (*COMPARISONS, *LOGICAL)) or (
+            isinstance(node, Call) and node.function == "not"
+        )
+        return self.place_of(node) if is_truth or not signals(node) else self._side(node, ZERO)
+
+    def _side(self, first: Node, second: Node) -> int:
+        """Place of the side of first - second, whose sign does not depend on how it is written."""
+        difference = first if second == ZERO else Negative(second) if first == ZERO else Operation("-", first, second)
+        if difference not in self._sides:
+            place = self.place_of(difference)
+            held = self._arguments + len(self._sides)  # `difference` may have switches of its own
+            self._sides[difference] = self._operation(kernel.SIDE, place, held), place
+        return self._sides[difference][0]
 
     def _choice(self, condition: int, yes: int, no: int) -> int:
         place = self._operation(kernel.COPY, condition)
@@ -141,8 +221,17 @@ class _Program:
         """The value of the program is what stands at this place."""
         self._instructions.append((kernel.END, place, place, place))
 
+    def switches(self) -> list[tuple[int, int]]:
+        """Places in the row of the side of each switch, and of its difference."""
+        behind = self._behind()
+        return [(behind + side, behind + difference) for side, difference in self._sides.values()]
+
+    def _behind(self) -> int:
+        """Where the arguments stand."""
+        return kernel.LENGTH * len(self._instructions) + len(self._numbers)
+
     def row(self) -> list[float]:
         """All numbers of the program."""
-        behind = kernel.LENGTH * len(self._instructions) + len(self._numbers)
+        behind = self._behind()
         code = [[operation, *(behind + place for place in places)] for operation, *places in self._instructions]
         return [*(float(part) for line in code for part in line), *reversed(self._numbers)]

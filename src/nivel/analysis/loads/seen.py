@@ -37,8 +37,6 @@ FEATURE, MOST_FEATURES = 2048, 32
 def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts) -> Iterator[Unseen]:
     """What the steps of a run have missed of each function that is looked at in every step and whose signals are known."""
     for function in varying(machine):
-        if function.sampling is not None:
-            continue
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
             found = missed(function, path, steps, facts)

@@ -13,8 +13,9 @@ from typing import Any, Self, TypeVar
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
+from nivel.files.known import Known
 from nivel.files.origin import Origin
-from nivel.files.scope import FileNames, read_names
+from nivel.files.scope import FileNames, read_known, read_names
 from nivel.files.sources import Sources
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
@@ -204,6 +205,15 @@ class Model(Elements):
         sources = Sources(origin.allow_code).inside(origin.file)
         return read_names(origin.source, origin.file, sources, overrides=origin.values)
 
+    @cached_property
+    def _known(self) -> Known | None:
+        """Its elements, as the file has them; None where there is no file."""
+        origin = self.origin
+        if not origin.source:
+            return None
+        sources = Sources(origin.allow_code).inside(origin.file)
+        return read_known(origin.source, origin.file, sources, overrides=origin.values, record=self.record)
+
     @property
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters of the machine's file, in SI units; none where the machine was written in Python."""
@@ -244,7 +254,7 @@ class Model(Elements):
         """
         whole = {whole_path(self.record, path): value for path, value in values.items()}
         given = {name: value for name, value in self.origin.given.items() if f"simulation.{name}" not in whole}
-        record, origin = with_values(self.record, self.origin, whole)
+        record, origin = with_values(self.record, self.origin, whole, self._known)
         machine = type(self).from_record(record, origin)
         return machine.with_settings(given) if given else machine
 
@@ -260,6 +270,9 @@ class Model(Elements):
             simulation = changed(self.record.simulation, {**asked, **settings})
         except ModelError as error:
             raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
+        old = self.record.simulation
+        if simulation.cut == old.cut and simulation.free == old.free:
+            return type(self).from_record(self.record.with_simulation(simulation), origin)
         try:
             return type(self).from_record(self.record.replace(simulation=simulation), origin)
         except ModelError as error:

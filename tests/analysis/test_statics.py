@@ -53,7 +53,7 @@ def test_stiffness_is_symmetric_in_equilibrium(coordinates):
     """Of conservative forces it is a second derivative, on the motions that the joints allow."""
     equations, state = equations_of(four_bar(), coordinates)
     tangent = settle(equations, state, Iteration()).tangent
-    Z = linear.free_directions(tangent)
+    Z = tangent.free_directions
     K = Z.T @ (tangent.K @ Z)
     np.testing.assert_allclose(K, K.T, atol=1e-12 * np.abs(K).max())
 
@@ -64,7 +64,7 @@ def test_newton_converges_quadratically(coordinates):
     equations, state = equations_of(torsion_pendulum(20.0), coordinates)
     found = settle(equations, state, Iteration())
     away = linear.Change(0.0 * found.moved, np.zeros(equations.rows))
-    Z = linear.free_directions(found.tangent)[:, 0]
+    Z = found.tangent.free_directions[:, 0]
     off = equations.moved(found.state, linear.Change(0.4 * Z / np.abs(Z).max(), away.lam))
     sizes = np.array(equilibrate(equations, off, Iteration(tolerance=1e-13)).sizes)
     used = sizes[sizes > 1e-14]

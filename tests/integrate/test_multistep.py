@@ -10,7 +10,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import RESTART, STEP
 from nivel.integrate.loop.workspace import SHARE
 from nivel.integrate.multistep.multistep import remember
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.machine import Body, Joint, MachineRecord, SpringDamper
 from preparing import prepare
 from references import stick_slip

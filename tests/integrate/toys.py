@@ -8,7 +8,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import equations
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop import run as names
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import EVALUATE
 from nivel.machine import Body, MachineRecord

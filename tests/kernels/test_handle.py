@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from nivel.kernels.core.arrays import A1, F1, F2, F3, I1, U1, U2
-from nivel.kernels.core.handle import Handle, reader
+from nivel.kernels.core.block import Handle
+from nivel.kernels.core.handle import reader
 from nivel.native.function import leaf
 
 

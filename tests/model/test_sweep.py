@@ -8,6 +8,8 @@ import pytest
 import nivel
 from nivel.analysis.sweep.variants import lay_out
 from nivel.errors import ModelError
+from nivel.files.reader import read_machine
+from nivel.files.values import whole_path
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPRING = """
@@ -146,6 +148,8 @@ simulation: {duration: 0.1, step: 1 ms}
     ("path", "values"),
     [
         ("block.mass", [1.0, 2.5]),
+        ("bob.mass", [0.4, "700 g"]),
+        ("parameters.stiffness", [100.0, "150 N/m"]),
         ("parameters.length", ["20 cm", "35 cm"]),
         ("parameters.peak", [3.0, -7.0]),
         ("rail.start.displacement", [0.1, 0.2]),
@@ -160,6 +164,33 @@ def test_a_sweep_gives_to_the_last_bit_what_runs_one_by_one_give(path, values, t
     found = machine.sweep({path: values}, save=["rail.displacement", "joint_force"], processes=1)
     assert found.outcome.values.tolist() == ["done", "done"]
     for k, value in enumerate(values):
-        alone = machine.with_values({path: value}).simulate()
+        alone = nivel.Machine.from_record(
+            read_machine(tmp_path / "laws.yaml", overrides={whole_path(machine.record, path): value})
+        ).simulate()
+        assert found.verdict.values[k] == alone.trust.verdict
         for name in ("rail.displacement", "joint_force"):
             np.testing.assert_array_equal(found[name].isel({path: k}), alone.array(name))
+
+
+@pytest.mark.parametrize(("path", "value"), [("upper_ball.point.1", 0.665), ("parameters.bump", "7 cm")])
+def test_a_sweep_from_equilibrium_gives_to_the_last_bit_what_a_run_alone_gives(path, value):
+    settings = {"duration": 0.02, "start": "equilibrium"}
+    machine = nivel.load(EXAMPLES / "suspension.yaml")
+    found = machine.sweep({path: [value]}, save=["position", "joint_force"], processes=1, **settings)
+    alone = nivel.Machine.from_record(
+        read_machine(EXAMPLES / "suspension.yaml", overrides={whole_path(machine.record, path): value})
+    )
+    result = alone.simulate(**settings)
+    assert found.verdict.values[0] == result.trust.verdict
+    for name in ("position", "joint_force"):
+        np.testing.assert_array_equal(found[name].isel({path: 0}), result.array(name))
+
+
+def test_reasons_of_a_sweep_are_those_of_a_run_alone():
+    path, value = "parameters.tyre", "-200 kN/m"
+    machine = nivel.load(EXAMPLES / "suspension.yaml")
+    found = machine.sweep({path: ["200 kN/m", value]}, processes=1, duration=0.01)
+    with pytest.raises(nivel.SolveError) as alone:
+        machine.with_values({path: value}).simulate(duration=0.01)
+    assert found.outcome.values.tolist() == ["done", "failed"]
+    assert found.reason.values[1] == str(alone.value)

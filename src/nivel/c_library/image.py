@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 
 WORD = 8
 LINE = 64  # bytes: arrays begin at lines of the cache
@@ -76,7 +76,7 @@ def _arrays(record: Any) -> Iterator[Any]:
 
 
 def _words(array: Any) -> int:
-    """Words of the descriptor of an array, see `nivel.kernels.core.handle`."""
+    """Words of the descriptor of an array, see `nivel.kernels.core.block`."""
     return 5 + 2 * array.ndim
 
 

@@ -20,7 +20,7 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import ALL_STEPS, BUDGET, END, EVENTS, EVERY, FRAMES, RESTART, TIME
 from nivel.integrate.loop.sink import Header
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.record.function import CONSTANT
 from nivel.machine import Input

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path as FilePath
 
+from nivel.files.known import Known
 from nivel.files.outline import FORMAT
 from nivel.files.overrides import prefix_of
 from nivel.files.scope import read_scope
@@ -33,13 +34,14 @@ def parse_machine(
     *,
     overrides: Mapping[str, object] | None = None,
     allow_code: bool = False,
+    known: Known | None = None,
 ) -> MachineRecord:
     """The machine in the YAML `text`, with all files it names, seen from the folder of `file`.
 
-    Messages show the name `file`; its stem is the machine's default name.
+    Messages show the name `file`; its stem is the machine's default name. `known`: of another reading of the same file.
     Raises ModelError.
     """
-    return read_scope(text, file, Sources(allow_code).inside(file), overrides=overrides or {})
+    return read_scope(text, file, Sources(allow_code).inside(file), overrides=overrides or {}, known=known)
 
 
 def locate(text: str, path: str) -> tuple[int, int]:

@@ -18,6 +18,7 @@ from nivel.files.assembly import Assembly, given_parameters, made_by, read_assem
 from nivel.files.body_files import place_body_files
 from nivel.files.csv_tables import read_csv_tables
 from nivel.files.include import include
+from nivel.files.known import Known
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
 from nivel.files.outline import VALUES, as_part, check_sections, check_start, section_of
@@ -43,13 +44,22 @@ def read_scope(
     *,
     overrides: Mapping[str, object],
     user: tuple[Tree, str, Assembly] | None = None,
+    known: Known | None = None,
 ) -> MachineRecord:
-    """The machine in `text`. `user`: the file, and the assembly in it, that this is a part of.
+    """The machine in `text`. `user`: the file, and the assembly in it, that this is a part of. `known`: of another reading of it.
 
     Raises ModelError.
     """
     tree, parameters = _tree_of(text, file, sources, overrides, user)
-    return _record(tree, parameters, _expanded(tree, parameters, sources))
+    return _record(tree, parameters, _expanded(tree, parameters, sources), known)
+
+
+def read_known(
+    text: str, file: str, sources: Sources, *, overrides: Mapping[str, object], record: MachineRecord
+) -> Known:
+    """The elements of the machine that was read as `record`."""
+    tree, parameters = _tree_of(text, file, sources, overrides, None)
+    return Known.of(tree, parameters, record)
 
 
 @dataclass(frozen=True)
@@ -173,11 +183,12 @@ def _join(tree: Tree, records: dict[str, Record], path: Path, record: Record, ma
         tree.places[path] = tree.places[maker]
 
 
-def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord:
+def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | None) -> MachineRecord:
     """The record of the whole tree.
 
     Raises ModelError.
     """
+    alike = known.alike(tree, parameters) if known is not None else {}
     data: dict[str, Any] = {"name": FilePath(tree.file).stem or "machine", **tree.data}
     for section in VALUES:
         data.pop(section, None)
@@ -188,7 +199,8 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
         own = section_of(tree, section)
         names[section] = [*own, *made[section]]
         if names[section]:
-            data[section] = [*({"name": name, **element} for name, element in own.items()), *made[section].values()]
+            written = (alike.get((section, name)) or {"name": name, **element} for name, element in own.items())
+            data[section] = [*written, *made[section].values()]
         else:
             data.pop(section, None)
     data.setdefault("bodies", [])
@@ -200,6 +212,8 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
     try:
         record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})
     except ValidationError as error:
+        if alike:  # faults are told in the words of the file
+            return _record(tree, parameters, made, None)
         for line in error.errors(include_url=False):
             path = _path_in_file(line["loc"], names)
             if line["type"] == FAULT and not tree.is_broken(path) and not _is_about_unread(tree, line["msg"]):

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from nivel.errors import Fault, ModelError
+from nivel.files.known import Known
 from nivel.files.origin import OUTSIDE, Origin
 from nivel.files.outline import TOP_WORDS
 from nivel.files.reader import parse_machine
@@ -81,15 +82,17 @@ def _entered(value: Any, step: str, is_section: bool) -> Any:
     raise ModelError(f"this is a single value, {shown(value)}, and has nothing inside")
 
 
-def with_values(record: MachineRecord, origin: Origin, values: Mapping[str, Any]) -> tuple[MachineRecord, Origin]:
-    """The machine with other values by path, and where it comes from. What depends on a parameter follows it.
+def with_values(
+    record: MachineRecord, origin: Origin, values: Mapping[str, Any], known: Known | None = None
+) -> tuple[MachineRecord, Origin]:
+    """The machine with other values by path, and where it comes from. What depends on a parameter follows it. known : of the record.
 
     Raises ModelError with everything that is wrong.
     """
     if not origin.source:
         return _of_record(record, values), origin.edited()
     values = {**origin.values, **values}
-    read = parse_machine(origin.source, origin.file, overrides=values, allow_code=origin.allow_code)
+    read = parse_machine(origin.source, origin.file, overrides=values, allow_code=origin.allow_code, known=known)
     return read, replace(origin, values=values, outside=origin.outside | outside_paths(values), given={})
 
 

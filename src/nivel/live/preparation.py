@@ -17,7 +17,7 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
 from nivel.integrate.loop.run import Run
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
 from nivel.machine.driver import Driver
-from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.record import Record
 from nivel.machine.state import State
@@ -44,8 +43,8 @@ class MachineFunction:
     sampling: Sampling | None = None
 
 
-def functions_of(machine: MachineRecord) -> Iterator[MachineFunction]:
-    """All functions of a machine, those that do not vary left out, section by section."""
+def functions_of(machine: Record) -> Iterator[MachineFunction]:
+    """All functions of a machine, those that do not vary left out, section by section; found once by `MachineRecord.functions`."""
     for section in type(machine).model_fields:
         value = getattr(machine, section)
         for part in value if isinstance(value, tuple) else (value,):

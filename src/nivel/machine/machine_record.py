@@ -29,7 +29,9 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
+from nivel.machine.functions import MachineFunction, functions_of
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
+from nivel.machine.index import Index
 from nivel.machine.input import Input
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
@@ -99,15 +101,29 @@ class MachineRecord(Checked):
         return {body.name: body for body in self.bodies}
 
     @cached_property
+    def poses(self) -> Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Position (3,) [m] and Euler parameters (4,) of the frame of every body, global, as given (before assembly)."""
+        return {name: placement(body) for name, body in self.body_named.items()}
+
+    @cached_property
     def placed(self) -> Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """Position (3,) [m] and rotation matrix (3, 3) of the frame of every body, global, as given (before assembly)."""
-        frames = {name: placement(body) for name, body in self.body_named.items()}
-        return {name: (position, matrix_from_euler_parameters(theta)) for name, (position, theta) in frames.items()}
+        """The same with rotation matrices (3, 3)."""
+        return {name: (position, matrix_from_euler_parameters(theta)) for name, (position, theta) in self.poses.items()}
 
     @cached_property
     def marker_named(self) -> Mapping[str, Marker]:
         """The markers that have a place of their own, by name."""
         return {marker.name: marker for marker in self.markers if marker.name is not None}
+
+    @cached_property
+    def functions(self) -> tuple[MachineFunction, ...]:
+        """All functions, those that do not vary left out, section by section; settings have none."""
+        return tuple(functions_of(self))
+
+    @cached_property
+    def index(self) -> Index:
+        """What the elements are, by name."""
+        return Index.of(self)
 
     def with_simulation(self, simulation: SimulationSettings) -> Self:
         """The same machine with other settings, which name no joints that these did not: nothing is checked again."""

@@ -14,6 +14,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from nivel.machine.record import Record, unknown_word
 from nivel.machine.units.quantity import Angle, Direction, Scalar, fault, listed, shown
+from nivel.machine.vectors import cross
 
 Array = NDArray[np.float64]
 
@@ -163,7 +164,7 @@ def product(first: Array, second: Array) -> Array:
     """Euler parameters (…, 4) of A(first) A(second)."""
     a0, a, b0, b = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
     scalar = a0 * b0 - np.sum(a * b, axis=-1, keepdims=True)
-    return np.concatenate([scalar, a0 * b + b0 * a + np.cross(a, b)], axis=-1)
+    return np.concatenate([scalar, a0 * b + b0 * a + cross(a, b)], axis=-1)
 
 
 def conjugate(theta: Array) -> Array:

@@ -14,6 +14,7 @@ from nivel.machine.orientation import (
     rotation_matrix,
 )
 from nivel.machine.shape import Mesh, Sphere
+from nivel.machine.vectors import cross
 
 if TYPE_CHECKING:
     from nivel.machine.body import Body
@@ -66,7 +67,7 @@ def frame_between(start: ArrayLike, end: ArrayLike) -> Array:
     x = _unit(np.subtract(end, start))
     vertical = np.hypot(x[0], x[1]) < np.sin(VERTICAL)
     z = _perpendicular(np.array([0.0, 1.0, 0.0]) if vertical else np.array([0.0, 0.0, 1.0]), x)
-    return np.column_stack([x, _cross(z, x), z])
+    return np.column_stack([x, cross(z, x), z])
 
 
 def frame_from_axes(axis: ArrayLike, x_axis: ArrayLike | None = None) -> Array:
@@ -77,7 +78,7 @@ def frame_from_axes(axis: ArrayLike, x_axis: ArrayLike | None = None) -> Array:
     """
     z = _unit(np.asarray(axis, dtype=float))
     x = _perpendicular(most_perpendicular(z) if x_axis is None else np.asarray(x_axis, dtype=float), z)
-    return np.column_stack([x, _cross(z, x), z])
+    return np.column_stack([x, cross(z, x), z])
 
 
 def most_perpendicular(direction: Array) -> Array:
@@ -90,13 +91,7 @@ def most_perpendicular(direction: Array) -> Array:
 def angle_between(first: ArrayLike, second: ArrayLike) -> float:
     """[rad] between two directions, 0 to π."""
     a, b = _unit(np.asarray(first, dtype=float)), _unit(np.asarray(second, dtype=float))
-    return float(np.arctan2(np.linalg.norm(_cross(a, b)), a @ b))
-
-
-def _cross(a: Array, b: Array) -> Array:
-    """a × b of two vectors (3,); for single vectors an order faster than that of NumPy."""
-    (a0, a1, a2), (b0, b1, b2) = a.tolist(), b.tolist()
-    return np.array([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0])
+    return float(np.arctan2(np.linalg.norm(cross(a, b)), a @ b))
 
 
 def _unit(vector: Array) -> Array:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Any, Final, Literal
 
 from nivel.machine.control import BLOCK_TYPES
@@ -71,7 +72,7 @@ def find_symbol(path: str, machine: Any) -> Symbol:
 
     Raises UnknownSymbolError.
     """
-    return find_in(path, Index.of(machine))
+    return find_in(path, machine.index)
 
 
 def find_in(path: str, index: Index) -> Symbol:
@@ -109,6 +110,7 @@ def find_in(path: str, index: Index) -> Symbol:
     raise UnknownSymbolError(f"{what}{hint}")
 
 
+@lru_cache(maxsize=4)
 def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     """Section → element → the quantities that it has."""
     return {

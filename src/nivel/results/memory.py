@@ -14,7 +14,8 @@ from nivel.system.layout import Variable
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-GROWTH = 2  # the buffer doubles: each frame is copied at most twice on average
+GROWTH = 2  # a full buffer doubles: each frame is copied at most twice on average
+MOST_AT_FIRST = 16_384  # frames: more than that are made room for when they come
 
 
 class MemoryContents:
@@ -37,16 +38,17 @@ class MemoryContents:
 
 
 class Memory:
-    """Sink without a file: `begin`, `take` …, then `close` gives the result."""
+    """Sink without a file: `begin`, `take` …, then `close` gives the result. expected : frames, as far as they are known before."""
 
-    def __init__(self) -> None:
+    def __init__(self, expected: float = 256) -> None:
+        self._first = int(min(expected, MOST_AT_FIRST))
         self._header: Header | None = None
         self._buffer = np.empty((0, 0))
         self._count = 0
 
     def begin(self, header: Header) -> None:
         self._header = header
-        self._buffer = np.empty((256, header.layout.width))
+        self._buffer = np.empty((self._first, header.layout.width))
         self._count = 0
 
     def take(self, frames: NDArray[np.float64]) -> None:
@@ -59,7 +61,8 @@ class Memory:
         self._count = end
 
     def forget_after(self, time: float) -> None:
-        """Drop the frames after `time` [s]."""
+        """Drop the frames after `time` [s]. Results that were given keep them."""
+        self._buffer = self._buffer.copy()
         self._count = int(np.searchsorted(self._buffer[: self._count, 0], time, side="right"))
 
     def result(self) -> Result:
@@ -75,5 +78,7 @@ class Memory:
 
         if self._header is None:
             raise RuntimeError("a sink must begin before it gives a result")
-        frames = self._buffer[: self._count].copy()
-        return Result(MemoryContents(self._header, frames, {**self._header.attributes, **attributes}))
+        # what was taken is never written again, and a result only reads
+        return Result(
+            MemoryContents(self._header, self._buffer[: self._count], {**self._header.attributes, **attributes})
+        )

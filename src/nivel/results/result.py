@@ -164,7 +164,7 @@ class Result:
         return self._contents.coordinates
 
     @cached_property
-    def _selections(self) -> dict[str, Selection]:
+    def _selections(self) -> Mapping[str, Selection]:
         return selections(self.variables, self.coordinates)
 
     @property

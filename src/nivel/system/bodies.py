@@ -9,7 +9,7 @@ from nivel.kernels.record.record import Bodies, Markers
 from nivel.machine.body import Body
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.placement import initial_velocity, placement
+from nivel.machine.placement import initial_velocity
 from nivel.system.flexible import flexible_mass
 from nivel.system.tables import Array
 
@@ -17,9 +17,9 @@ from nivel.system.tables import Array
 LARGEST = 1e15
 
 
-def given_poses(records: tuple[Body, ...]) -> Array:
+def given_poses(machine: MachineRecord) -> Array:
     """Positions and Euler parameters (B, 7) as given."""
-    return np.array([np.concatenate(placement(body)) for body in records], dtype=float).reshape(-1, 7)
+    return np.array([np.concatenate(machine.poses[body.name]) for body in machine.bodies], dtype=float).reshape(-1, 7)
 
 
 def given_velocities(records: tuple[Body, ...]) -> tuple[Array, Array]:

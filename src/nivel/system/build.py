@@ -113,7 +113,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         size=size,
         start=np.zeros(0),
     )
-    poses, velocities = given_poses(machine.bodies), given_velocities(machine.bodies)
+    poses, velocities = given_poses(machine), given_velocities(machine.bodies)
     return replace(system, start=system.state(poses.ravel(), *velocities))
 
 
@@ -148,7 +148,7 @@ def _record(draft: SystemBuilder, rows: RowTable, units: list[str], equations: E
     # these may still add to the draft
     sensors, watched, sampled = sensor_columns(draft), _watched(draft), sampled_states(draft)
     markers = draft.markers.arrays()
-    size = machine_size(given_poses(machine.bodies), markers)
+    size = machine_size(given_poses(machine), markers)
     extra = friction_parts(draft, rows, count)
     bodies = body_tables(machine, size)
     constraints = rows.arrays([size if unit == "m" else 1.0 for unit in units], len(draft.frictions), len(extra))

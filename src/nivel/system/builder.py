@@ -13,7 +13,6 @@ from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, 
 from nivel.machine.control.part import PartFunction
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
-from nivel.machine.index import Index
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.symbols import find_symbol, is_output
@@ -227,7 +226,7 @@ class SystemBuilder:
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
         if symbol.section == "inputs":
             return self.inputs[symbol.name]
-        if symbol.section == "forces" and is_output(symbol, Index.of(self.machine)):
+        if symbol.section == "forces" and is_output(symbol, self.machine.index):
             return (OUTPUT, self.outputs.index(f"force.{path}"), 0)
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)

@@ -10,7 +10,6 @@ from nivel.kernels.record.record import NONE
 from nivel.kernels.signals.control import apply as compute
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.control.part import VALUE
-from nivel.machine.index import Index
 from nivel.machine.symbols import find_in, follows_control, is_output
 from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
@@ -106,7 +105,7 @@ def _function(draft: SystemBuilder, each: PartOf) -> int:
 
 def _reads_forces(draft: SystemBuilder, each: PartOf) -> bool:
     """Whether a sample takes something that forces report: it then keeps its value in statics."""
-    index = Index.of(draft.machine)
+    index = draft.machine.index
     paths = [path for path in each.signals if path not in draft.control]
     symbols = [find_in(path, index) for path in paths]
     return any(is_output(symbol, index) or follows_control(symbol, index) for symbol in symbols)

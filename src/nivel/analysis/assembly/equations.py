@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.vectors import cross
 from nivel.system.build import build
 from nivel.system.system import Array, Equations, System, parameter_rates
 
@@ -69,7 +70,7 @@ class MotionEquations:
     def _on_bodies(self, parts: Array, marker: Any, body: Any) -> Array:
         """Parts (n, 6) of rows with respect to (ṙ, ω) of markers as parts with respect to (Ṙ, ω̄) of their bodies."""
         f, n, record = parts[:, :3], parts[:, 3:], self.system.record
-        n_b = np.einsum("kji,kj->ki", record.bodies.A[body], n + np.cross(record.markers.u[marker], f))
+        n_b = np.einsum("kji,kj->ki", record.bodies.A[body], n + cross(record.markers.u[marker], f))
         return np.hstack([f, n_b])
 
 
@@ -108,7 +109,7 @@ def change_between(before: Array, after: Array) -> Array:
     p, q = before.reshape(-1, 7), after.reshape(-1, 7)
     # vector part of the turn between two unit quaternions: its length is sin(angle/2)
     e0, e, f0, f = p[:, 3:4], p[:, 4:], q[:, 3:4], q[:, 4:]
-    half = e0 * f - f0 * e - np.cross(e, f)
+    half = e0 * f - f0 * e - cross(e, f)
     half = np.where(np.sum(p[:, 3:] * q[:, 3:], axis=1, keepdims=True) < 0.0, -half, half)
     sine = np.linalg.norm(half, axis=1, keepdims=True)
     angle = 2.0 * np.arcsin(np.clip(sine, 0.0, 1.0))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknown_groups import frictions_with_stiction, integrals, unknown_groups
 from nivel.kernels.core.arrays import complex_twin
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.kernels.forces import held_beam
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.implicit_record import Newton, Residual

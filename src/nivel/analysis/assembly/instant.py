@@ -22,6 +22,7 @@ from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, SHOWN
 from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
+from nivel.machine.vectors import cross
 from nivel.system.system import Array, parameter_rates
 
 EPSILON = 1e-30
@@ -223,9 +224,9 @@ class Instant:
         markers.u[:] = np.einsum("mij,mj->mi", bodies.A[b], markers.position_b)
         markers.r[:] = bodies.R[b] + markers.u
         markers.A[:] = bodies.A[b] @ markers.frame_b
-        turning = np.cross(bodies.omega[b], markers.u)
+        turning = cross(bodies.omega[b], markers.u)
         markers.rdot[:] = bodies.Rdot[b] + turning
-        markers.bias[:] = np.cross(bodies.omega[b], turning)
+        markers.bias[:] = cross(bodies.omega[b], turning)
         count = self.system.body_count
         alpha = residual.acceleration[:count, :3]
         bodies.Rddot[:count] = residual.acceleration[:count, 3:]

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.instant import Instant
+from nivel.machine.vectors import cross
 
 Vector = NDArray[np.complex128]
 
@@ -21,7 +22,7 @@ def frame_velocity(own: Instant, b: int) -> Vector:
     """(3,) [m/s] its velocity."""
     bodies, tree = own.twin.bodies, own.twin.tree
     offset = bodies.A[b] @ tree.own[b] if len(tree.node) else np.zeros(3, dtype=np.complex128)
-    return bodies.Rdot[b] + np.cross(bodies.omega[b], offset)
+    return bodies.Rdot[b] + cross(bodies.omega[b], offset)
 
 
 def frame_axes(own: Instant, b: int) -> Vector:
@@ -35,7 +36,7 @@ def frame_axes(own: Instant, b: int) -> Vector:
 def point_velocity(own: Instant, b: int, position: NDArray[np.float64]) -> Vector:
     """(6,) [m/s, rad/s] velocity of a point of the body, given in its frame [m], and angular velocity."""
     omega = own.twin.bodies.omega[b]
-    return np.concatenate([frame_velocity(own, b) + np.cross(omega, frame_axes(own, b) @ position), omega])
+    return np.concatenate([frame_velocity(own, b) + cross(omega, frame_axes(own, b) @ position), omega])
 
 
 def point_acceleration(own: Instant, b: int, position: NDArray[np.float64]) -> Vector:
@@ -44,4 +45,4 @@ def point_acceleration(own: Instant, b: int, position: NDArray[np.float64]) -> V
     alpha, omega = bodies.A[b] @ bodies.alpha_b[b], bodies.omega[b]
     offset = bodies.A[b] @ tree.own[b] if len(tree.node) else np.zeros(3, dtype=np.complex128)
     d = offset + frame_axes(own, b) @ position
-    return np.concatenate([bodies.Rddot[b] + np.cross(alpha, d) + np.cross(omega, np.cross(omega, d)), alpha])
+    return np.concatenate([bodies.Rddot[b] + cross(alpha, d) + cross(omega, cross(omega, d)), alpha])

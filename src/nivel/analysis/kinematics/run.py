@@ -30,7 +30,7 @@ from nivel.integrate.loop.positions import follow_positions
 from nivel.integrate.loop.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
 from nivel.integrate.loop.sink import Header, Sink
 from nivel.integrate.stabilise import direct
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.memory import Memory

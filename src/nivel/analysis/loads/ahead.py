@@ -25,11 +25,7 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
     time = np.linspace(0.0, duration, PARTS * SAMPLES + 1)
     for function in varying(machine):
         curve = function.curve
-        if (
-            function.sampling is not None
-            or curve.signals
-            or (isinstance(curve, TableCurve) and curve.table.interpolation == "linear")
-        ):
+        if curve.signals or (isinstance(curve, TableCurve) and curve.table.interpolation == "linear"):
             continue  # steps end at the points of tables of straight lines
         values = curve.values({TIME: time})
         if not np.isfinite(values).any():
@@ -55,7 +51,7 @@ def rounding_of_times(machine: MachineRecord, duration: float) -> float:
     share = 0.0
     for function in varying(machine):
         curve = function.curve
-        if function.sampling is not None or curve.signals:
+        if curve.signals:
             continue
         time = np.linspace(0.0, duration, PARTS * SAMPLES + 1)
         if isinstance(curve, TableCurve):

@@ -10,7 +10,6 @@ from typing import TypeGuard
 import numpy as np
 
 from nivel.kernels.record.function import NEAR
-from nivel.machine.functions import functions_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
@@ -39,7 +38,7 @@ def corners(machine: MachineRecord, *, with_values: bool = False) -> tuple[float
     """Corners within the run [s], ascending. with_values : only those at which the function has a value, so that a step can end there."""
     end = machine.simulation.duration
     found: set[float] = set()
-    for each in functions_of(machine):
+    for each in machine.functions:
         function = each.function
         if each.sampling is None and _knows_corners(function):
             found |= {

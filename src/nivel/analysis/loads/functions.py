@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.functions import Sampling, functions_of
+from nivel.machine.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
@@ -144,11 +144,16 @@ class LawCurve:
         return None
 
 
-def varying(machine: MachineRecord) -> Iterator[Varying]:
-    """All functions of a machine that may do something by themselves: what is linear only passes on what it depends on."""
-    for each in functions_of(machine):
+def varying(machine: MachineRecord, *, sampled: bool = False) -> Iterator[Varying]:
+    """The functions of a machine that may do something by themselves: what is linear only passes on what it depends on.
+
+    sampled : those that are looked at in samples only, or those that are looked at in every step.
+    """
+    for each in machine.functions:
         function = each.function
-        if not (isinstance(function, Expression) and linear_function(function.tree) is not None):
+        if (each.sampling is not None) == sampled and not (
+            isinstance(function, Expression) and linear_function(function.tree) is not None
+        ):
             yield Varying(
                 each.name,
                 f"{OF.get(each.section, each.section)}.{each.part}",

@@ -15,6 +15,7 @@ from nivel.machine.control.part import VALUE
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import Symbol, UnknownSymbolError, find_symbol
 from nivel.machine.units.arithmetic import TIME
+from nivel.machine.vectors import cross
 from nivel.results.result import Result
 from nivel.results.trust.scales import rotated
 
@@ -126,6 +127,6 @@ def _of_point(symbol: Symbol, body: str, place: Array, result: Result) -> Array:
         return result.array(f"{body}.angular_velocity")[:, axis]
     arm = rotated(result.array(f"{body}.orientation"), place)
     if symbol.quantity.startswith("v"):
-        turning = np.cross(result.array(f"{body}.angular_velocity"), arm)
+        turning = cross(result.array(f"{body}.angular_velocity"), arm)
         return (result.array(f"{body}.velocity") + turning)[:, axis]
     return (result.array(f"{body}.position") + arm)[:, axis]

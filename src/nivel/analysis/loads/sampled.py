@@ -24,7 +24,7 @@ PLACES, MOST_SAMPLES = 16, 20_000
 
 def between_samples(machine: MachineRecord, end: float) -> Iterator[Unseen]:
     """Of each sampled function of time alone up to `end` [s]: by how much of its range it goes beyond two samples between them, at most."""
-    for function in varying(machine):
+    for function in varying(machine, sampled=True):
         if function.sampling is not None and function.sampling.period > 0.0 and not function.curve.signals:
             found = _beyond(function, function.sampling, end)
             if found is not None:

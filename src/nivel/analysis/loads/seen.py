@@ -43,8 +43,6 @@ def unseen_loads(
     chosen : the steps were chosen, and end at switches.
     """
     for function in varying(machine):
-        if function.sampling is not None:
-            continue
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
             found = missed(function, path, cut_at_switches(function, path, steps) if chosen else steps, facts)

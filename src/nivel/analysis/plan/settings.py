@@ -51,6 +51,11 @@ class RunSettings:
     constants: tuple[float, ...] = ()
     start: str = "as-given"
 
+    @property
+    def frames(self) -> float:
+        """How many are asked for, at most."""
+        return self.duration / self.output_interval + 2.0
+
     def as_dict(self) -> dict[str, object]:
         """For the result's `settings`."""
         names = ("duration", "step", "output_interval", "integrator", "formulation", "coordinates", "stabilisation")

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Final
 
 from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, Run
-from nivel.machine.functions import functions_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import COMPARISONS, Call, Lookup, Negative, Node, Operation, signals
 from nivel.machine.units.expression import Expression
@@ -42,7 +41,7 @@ def jumping_functions(machine: MachineRecord) -> tuple[str, ...]:
     """Names and texts of the functions that jump where something of the motion passes a value; those of samples jump anyway."""
     return tuple(
         f"{shown(each.function.text)} of {each.section}.{each.part}"
-        for each in functions_of(machine)
+        for each in machine.functions
         if each.sampling is None and isinstance(each.function, Expression) and any(_jumps(each.function.tree))
     )
 

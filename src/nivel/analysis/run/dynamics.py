@@ -47,7 +47,7 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.loop.sink import Sink
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
-from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import (
     BUDGET_SPENT,
     BUFFER_FULL,

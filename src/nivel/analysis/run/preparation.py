@@ -79,6 +79,7 @@ def prepare(methods: Methods, given: Assembled | None = None, residual: Residual
     """
     machine, path, integrator = methods.machine, methods.path, methods.integrator
     motion, assembly = given or _assembled(machine)
+    jumping = jumping_functions(machine)  # before an equilibrium is looked for: the machine at rest has the same
     rest = _at_rest(machine, motion, assembly)
     if rest is not None:
         assembly = rest.assembled(motion, assembly)
@@ -111,7 +112,7 @@ def prepare(methods: Methods, given: Assembled | None = None, residual: Residual
         machine.beams,
         corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
-        jumping_functions(machine),
+        jumping,
     )
 
 

@@ -65,7 +65,7 @@ def simulate(
     came, with the result closed.
     """
     listener = listener or Listener()
-    sink = Memory() if out is None else Store(out, force)
+    sink = Memory(plan.settings.frames + 1) if out is None else Store(out, force)  # a failure adds one
     begin = time.perf_counter()
     listener.say("preparing")
     prepared = prepare(plan.methods)
@@ -121,8 +121,9 @@ def close_run(
     redundancy, machine = prepared.redundancy, plan.machine
     message, advice, at = finished.failure or ("", "", 0.0)
     left = verified.refinement.left if verified is not None else 0.0
-    estimate = estimate_errors(sink.result(), verified.result, factor(left)) if verified is not None else None
-    findings = find(plan, prepared, finished, sink.result(), verified, estimate)
+    result = sink.result()
+    estimate = estimate_errors(result, verified.result, factor(left)) if verified is not None else None
+    findings = find(plan, prepared, finished, result, verified, estimate)
     facts = Facts(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
@@ -132,18 +133,18 @@ def close_run(
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
-        accuracy=_accuracy(plan, sink.result(), verified) if verified is not None else None,
+        accuracy=_accuracy(plan, result, verified) if verified is not None else None,
         refinement=verified.refinement.words if verified is not None else "",
         verified_until=verified.until if verified is not None and verified.ended else None,
         verification_ended=verified.ended if verified is not None else "",
         failure=message,
         stopped_by=finished.stopped_by,
-        neglected=cost(sink.result(), _neglected(machine)),
+        neglected=cost(result, _neglected(machine)),
         further=tuple(finding_items(findings)),
-        small_states=_small_states(sink.result(), prepared, machine),
-        saturated=saturated_blocks(machine, sink.result()),
+        small_states=_small_states(result, prepared, machine),
+        saturated=saturated_blocks(machine, result),
         guard=_guard(finished, prepared),
-        shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
+        shared=(*shared_loads(result, resting[0]), *loads_held_together(result, resting[1])),
     )
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,
@@ -151,15 +152,15 @@ def close_run(
         "advice": advice,
         "events": to_json(finished.events),
         "stopped_by": finished.stopped_by,
-        "trust": _judged(sink.result(), facts, plan, prepared, finished).to_json(),
+        "trust": _judged(result, facts, plan, prepared, finished).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }
     if estimate is not None:
         attributes[ESTIMATES] = estimate.to_json()
-    result = sink.close(attributes)
+    closed = sink.close(attributes)
     if finished.failure is not None:
-        raise SolveError(message, time=at, advice=advice, result=result)
-    return result
+        raise SolveError(message, time=at, advice=advice, result=closed)
+    return closed
 
 
 def _accuracy(plan: Plan, result: Result, verified: Verified) -> Peak:

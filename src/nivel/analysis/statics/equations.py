@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import null_space
 from scipy.sparse import bmat, csc_matrix
 
 from nivel.analysis.assembly.equations import MotionEquations
@@ -26,6 +27,7 @@ from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.output import static_entries
 from nivel.kernels.record.record import NONE
 from nivel.kernels.residual import tangent_entries
+from nivel.machine.vectors import cross
 from nivel.system.layout import reported
 from nivel.system.system import Array
 
@@ -87,6 +89,11 @@ class Tangent:
     def D(self) -> Sparse:
         """(f, f) damping."""
         return self.damping()
+
+    @cached_property
+    def free_directions(self) -> Array:
+        """Columns (f, ·): an orthonormal basis of the motions that all constraints allow."""
+        return null_space(self.C.toarray()) if self.C.shape[0] else np.eye(self.K.shape[0])
 
     def saddle(self, shift: float = 0.0) -> Sparse:
         """[K + shift, Cᵀ; C, 0]."""
@@ -343,7 +350,7 @@ def turned(theta: Array, psi: Array) -> Array:
     half = 0.5 * np.linalg.norm(psi, axis=1, keepdims=True)
     e = 0.5 * np.sinc(half / np.pi) * psi
     f0, e0, v = np.cos(half), theta[:, :1], theta[:, 1:]
-    out = np.hstack([e0 * f0 - np.sum(v * e, axis=1, keepdims=True), e0 * e + f0 * v + np.cross(v, e)])
+    out = np.hstack([e0 * f0 - np.sum(v * e, axis=1, keepdims=True), e0 * e + f0 * v + cross(v, e)])
     return out / np.linalg.norm(out, axis=1, keepdims=True)
 
 

@@ -13,7 +13,6 @@ from scipy.linalg import (
     eigh,
     eigvalsh,
     get_lapack_funcs,
-    null_space,
     solve_triangular,
 )
 from scipy.sparse import bmat, csc_matrix, diags
@@ -107,11 +106,6 @@ def solve_bordered(found: Any, r: Array, C: Array, last: float) -> Change:
     return Change(x[: len(r)], x[len(r) : -1], float(x[-1]))
 
 
-def free_directions(tangent: Tangent) -> Array:
-    """Columns (f, ·): an orthonormal basis of the motions that all constraints allow."""
-    return null_space(tangent.C.toarray()) if tangent.C.shape[0] else np.eye(tangent.K.shape[0])
-
-
 def is_small(tangent: Tangent, count: int = 0) -> bool:
     """Whether full matrices are the way to `count` eigenvalues: few unknowns, or few motions, among which Lanczos's method goes astray."""
     size, rows = tangent.K.shape[0], tangent.C.shape[0]
@@ -151,7 +145,7 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     if not size:
         return 0
     if is_small(tangent):
-        Z = free_directions(tangent)
+        Z = tangent.free_directions
         values = eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1])) if Z.shape[1] else np.zeros(0)
         return int(np.sum(values < -NO_STIFFNESS * np.max(np.abs(values), initial=0.0)))
     largest = float(np.abs(tangent.K).max()) if tangent.K.nnz else 0.0
@@ -186,7 +180,7 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
     size = tangent.K.shape[0]
     M = diags(np.ones(size)) if metric is None else metric
     if is_small(tangent, count):
-        Z = free_directions(tangent)
+        Z = tangent.free_directions
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         inner = Z.T @ (tangent.K @ Z), symmetric(Z.T @ (M @ Z))

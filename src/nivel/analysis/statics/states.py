@@ -20,7 +20,7 @@ from scipy.sparse import csc_matrix, diags
 
 from nivel.analysis.statics.conserved import kept_combinations
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
-from nivel.analysis.statics.linear import PivotError, factors, free_directions
+from nivel.analysis.statics.linear import PivotError, factors
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration
 from nivel.system.system import Array
 
@@ -197,7 +197,7 @@ def growing_motions(equations: StaticEquations, state: Rest) -> int:
     tangent = equations.tangent(state)
     n, count = equations.n, equations.state_count
     K, D, M = (part.toarray() for part in equations.whole_parts(state))
-    free, Z = equations.free, free_directions(tangent)
+    free, Z = equations.free, tangent.free_directions
     Z = equations.length[free, None] * Z
     own = slice(n, n + count)
     m = Z.shape[1]

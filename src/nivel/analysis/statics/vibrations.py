@@ -12,7 +12,6 @@ from nivel.analysis.statics.equations import Tangent
 from nivel.analysis.statics.linear import (
     PivotError,
     fastest,
-    free_directions,
     has_potential,
     is_small,
     lowest,
@@ -68,7 +67,7 @@ def _largest(tangent: Tangent) -> float:
         return 0.0
     if not is_small(tangent):
         return fastest(tangent)
-    Z = free_directions(tangent)
+    Z = tangent.free_directions
     if not Z.shape[1]:
         return 0.0
     values = eigh(symmetric(Z.T @ (tangent.K @ Z)), symmetric(Z.T @ (tangent.M @ Z)), eigvals_only=True)
@@ -77,7 +76,7 @@ def _largest(tangent: Tangent) -> float:
 
 def _damped(tangent: Tangent) -> Array:
     """s of (s² M + s D + K) φ = 0 on the motions that all constraints allow, one of each pair, by |s|."""
-    Z = free_directions(tangent)
+    Z = tangent.free_directions
     m = Z.shape[1]
     if not m:
         return np.zeros(0, dtype=complex)
@@ -98,7 +97,7 @@ def buckling_factors(before: Tangent, after: Tangent, count: int) -> tuple[Array
     size, rows = before.K.shape[0], before.C.shape[0]
     K0, dK = symmetric(before.K), symmetric(after.K - before.K)
     if is_small(before, count):
-        Z = free_directions(before)
+        Z = before.free_directions
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         try:

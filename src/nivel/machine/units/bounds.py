@@ -18,6 +18,7 @@ from nivel.machine.units.interpolation import curve_of
 
 Array = NDArray[np.float64]
 Interval = tuple[Array, Array]
+BLOCK: Final = 4096  # places at once
 
 _VALUES: Final[dict[str, Callable[..., Array]]] = {
     "sin": np.sin,
@@ -50,7 +51,14 @@ _RISING: Final = {
 @np.errstate(all="ignore")  # a division by zero is no number, as in a run
 def values_of(node: Node, known: Mapping[str, Array]) -> Array:
     """Values (n,) of a tree; known : values (n,) of the time and of each signal by its path. Not a number where there is none."""
-    return np.broadcast_to(_values(node, known), next(iter(known.values())).shape)
+    (count,) = next(iter(known.values())).shape
+    if count <= BLOCK:
+        return np.broadcast_to(_values(node, known), (count,))
+    out = np.empty(count)
+    for first in range(0, count, BLOCK):  # what stands in between stays in the cache of the processor
+        block = slice(first, first + BLOCK)
+        out[block] = _values(node, {name: values[block] for name, values in known.items()})
+    return out
 
 
 def _values(node: Node, known: Mapping[str, Array]) -> Array:
@@ -81,25 +89,32 @@ def _values(node: Node, known: Mapping[str, Array]) -> Array:
 @np.errstate(all="ignore")
 def bounds_of(node: Node, known: Mapping[str, Interval]) -> Interval:
     """Bounds (n,), (n,) of a tree over intervals; known : those of the time and of each signal. Infinite where there are none."""
+    low, high = _bounds(node, known)
+    shape = next(iter(known.values()))[0].shape
+    return np.broadcast_to(low, shape), np.broadcast_to(high, shape)
+
+
+def _bounds(node: Node, known: Mapping[str, Interval]) -> Interval:
+    """The same; of what is constant a single value (), twice."""
     match node:
         case Number(value, _):
-            at = np.full_like(next(iter(known.values()))[0], value)
+            at = np.asarray(value, dtype=float)
             return at, at
         case Time():
             return known[TIME]
         case Signal(path):
             return known[path]
         case Negative(operand):
-            low, high = bounds_of(operand, known)
+            low, high = _bounds(operand, known)
             return -high, -low
         case Operation(symbol, left, right):
-            return _bounded(*_bounds_of_operation(symbol, bounds_of(left, known), bounds_of(right, known)))
+            return _bounded(*_bounds_of_operation(symbol, _bounds(left, known), _bounds(right, known)))
         case Call(function, _) if function in COMPOUND:
-            return bounds_of(elementary(node), known)
+            return _bounds(elementary(node), known)
         case Call(function, arguments):
-            return _bounded(*_bounds_of_call(function, [bounds_of(each, known) for each in arguments]))
+            return _bounded(*_bounds_of_call(function, [_bounds(each, known) for each in arguments]))
         case Lookup(argument):
-            return _bounds_of_curve(node, *bounds_of(argument, known))
+            return _bounds_of_curve(node, *_bounds(argument, known))
     raise ValueError(f"a name is not bound: {node}")
 
 
@@ -139,7 +154,7 @@ def _bounded(low: Array, high: Array) -> Interval:
 
 
 def _hull(*values: Array) -> Interval:
-    return np.minimum.reduce(values), np.maximum.reduce(values)
+    return reduce(np.minimum, values), reduce(np.maximum, values)
 
 
 def _bounds_of_operation(symbol: str, left: Interval, right: Interval) -> Interval:
@@ -166,7 +181,8 @@ def _bounds_of_operation(symbol: str, left: Interval, right: Interval) -> Interv
 
 def _products(left: Interval, right: Interval) -> Interval:
     """Of zero and infinity zero: the bounds of what is multiplied are finite inside."""
-    return _hull(*(np.where((x == 0.0) | (y == 0.0), 0.0, x * y) for x in left for y in right))
+    of_left, of_right = (each[:1] if each[0] is each[1] else each for each in (left, right))  # of a number once
+    return _hull(*(np.where((x == 0.0) | (y == 0.0), 0.0, x * y) for x in of_left for y in of_right))
 
 
 def _bounds_of_power(base: Interval, exponent: Interval) -> Interval:
@@ -183,7 +199,7 @@ def _bounds_of_power(base: Interval, exponent: Interval) -> Interval:
 def _bounds_of_call(function: str, arguments: list[Interval]) -> Interval:
     if function in ("min", "max"):
         chosen = np.minimum if function == "min" else np.maximum
-        return chosen.reduce([each[0] for each in arguments]), chosen.reduce([each[1] for each in arguments])
+        return reduce(chosen, [each[0] for each in arguments]), reduce(chosen, [each[1] for each in arguments])
     if function == "atan2":
         corners = [np.arctan2(y, x) for y in arguments[0] for x in arguments[1]]
         right = arguments[1][0] > 0.0

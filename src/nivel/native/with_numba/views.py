@@ -1,4 +1,4 @@
-"""Records at addresses: see `nivel.kernels.core.handle` for the block of memory that is read here.
+"""Records at addresses: see `nivel.kernels.core.block` for the block of memory that is read here.
 
 The block does not change as long as it lives, and the compiler is told so: it keeps what it has read over any number of stores.
 """

@@ -9,7 +9,9 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
+from types import MappingProxyType
 
 from nivel.errors import ModelError
 from nivel.system.layout import Variable
@@ -26,26 +28,36 @@ class Selection:
     where: tuple[slice | int, ...]
 
 
-def selections(variables: Mapping[str, Variable], coordinates: Mapping[str, tuple[str, ...]]) -> dict[str, Selection]:
+def selections(
+    variables: Mapping[str, Variable], coordinates: Mapping[str, tuple[str, ...]]
+) -> Mapping[str, Selection]:
     """Every name that can be asked for, in the order of the variables. A variable's own name wins over an element's."""
+    dims = tuple((name, variable.dims[1:]) for name, variable in variables.items())
+    return _selections(dims, tuple((dim, tuple(names)) for dim, names in coordinates.items()))
+
+
+@lru_cache(maxsize=8)  # runs of one structure have the same names
+def _selections(
+    variables: tuple[tuple[str, tuple[str, ...]], ...], along: tuple[tuple[str, tuple[str, ...]], ...]
+) -> Mapping[str, Selection]:
+    """For (name, dimensions after time) of variables and (dimension, names along it)."""
     every = slice(None)
-    found = {name: Selection(name, ()) for name in variables}
-    for variable in variables.values():
-        dims = variable.dims[1:]
+    found, coordinates = {name: Selection(name, ()) for name, _ in variables}, dict(along)
+    for variable, dims in variables:
         elements = [dim for dim in dims if dim not in COMPONENTS]
-        starts: list[tuple[str, tuple[slice | int, ...]]] = [(variable.name, (every,))]
+        starts: list[tuple[str, tuple[slice | int, ...]]] = [(variable, (every,))]
         if elements:
-            suffix = _suffix(variable.name, elements[0])
+            suffix = _suffix(variable, elements[0])
             starts = [
                 (".".join(name for _, name in chosen) + suffix, (every, *(i for i, _ in chosen)))
                 for chosen in product(*(enumerate(coordinates[element]) for element in elements))
             ]
         components = coordinates[dims[-1]] if dims and dims[-1] in COMPONENTS else ()
         for name, where in starts:
-            found.setdefault(name, Selection(variable.name, where))
+            found.setdefault(name, Selection(variable, where))
             for k, component in enumerate(components):
-                found.setdefault(f"{name}.{component}", Selection(variable.name, (*where, k)))
-    return found
+                found.setdefault(f"{name}.{component}", Selection(variable, (*where, k)))
+    return MappingProxyType(found)
 
 
 def _suffix(variable: str, dimension: str) -> str:

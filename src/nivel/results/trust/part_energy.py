@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.vectors import cross
 from nivel.results.trust.scales import Readable, largest_mechanical_energy, rotated
 
 Array = NDArray[np.float64]
@@ -74,7 +75,7 @@ def _energies(result: Readable, part: Part, frames: slice) -> tuple[Array, Array
         result.array(name, frames)[:, places] for name in ("position", "orientation", "velocity", "angular_velocity")
     )
     arm = rotated(theta, part.centre)
-    speed, spin = velocity + np.cross(omega, arm), rotated(theta * BACK, omega)
+    speed, spin = velocity + cross(omega, arm), rotated(theta * BACK, omega)
     turning = np.einsum("tbi,bij,tbj->t", spin, part.inertia, spin, optimize=True)
     kinetic = 0.5 * np.einsum("b,tbi,tbi->t", part.mass, speed, speed, optimize=True) + 0.5 * turning
     return kinetic, -np.einsum(

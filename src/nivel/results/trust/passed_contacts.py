@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.vectors import cross
 from nivel.results.trust.scales import Readable, rotated
 
 Array = NDArray[np.float64]
@@ -73,5 +74,5 @@ def place_and_velocity(result: Readable, body: str, at: Array) -> tuple[Array, A
     """Place and velocity (n, 3) of a point of a body."""
     k = result.coordinates["body"].index(body)
     arm = rotated(result.array("orientation")[:, k], at)
-    turning = np.cross(result.array("angular_velocity")[:, k], arm)
+    turning = cross(result.array("angular_velocity")[:, k], arm)
     return result.array("position")[:, k] + arm, result.array("velocity")[:, k] + turning

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.vectors import cross
 from nivel.results.trust.verdicts import CLOSED, ENERGY_FLOOR, EXTENT_FLOOR, OPENING_WORK, POINT_SIZE, REST
 
 Array = NDArray[np.float64]
@@ -32,7 +33,7 @@ class Readable(Protocol):
 
 def machine_size(result: Readable) -> tuple[float, str]:
     """The length [m], never zero, that distances are compared with, and what it is: see `verdicts.RULES`."""
-    extent = _extent(result, [slice(0, 1)])
+    extent = _extent_at_start(result)
     if extent > 0.0:
         return extent, "machine's size"
     turning = 2.0 * max((_gyration(body) for body in bodies(result)), default=0.0)
@@ -42,18 +43,46 @@ def machine_size(result: Readable) -> tuple[float, str]:
     return POINT_SIZE, "length taken for a single point at rest"
 
 
+def _extent_at_start(result: Readable) -> float:
+    """The same in the first frame."""
+    scene, names = str(result.attributes.get("scene", "{}")), tuple(result.coordinates.get("body", ()))
+    if "position" not in result.variables:
+        return _extent_of_poses(scene, names, b"", b"")
+    first = slice(0, 1)
+    return _extent_of_poses(
+        scene, names, result.array("position", first).tobytes(), result.array("orientation", first).tobytes()
+    )
+
+
+@lru_cache(maxsize=4)  # asked for several times in a report
+def _extent_of_poses(scene: str, names: tuple[str, ...], position: bytes, orientation: bytes) -> float:
+    found = _read(scene)
+    known = {body["name"]: body for body in found.get("bodies", [])}
+    parts = [np.array(found.get("ground_points", []), dtype=float).reshape(-1, 3)]
+    R, theta = np.frombuffer(position).reshape(-1, 3), np.frombuffer(orientation).reshape(-1, 4)
+    if len(R):
+        points = [_body_points(known.get(name, {})) for name in names]
+        body = np.repeat(np.arange(len(names)), [len(each) for each in points])
+        parts.append(R[body] + rotated(theta[body], np.concatenate(points)))
+    return _diagonal(parts, 0.0)
+
+
 def _extent(result: Readable, parts: Iterable[slice], round_off: float = 0.0) -> float:
     """Diagonal of the box around all joint points, centres of mass and body origins in these frames [m]; 0 where all
     of them are one point, or no further apart than `round_off` [m].
     """
-    least, largest = np.full(3, np.inf), np.full(3, -np.inf)
     ground = np.array(_scene(result).get("ground_points", []), dtype=float).reshape(-1, 3)
-    for frames in parts:
-        for points in [ground, *_points_in_space(result, frames)]:
-            known = points.reshape(-1, 3)
-            known = known[np.isfinite(known).all(axis=1)]
-            least = np.minimum(least, known.min(axis=0, initial=np.inf))
-            largest = np.maximum(largest, known.max(axis=0, initial=-np.inf))
+    return _diagonal((points for frames in parts for points in [ground, *_points_in_space(result, frames)]), round_off)
+
+
+def _diagonal(parts: Iterable[Array], round_off: float) -> float:
+    """Diagonal of the box around points (…, 3)."""
+    least, largest = np.full(3, np.inf), np.full(3, -np.inf)
+    for points in parts:
+        known = points.reshape(-1, 3)
+        known = known[np.isfinite(known).all(axis=1)]
+        least = np.minimum(least, known.min(axis=0, initial=np.inf))
+        largest = np.maximum(largest, known.max(axis=0, initial=-np.inf))
     if not np.all(least <= largest):
         return 0.0
     extent = float(np.linalg.norm(largest - least))
@@ -146,7 +175,7 @@ def _energy_of_rest(result: Readable, size: float, opening: float, at_rest: bool
     work = size * _weight(result) + _largest_load(result, size)
     travelling = 0.5 * _mass(result) * (size / span(result)) ** 2
     # the solver closes joints to a share of a metre where all is one point
-    closed = CLOSED * max(1.0, POINT_SIZE / size) if _extent(result, [slice(0, 1)]) == 0.0 else CLOSED
+    closed = CLOSED * max(1.0, POINT_SIZE / size) if _extent_at_start(result) == 0.0 else CLOSED
     return max(
         ENERGY_FLOOR * _largest(result, "potential_energy", lambda e: e),
         share * max(work, travelling),
@@ -263,5 +292,5 @@ def _points_in_space(result: Readable, frames: slice) -> Iterator[Array]:
 def rotated(theta: Array, r: Array) -> Array:
     """A r for Euler parameters θ (…, 4), scalar first, and vectors r (…, 3) in the body frame."""
     e0, e = theta[..., :1], theta[..., 1:]
-    t = 2.0 * np.cross(e, r)
-    return r + e0 * t + np.cross(e, t)
+    t = 2.0 * cross(e, r)
+    return r + e0 * t + cross(e, t)

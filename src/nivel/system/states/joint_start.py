@@ -15,6 +15,7 @@ from nivel.machine.orientation import (
     matrix_from_euler_parameters,
     product,
 )
+from nivel.machine.vectors import cross
 from nivel.system.states.slider_start import Rail, slider_start
 from nivel.system.system import Array, System
 
@@ -157,7 +158,7 @@ def _rail(bodies: Poses, markers: Markers, frames: Frames, coordinates: Coordina
         u = bodies.A[b] @ point
         r.append(bodies.R[b] + u)
         axes.append(bodies.A[b] @ frame)
-        rdot.append(bodies.Rdot[b] + np.cross(bodies.omega[b], u))
+        rdot.append(bodies.Rdot[b] + cross(bodies.omega[b], u))
         omega.append(bodies.omega[b])
     return Rail(coordinates.station[parts], float(coordinates.reference[along]), *map(np.array, (r, axes, rdot, omega)))
 
@@ -176,7 +177,7 @@ def poses(absolute: System, y: Array) -> Poses:
 def _moved(own: Poses, frames: Frames) -> Poses:
     """The frames of these coordinates."""
     u = np.einsum("bij,bj->bi", own.A, frames.origin)
-    speed = np.asarray(own.Rdot + np.cross(own.omega, u), dtype=np.float64)
+    speed = np.asarray(own.Rdot + cross(own.omega, u), dtype=np.float64)
     return Poses(own.R + u, own.theta, own.A @ frames.axes, speed, own.omega)
 
 
@@ -185,7 +186,7 @@ def _seen(bodies: Poses, node: Node, frame: Array, point: Array) -> _Relative:
     Ai = bodies.A[b] @ frame
     distance = bodies.R[c] - bodies.R[b]
     omega = bodies.omega[c] - bodies.omega[b]
-    speed = bodies.Rdot[c] - bodies.Rdot[b] - np.cross(bodies.omega[b], distance)
+    speed = bodies.Rdot[c] - bodies.Rdot[b] - cross(bodies.omega[b], distance)
     return _Relative(Ai.T @ bodies.A[c], Ai.T @ distance - frame.T @ point, Ai.T @ omega, Ai.T @ speed)
 
 

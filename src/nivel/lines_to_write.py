@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 
 class Line(NamedTuple):
-    """What to write for a word, where `beside` is one of the words that are valid there."""
+    """What to write for a word, where the words of `beside` are valid."""
 
     words: str
     beside: str
@@ -14,6 +14,71 @@ class Line(NamedTuple):
 
 
 LINES: Final = (
+    Line(
+        "speed, velocity, rate, omega, acceleration",
+        "from_start",
+        "a driver gives the value over the time, not its speed: write `value: 10 rad/s*time`, or `(10 cm/s)*time` of a displacement",
+    ),
+    Line(
+        "youngs modulus, e, diameter, d, area, material, section, ea",
+        "length, speed",
+        "write the `stiffness` of the whole rope, E·A/length, e.g. `stiffness: 200 kN/m`",
+    ),
+    Line(
+        "winch, speed profile, rate, payout, velocity",
+        "length, speed",
+        "a winch pays rope out by its speed: write `speed: -0.3 m/s`",
+    ),
+    Line("from, to, start, end", "length, speed", "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, -5]]`"),
+    Line("axis, direction, orientation", "colour, along", "write `along: z`, the body axis on which it lies"),
+    Line(
+        "start, end, p1, p2, ends, points, start point, end point",
+        "colour, from",
+        "write `from: [0, 0, 0], to: [1, 0, 0]`",
+    ),
+    Line("diameter, d, dia", "colour, radius", "write `radius`, half of it"),
+    Line("material", "colour, centre", "write `density: 7850 kg/m^3`, of the body beside its `shape`"),
+    Line("density, rho, mass", "colour, centre", "write `density` or `mass` of the body, beside its `shape`"),
+    Line(
+        "position, pos, origin, location",
+        "colour, centre",
+        "write `position` of the body, or `centre` in the body frame",
+    ),
+    Line(
+        "type, kind",
+        "point_mass",
+        "write `shape: {type: cylinder, radius: 2 cm, length: 10 cm}`, or `point_mass: true`",
+    ),
+    Line(
+        "from, to, length, radius, size, width, height, start, end, diameter",
+        "point_mass",
+        "a solid is a `shape`: write `shape: {type: cylinder, from: [0, 0, 0], to: [1, 0, 0], radius: 1 cm}`",
+    ),
+    Line(
+        "output, out, result",
+        "tracking_time",
+        "what a block gives is read by its name: write `effort: NAME.value` in a motor",
+    ),
+    Line(
+        "coordinate, joint", "tracking_time", "write `measured: JOINT.angle`; a motor applies it: `effort: NAME.value`"
+    ),
+    Line(
+        "contacts, contact, collisions, impacts",
+        "gravity",
+        "a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`",
+    ),
+    Line(
+        "motors, motor, actuators, actuator, drives",
+        "gravity",
+        "an effort is a force: `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}`; "
+        "a prescribed motion a driver: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}`",
+    ),
+    Line("time", "gravity", "write `simulation: {duration: 5 s, step: 1 ms}`"),
+    Line(
+        "trajectories, trajectory, paths, path, profiles",
+        "gravity",
+        "a curve is a function: `functions: {NAME: {points: [0, 1], values: [0, 0.5], interpolation: cubic}}`, called as `NAME(time)`",
+    ),
     Line(
         "steps, number of steps, nsteps, n steps, n",
         "largest_step",
@@ -45,7 +110,8 @@ LINES: Final = (
     Line(
         "frictionloss, friction loss, joint friction, coulomb friction, dynamics",
         "rim_radius",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.COORDINATE, …}}`",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction, coefficient: 0.2, "
+        "radius: 1 cm}}`; of a `displacement` without `radius`",
     ),
     Line(
         "state targets, ref, initial, initial angle, springref, qpos0, qpos, position target",
@@ -70,7 +136,8 @@ LINES: Final = (
     Line(
         "tyre, tire, magic formula, pacejka",
         "spring-damper",
-        "there is no tyre; a wheel that does not slip is a joint, `{type: rolling, …}`",
+        "there is no tyre; a wheel that does not slip is a joint, `{type: rolling, …}`; one that may bounce and slide touches a plane, "
+        "`{type: contact, body: BODY, plane: MARKER, stiffness: 2e5, exponent: 1, restitution: 0.5}`",
     ),
     Line(
         "aerodynamic, aero, drag, lift, wind, magnetic, user, user force, custom, electrostatic, sfosub",
@@ -153,7 +220,8 @@ LINES: Final = (
     Line(
         "friction",
         "x_axis",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, …}}`",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction, coefficient: 0.2, "
+        "radius: 1 cm}}`; of a `displacement` without `radius`",
     ),
     Line(
         "motor, actuator, torque, force, motion, drive",

@@ -91,6 +91,11 @@ SAME: Final[dict[str, str]] = {
     "target": "setpoint, set point, reference, command, desired, goal",
     "integral": "ki, integral gain",
     "pid": "pid controller, pi, pd, pi controller, pd controller, controller",
+    "radius": "r, rad",
+    "effort": "torque, moment, value, command, u",
+    "coefficient": "mu, mu d, mu k, kinetic coefficient, friction coefficient, dynamic coefficient",
+    "static_coefficient": "mu s, static friction, static",
+    "equilibrium": "static, statics, rest, settled, balanced",
     "box": "brick, cuboid, block, rectangular, cube",
     "sphere": "ball, ellipsoid, globe",
     "extrusion": "prism, extruded solid, polygon, profile",
@@ -201,7 +206,7 @@ def translated(word: str, valid: Sequence[str]) -> str:
         if plain(own) == meant:
             return f"did you mean `{own}`?"
     for line in LINES:
-        if line.beside in valid and meant in _plain_words(line.words):
+        if all(word in valid for word in line.beside.split(", ")) and meant in _plain_words(line.words):
             return line.answer
     for own, others in SAME.items():
         if own in valid and meant in _plain_words(others):

@@ -15,6 +15,7 @@ import yaml
 from yaml import events
 
 DEEPEST: Final = 60
+TOO_DEEP: Final = "this is nested too deeply for a machine file"
 
 
 class Place(NamedTuple):
@@ -102,7 +103,7 @@ class _Composer:
     def node(self, event: Any, depth: int) -> Node:
         place = _place(event)
         if depth > DEEPEST:
-            raise NotYamlError("this is nested too deeply for a machine file", place)
+            raise NotYamlError(TOO_DEEP, place)
         if isinstance(event, events.AliasEvent):
             if event.anchor not in self.anchors:
                 raise NotYamlError(
@@ -137,6 +138,8 @@ def _restated(error: yaml.YAMLError, text: str) -> NotYamlError:
     """PyYAML's error with its place, and a hint for tabs."""
     place = _place_of_error(error, text)
     problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "it cannot be read"
+    if "nesting" in problem:  # libyaml, from 0.2.6, has a limit of its own and comes to it first where lists are deep
+        return NotYamlError(TOO_DEEP, place)
     context = getattr(error, "context", None)
     lines = text.splitlines()
     line = lines[place.line - 1] if place.line <= len(lines) else ""

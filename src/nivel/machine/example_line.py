@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -35,9 +36,15 @@ _MAPPINGS: Final = {
     "section": "{type: circle, radius: 1 cm}",
     "material": "{youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}",
 }
+_WORDS: Final = {"coordinate": "JOINT.angle"}
 # of sections: the key of an element that a single value most likely means
 _MAIN_KEYS: Final = {"inputs": "rest", "sensors": "value", "states": "rate", "events": "when"}
-_DIRECTIONS: Final = {"x": "[1, 0, 0]", "y": "[0, 1, 0]", "z": "[0, 0, 1]"}
+_OF_COORDINATES: Final = {"coordinatevalues": "start", "coordinaterates": "start_rates"}  # what they are read as
+_ANGULAR: Final = r"\b(?:deg|rad|rev|rpm)\b|°"
+_DIRECTIONS: Final = {
+    **{"x": "[1, 0, 0]", "y": "[0, 1, 0]", "z": "[0, 0, 1]"},
+    **{"-x": "[-1, 0, 0]", "-y": "[0, -1, 0]", "-z": "[0, 0, -1]"},
+}
 
 
 def list_line(field: str, given: Any) -> str:
@@ -54,6 +61,8 @@ def mapping_line(field: str, given: Any) -> str:
     """As `list_line`, of a field that is a mapping."""
     if field == "shape" and isinstance(given, str):
         return f"; write `shape: {{type: {given}, …}}`"
+    if field in _OF_COORDINATES:
+        return _coordinates_line(_OF_COORDINATES[field], given)
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 4:
         return f"; write `orientation: {{euler_parameters: {_listed(given)}}}`, scalar first"
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 3:
@@ -61,10 +70,29 @@ def mapping_line(field: str, given: Any) -> str:
     return f"; write `{field}: {_MAPPINGS[field]}`" if field in _MAPPINGS else ""
 
 
+def _coordinates_line(field: str, given: Any) -> str:
+    """The values of joint coordinates, of which the name was left out."""
+    if isinstance(given, bool) or not isinstance(given, int | float | str):
+        return f"; write `{field}: {_MAPPINGS[field]}`"
+    angle, way = f"`{field}: {{angle: {given}}}`", f"`{field}: {{displacement: {given}}}`"
+    if not isinstance(given, str):
+        return f"; write {angle} of a revolute, {way} of a translational joint"
+    return f"; write {angle if re.search(_ANGULAR, given) else way}"
+
+
 def element_line(section: str, name: str, given: Any) -> str:
     """As `list_line`, of an element of a section: ``; write `lever: {rest: 0}` ``."""
     key = _MAIN_KEYS.get(section)
+    if isinstance(given, str):
+        given = re.sub(r"\.position\.([xyz])\b", r".\1", given)  # places are read as BODY.x, velocities as BODY.vx
+        given = re.sub(r"\.velocity\.([xyz])\b", r".v\1", given)
     return f"; write `{name}: {{{key}: {given}}}`" if key and not isinstance(given, list | tuple) else ""
+
+
+def missing_line(field: str) -> str:
+    """As `list_line`, of a field that is not given: ``: write `coordinate: JOINT.angle` ``."""
+    line = _LISTS.get(field) or _MAPPINGS.get(field) or _WORDS.get(field)
+    return f"; write `{field}: {line}`" if line else ""
 
 
 def _entries(field: str, given: Any) -> str | None:

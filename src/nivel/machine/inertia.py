@@ -47,11 +47,18 @@ def _components(value: Any, info: ValidationInfo) -> Any:
     if not isinstance(value, list | tuple) or len(value) != 3:
         raise fault(
             "three moments [xx, yy, zz], a mapping {xx: …, yy: …, zz: …, xy: …, xz: …, yz: …} or a 3×3 matrix "
-            f"was expected, got {f'a list of {len(value)}' if isinstance(value, list | tuple) else shown(value)}"
+            f"was expected, got {f'a list of {len(value)}' if isinstance(value, list | tuple) else shown(value)}{_line(value)}"
         )
     if not any(isinstance(row, list | tuple) for row in map(listed, value)):
         return dict(zip(("xx", "yy", "zz"), value, strict=True))
     return _from_matrix([listed(row) for row in value], info)
+
+
+def _line(value: Any) -> str:
+    """What to write where one moment is given."""
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return ""
+    return f"; write `inertia: [{value}, {value}, {value}]`, or give a `shape` instead"
 
 
 def _from_matrix(rows: list[Any], info: ValidationInfo) -> dict[str, float]:

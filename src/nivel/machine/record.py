@@ -19,8 +19,8 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
-from nivel.machine.example_line import list_line, mapping_line
-from nivel.machine.signature import PlainSignature
+from nivel.machine.example_line import list_line, mapping_line, missing_line
+from nivel.machine.signature import PlainSignature, words_of
 from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
 from nivel.wording import shown, unknown_word
 
@@ -163,7 +163,7 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
         case "missing" if isinstance(line["loc"][-1], int):
             return f"entries are missing: there {'is' if len(line['input']) == 1 else 'are'} only {len(line['input'])}"
         case "missing":
-            return f"`{line['loc'][-1]}` is missing"
+            return f"`{line['loc'][-1]}` is missing{_of_missing(str(line['loc'][-1]), record)}"
         case "extra_forbidden":
             return unknown_word(str(line["loc"][-1]), field_words(record), "key")
         case "too_short" | "too_long":
@@ -184,6 +184,19 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
             sentence = _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
             return sentence + _line_to_write(line, record)
     return line["msg"]
+
+
+def _of_missing(key: str, record: type[Record]) -> str:
+    """What the field `key` takes, as the end of the sentence that it is missing."""
+    if line := missing_line(key):
+        return line
+    field = next((each for name, each in record.model_fields.items() if key in (name, each.alias)), None)
+    if field is None:
+        return ""
+    said = words_of(field)
+    takes = f"one of {said.replace(chr(39), '').replace(' |', ',')}" if said.startswith("'") else said
+    told = [each for each in (takes if takes.startswith(("a ", "an ", "one of ")) else "", field.description) if each]
+    return f": {', '.join(told)}" if told else ""
 
 
 def _line_to_write(line: ErrorDetails, record: type[Record]) -> str:

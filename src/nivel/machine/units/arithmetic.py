@@ -17,6 +17,7 @@ from typing import Final, SupportsFloat
 
 from nivel.machine.units.dimension import Dimension
 from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated
+from nivel.machine.units.slips import spelled
 from nivel.machine.units.unit import UNITS, UnknownUnitError, unit
 
 
@@ -354,14 +355,17 @@ def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Numb
         return value
     if name in CONSTANTS:
         return Number(CONSTANTS[name])
+    meant = spelled(name)
     try:
-        return Number(*unit(name))
+        if not meant or name in UNITS or not name.lstrip("kMm").startswith("N"):
+            return Number(*unit(name))  # pint would take the `s` of `Nms` for a plural
     except UnknownUnitError:
-        if name.lower() in NOT_FINITE:
-            raise ExpressionError(f"a finite number is needed, got `{name}`") from None
-        near = get_close_matches(name, [*local, *parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
-        hint = f"; did you mean `{near[0]}`?" if near else ""
-        raise UnknownNameError(name, hint) from None
+        pass
+    if name.lower() in NOT_FINITE:
+        raise ExpressionError(f"a finite number is needed, got `{name}`")
+    near = get_close_matches(name, [*local, *parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
+    hint = f"; write `{meant}`" if meant else f"; did you mean `{near[0]}`?" if near else ""
+    raise UnknownNameError(name, hint)
 
 
 def evaluate(node: Node, time: float = math.nan, values: Mapping[str, float] | None = None) -> float:

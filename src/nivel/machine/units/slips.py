@@ -21,8 +21,28 @@ _ANSWERS: Final = (
     (r"(?i)\b(?:dtor|rtod)\b", "; write `30 deg` in place of a factor"),
     (r"\[\d\]|\[[xyz]\]", "; components are read by name: `BODY.x`, `BODY.vx`"),
     (r"\.dot\b|\bder\s*\(|'", "; rates are read by name: `JOINT.angle_rate`, `BODY.vx`"),
+    (r"(?i)^\s*(?:steel|iron|stainless)\s*$", "; the density of steel is `7850 kg/m^3`"),
+    (r"(?i)^\s*alumini?um\s*$", "; the density of aluminium is `2700 kg/m^3`"),
+    (r"(?i)^\s*(?:plastic|wood|concrete|brass|copper|titanium|nylon|abs|pla)\s*$", "; write a number, e.g. `1200 kg/m^3`"),
     (r"&&|\|\||(?<![\w.])!(?!=)", "; conditions are joined by `and`, `or` and `not(…)`"),
 )  # fmt: skip
+
+
+_PART: Final = r"k?Nm(?!m)|[kMm]?N|[kMG]?Pa|bar|k?J|k?W|kg|[mck]?m|rad|deg|min|[sghNt]|\d"
+_OF_FORCE: Final = r"[kMm]?N|[kMG]?Pa|bar|k?J|k?W"  # before an `s` that is no plural
+
+
+def spelled(name: str) -> str:
+    """The product of units that is meant by `name`: ``kg*m^2`` for `kgm2`, ``N*s`` for `Ns`; empty where none is seen."""
+    parts = re.findall(_PART, name)
+    if len(parts) < 2 or "".join(parts) != name or parts[0].isdigit():
+        return ""
+    if parts[-1] == "s" and not re.match(_OF_FORCE, name):
+        return ""
+    text = parts[0]
+    for part in parts[1:]:
+        text += f"^{part}" if part.isdigit() else f"*{part}"
+    return text
 
 
 def slip(text: str) -> str:

@@ -67,6 +67,7 @@ class Record(BaseModel):
 
     @checked_arguments
     def __init__(self, /, **data: Any) -> None:
+        """Raises ModelError with everything that is wrong."""
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -89,6 +90,14 @@ class Record(BaseModel):
         )
         message = f"a record never changes; write `{line}`, which gives another one"
         raise ModelError(Fault("", 0, 0, f"{own}.{field}" if own else field, message))
+
+    def __dir__(self) -> list[str]:
+        """What completion offers: the fields, and what a record can do; not the machinery below it."""
+        own = {name for each in type(self).__mro__ if issubclass(each, Record) for name in vars(each)}
+        return [
+            *type(self).model_fields,
+            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "model_config"}),
+        ]
 
     def __str__(self) -> str:
         return repr(self)

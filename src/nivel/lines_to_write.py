@@ -70,14 +70,15 @@ LINES: Final = (
     Line(
         "motors, motor, actuators, actuator, drives",
         "gravity",
-        "an effort is a force: `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}`; "
-        "a prescribed motion a driver: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}`",
+        "an effort is a force: `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}`; "
+        "a prescribed motion a driver: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}`",
     ),
     Line("time", "gravity", "write `simulation: {duration: 5 s, step: 1 ms}`"),
     Line(
         "trajectories, trajectory, paths, path, profiles",
         "gravity",
-        "a curve is a function: `functions: {NAME: {points: [0, 1], values: [0, 0.5], interpolation: cubic}}`, called as `NAME(time)`",
+        "a curve is a function, called as `NAME(time)`: "
+        "`functions: {NAME: {points: [0, 1, 2], values: [0, 0.5, 0], interpolation: cubic}}`",
     ),
     Line(
         "steps, number of steps, nsteps, n steps, n",
@@ -100,7 +101,7 @@ LINES: Final = (
         "internal mechanics, spring stiffness, damping coefficient",
         "rim_radius",
         "springs and dampers of a joint are a force: `forces: {coil: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, "
-        "stiffness: …, damping: …, free_value: …}}`",
+        "stiffness: 10, damping: 0.1, free_value: 0}}`",
     ),
     Line(
         "armature, rotor inertia",
@@ -146,7 +147,7 @@ LINES: Final = (
     ),
     Line("body 1, body 2, body a, body b, mobile", "plane", "write `bodies: [FIRST, SECOND]`, or `body` and `plane`"),
     Line(
-        "body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2",
+        "between, body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2",
         "stiffness",
         "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]]`",
     ),
@@ -202,20 +203,21 @@ LINES: Final = (
     Line("type, kind", "gamepad", "an input is a number; `control: slider` or `control: button` is how it is shown"),
     Line("parent, child", "markers", "write `bodies: [PARENT, CHILD]`, first and second body of the joint"),
     Line(
-        "body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
+        "between, body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
         "markers",
         "write `bodies: [FIRST, SECOND]`",
     ),
     Line(
         "limits, limit, range, lower, upper, min, max",
         "markers",
-        "limits of a joint are a force: `forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: …, upper: …, stiffness: …}}`",
+        "limits of a joint are a force: "
+        "`forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: -1, upper: 1, stiffness: 1e4, restitution: 0.5}}`",
     ),
     Line(
         "damping, stiffness, spring, damper",
         "x_axis",
         "a spring or damper in a joint is a force: "
-        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: …}}`",
+        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: 0.1}}`",
     ),
     Line(
         "friction",
@@ -226,16 +228,36 @@ LINES: Final = (
     Line(
         "motor, actuator, torque, force, motion, drive",
         "x_axis",
-        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}` prescribes its motion, "
-        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}` its effort",
+        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}` prescribes its motion, "
+        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}` its effort",
     ),
     Line(
         "free, floating, none",
         "revolute",
         "a body without a joint is free; leave the joint out",
     ),
-    Line("gear, belt, rack, coupler", "revolute", "a gear is a coupling: `couplings: {pair: {type: gear, …}}`"),
-    Line("bushing, mount", "revolute", "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`"),
+    Line(
+        "gear, belt, rack, coupler",
+        "revolute",
+        "a gear is a coupling: `couplings: {pair: {type: gear, joints: [FIRST, SECOND], teeth: [20, 40]}}`",
+    ),
+    Line(
+        "bushing, mount",
+        "revolute",
+        "a joint that yields is a force: `forces: {mount: {type: bushing, bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, 0]], "
+        "stiffness: [1e6, 1e6, 1e6, 1000, 1000, 1000]}}`",
+    ),
+    Line(
+        "contact, collision, impact",
+        "revolute",
+        "a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`",
+    ),
+    Line(
+        "spring, damper, spring damper",
+        "revolute",
+        "a spring is a force: `forces: {spring: {type: spring-damper, bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]], "
+        "stiffness: 1 kN/m, free_length: 1 m}}`",
+    ),
     Line(
         "rope, cable, wire",
         "revolute",
@@ -252,14 +274,34 @@ LINES: Final = (
         "bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0, 0, 1]}`",
     ),
     Line("material", "density", "write `density`, e.g. `density: 7850 kg/m^3` of steel"),
-    Line("colour, color, rgba", "density", "the viewer chooses the colours; leave it out"),
+    Line(
+        "colour, color, rgba",
+        "density",
+        "a colour is that of the shape: `shape: {type: sphere, radius: 5 cm, colour: red}`",
+    ),
+    Line(
+        "damping, stiffness, friction, drag",
+        "assembly_weight",
+        "what acts on a body is a force: `forces: {drag: {type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}}`",
+    ),
+    Line(
+        "frame, coordinate system, in, system, local",
+        "vector, axes",
+        "write `axes: body` where the vector turns with the body",
+    ),
+    Line("gears, wheels, shafts, joint 1, joint 2, first, second, driven", "teeth", "write `joints: [FIRST, SECOND]`"),
+    Line(
+        "radii, radius, radius 1, radius 2",
+        "teeth",
+        "write `ratio`, the radius of the second over that of the first: `ratio: 2`",
+    ),
     Line(
         "rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles",
         "orientation",
         "write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw",
     ),
     Line(
-        "rpy, roll pitch yaw, ypr, xyz, euler angles",
+        "rpy, roll pitch yaw, ypr, xyz, euler angles, roll, pitch, yaw",
         "euler_parameters",
         "roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far",
     ),

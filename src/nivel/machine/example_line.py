@@ -36,6 +36,7 @@ _MAPPINGS: Final = {
     "section": "{type: circle, radius: 1 cm}",
     "material": "{youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}",
 }
+_COUNTS: Final = {"bodies": 2, "markers": 2, "joints": 2}  # entries of lists; three of others
 _WORDS: Final = {"coordinate": "JOINT.angle"}
 # of sections: the key of an element that a single value most likely means
 _MAIN_KEYS: Final = {"inputs": "rest", "sensors": "value", "states": "rate", "events": "when"}
@@ -54,6 +55,10 @@ def list_line(field: str, given: Any) -> str:
         size = _size(given) or "9.81"
         return f"; gravity has a direction: write `gravity: [0, 0, -{size}]` where z points up, `[0, -{size}, 0]` where y does"
     line = entries or _LISTS.get(field)
+    if field == "angular_velocity" and line is None and isinstance(given, int | float | str):
+        line = f"[0, 0, {given}]"
+    if field in ("point", "points") and line is None and isinstance(given, str):
+        return f"; it is a place in numbers; where two markers are known by name write `markers: [FIRST, {given}]`"
     return f"; write `{field}: {line}`" if line else ""
 
 
@@ -63,6 +68,8 @@ def mapping_line(field: str, given: Any) -> str:
         return f"; write `shape: {{type: {given}, …}}`"
     if field in _OF_COORDINATES:
         return _coordinates_line(_OF_COORDINATES[field], given)
+    if field == "orientation" and isinstance(given, int | float | str) and re.match(r"-?[\d.]", str(given)):
+        return f"; write `orientation: {{axis: [0, 0, 1], angle: {given}}}`"
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 4:
         return f"; write `orientation: {{euler_parameters: {_listed(given)}}}`, scalar first"
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 3:
@@ -83,6 +90,8 @@ def _coordinates_line(field: str, given: Any) -> str:
 def element_line(section: str, name: str, given: Any) -> str:
     """As `list_line`, of an element of a section: ``; write `lever: {rest: 0}` ``."""
     key = _MAIN_KEYS.get(section)
+    if section == "markers" and isinstance(given, list | tuple) and len(given) == 3:
+        return f"; write `{name}: {{body: BODY, position: {_listed(given)}}}`"
     if isinstance(given, str):
         given = re.sub(r"\.position\.([xyz])\b", r".\1", given)  # places are read as BODY.x, velocities as BODY.vx
         given = re.sub(r"\.velocity\.([xyz])\b", r".v\1", given)
@@ -97,8 +106,10 @@ def missing_line(field: str) -> str:
 
 def _entries(field: str, given: Any) -> str | None:
     """What was given, as a list, where that is what was meant."""
-    if isinstance(given, Mapping) and set(given) == set("xyz"):
-        return _listed([given[axis] for axis in "xyz"])
+    if isinstance(given, Mapping) and given and set(given) <= set("xyz"):
+        return _listed([given.get(axis, 0) for axis in "xyz"])
+    if isinstance(given, Mapping) and len(given) == _COUNTS.get(field, 3) and set(given.values()) == {None}:
+        return _listed(list(given))  # braces in place of brackets
     if not isinstance(given, str):
         return None
     letter = given.strip().removeprefix("+").casefold()
@@ -122,4 +133,5 @@ def _size(given: Any) -> str:
     """The size of gravity that was given as a number, with its unit."""
     if isinstance(given, bool) or not isinstance(given, int | float | str):
         return ""
-    return str(given).strip().lstrip("+-").strip()
+    size = str(given).strip().lstrip("+-").strip()
+    return size if size[:1].isdigit() else ""

@@ -5,6 +5,7 @@ Tensors are about the stated point in body axes with tensor components: I_xx = â
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Final
@@ -26,6 +27,8 @@ Array = NDArray[np.float64]
 # Moments of a thin plate obey I_z = I_x + I_y exactly; printed with three digits they may break it by half a percent.
 TRIANGLE_TOLERANCE: Final = 5e-3
 SYMMETRY_TOLERANCE: Final = 1e-6
+_ORDER: Final = ("xx", "yy", "zz", "xy", "xz", "yz")  # of six numbers
+_NUMBER: Final = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
 class Inertia(Record):
@@ -55,8 +58,19 @@ def _components(value: Any, info: ValidationInfo) -> Any:
 
 
 def _line(value: Any) -> str:
-    """What to write where one moment is given."""
+    """What to write where one moment is given, or three or six in another form."""
+    if isinstance(value, list | tuple) and len(value) == 6:
+        return (
+            "; write `inertia: {" + ", ".join(f"{key}: {each}" for key, each in zip(_ORDER, value, strict=True)) + "}`"
+        )
+    if isinstance(value, list | tuple) and len(value) == 1:
+        value = value[0]
     if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return ""
+    found = re.findall(_NUMBER, str(value))
+    if len(found) == 3:
+        return f"; write `inertia: [{', '.join(found)}]`"
+    if not re.match(_NUMBER, str(value)):
         return ""
     return f"; write `inertia: [{value}, {value}, {value}]`, or give a `shape` instead"
 

@@ -170,7 +170,7 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
         case "nivel":
             return str(context["message"])
         case "missing" if isinstance(line["loc"][-1], int):
-            return f"entries are missing: there {'is' if len(line['input']) == 1 else 'are'} only {len(line['input'])}"
+            return _too_few(line["input"], line["loc"])
         case "missing":
             return f"`{line['loc'][-1]}` is missing{_of_missing(str(line['loc'][-1]), record)}"
         case "extra_forbidden":
@@ -179,6 +179,8 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
             count = context.get("actual_length")
             wanted = context.get("min_length", context.get("max_length"))
             return f"{wanted} entries were expected, got {'more' if count is None else count}"
+        case "literal_error" if isinstance(line["input"], list | tuple | Mapping):
+            return f"one of {', '.join(_quoted(context['expected']))} was expected, got {shown(line['input'])}"
         case "literal_error":
             return unknown_word(shown(line["input"]).strip("`"), _quoted(context["expected"]), "word")
         case "union_tag_invalid":
@@ -193,6 +195,16 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
             sentence = _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
             return sentence + _line_to_write(line, record)
     return line["msg"]
+
+
+_IN_SPACE = ("position", "point", "velocity", "centre_of_mass", "centre", "gravity", "vector", "axis", "x_axis")
+
+
+def _too_few(given: Sequence[Any], place: Sequence[int | str]) -> str:
+    """That a list is too short; of two components in space also the line to write."""
+    said = f"entries are missing: there {'is' if len(given) == 1 else 'are'} only {len(given)}"
+    in_space = len(place) > 1 and place[-2] in _IN_SPACE and isinstance(given, list | tuple) and len(given) == 2
+    return f"{said}; write `{place[-2]}: [{given[0]}, {given[1]}, 0]`" if in_space else said
 
 
 def _of_missing(key: str, record: type[Record]) -> str:

@@ -87,9 +87,9 @@ def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
     options = problem.ctx.command.params if problem.ctx is not None else []
     ours = [option.removeprefix("--") for each in options for option in each.opts if option.startswith("--")]
     found = re.fullmatch(r"did you mean `(.*)`\?", translated(problem.option_name.lstrip("-"), ours))
-    if found:
-        problem.possibilities = [f"--{found[1]}"]
-    return problem
+    return (
+        click.NoSuchOption(problem.option_name, possibilities=[f"--{found[1]}"], ctx=problem.ctx) if found else problem
+    )
 
 
 def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:

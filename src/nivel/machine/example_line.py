@@ -108,7 +108,11 @@ def _entries(field: str, given: Any) -> str | None:
     """What was given, as a list, where that is what was meant."""
     if isinstance(given, Mapping) and given and set(given) <= set("xyz"):
         return _listed([given.get(axis, 0) for axis in "xyz"])
-    if isinstance(given, Mapping) and len(given) == _COUNTS.get(field, 3) and set(given.values()) == {None}:
+    if (
+        isinstance(given, Mapping)
+        and len(given) == _COUNTS.get(field, 3)
+        and all(each is None for each in given.values())
+    ):
         return _listed(list(given))  # braces in place of brackets
     if not isinstance(given, str):
         return None

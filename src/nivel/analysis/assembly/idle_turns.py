@@ -47,8 +47,10 @@ def without_turn(machine: MachineRecord, joints: Sequence[str], axis: Array) -> 
 
 def _across(axis: Array) -> str:
     """Two directions across `axis` and each other, as they are written in a file."""
-    first: Array = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    first /= np.linalg.norm(first)
+    along = axis / np.linalg.norm(axis)
+    first = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    across = np.asarray(np.cross(along, first), dtype=np.float64)
+    first = across / np.linalg.norm(across)
     return "[" + ", ".join(_written(each) for each in np.array([first, np.cross(axis, first)])) + "]"
 
 

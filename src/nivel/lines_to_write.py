@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 
 class Line(NamedTuple):
-    """What to write for a word, where `beside` is one of the words that are valid there."""
+    """What to write for a word, where the words of `beside` are valid."""
 
     words: str
     beside: str
@@ -14,6 +14,72 @@ class Line(NamedTuple):
 
 
 LINES: Final = (
+    Line(
+        "speed, velocity, rate, omega, acceleration",
+        "from_start",
+        "a driver gives the value over the time, not its speed: write `value: 10 rad/s*time`, or `(10 cm/s)*time` of a displacement",
+    ),
+    Line(
+        "youngs modulus, e, diameter, d, area, material, section, ea",
+        "length, speed",
+        "write the `stiffness` of the whole rope, E·A/length, e.g. `stiffness: 200 kN/m`",
+    ),
+    Line(
+        "winch, speed profile, rate, payout, velocity",
+        "length, speed",
+        "a winch pays rope out by its speed: write `speed: -0.3 m/s`",
+    ),
+    Line("from, to, start, end", "length, speed", "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, -5]]`"),
+    Line("axis, direction, orientation", "colour, along", "write `along: z`, the body axis on which it lies"),
+    Line(
+        "start, end, p1, p2, ends, points, start point, end point",
+        "colour, from",
+        "write `from: [0, 0, 0], to: [1, 0, 0]`",
+    ),
+    Line("diameter, d, dia", "colour, radius", "write `radius`, half of it"),
+    Line("material", "colour, centre", "write `density: 7850 kg/m^3`, of the body beside its `shape`"),
+    Line("density, rho, mass", "colour, centre", "write `density` or `mass` of the body, beside its `shape`"),
+    Line(
+        "position, pos, origin, location",
+        "colour, centre",
+        "write `position` of the body, or `centre` in the body frame",
+    ),
+    Line(
+        "type, kind",
+        "point_mass",
+        "write `shape: {type: cylinder, radius: 2 cm, length: 10 cm}`, or `point_mass: true`",
+    ),
+    Line(
+        "from, to, length, radius, size, width, height, start, end, diameter",
+        "point_mass",
+        "a solid is a `shape`: write `shape: {type: cylinder, from: [0, 0, 0], to: [1, 0, 0], radius: 1 cm}`",
+    ),
+    Line(
+        "output, out, result",
+        "tracking_time",
+        "what a block gives is read by its name: write `effort: NAME.value` in a motor",
+    ),
+    Line(
+        "coordinate, joint", "tracking_time", "write `measured: JOINT.angle`; a motor applies it: `effort: NAME.value`"
+    ),
+    Line(
+        "contacts, contact, collisions, impacts",
+        "gravity",
+        "a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`",
+    ),
+    Line(
+        "motors, motor, actuators, actuator, drives",
+        "gravity",
+        "an effort is a force: `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}`; "
+        "a prescribed motion a driver: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}`",
+    ),
+    Line("time", "gravity", "write `simulation: {duration: 5 s, step: 1 ms}`"),
+    Line(
+        "trajectories, trajectory, paths, path, profiles",
+        "gravity",
+        "a curve is a function, called as `NAME(time)`: "
+        "`functions: {NAME: {points: [0, 1, 2], values: [0, 0.5, 0], interpolation: cubic}}`",
+    ),
     Line(
         "steps, number of steps, nsteps, n steps, n",
         "largest_step",
@@ -35,7 +101,7 @@ LINES: Final = (
         "internal mechanics, spring stiffness, damping coefficient",
         "rim_radius",
         "springs and dampers of a joint are a force: `forces: {coil: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, "
-        "stiffness: …, damping: …, free_value: …}}`",
+        "stiffness: 10, damping: 0.1, free_value: 0}}`",
     ),
     Line(
         "armature, rotor inertia",
@@ -45,7 +111,8 @@ LINES: Final = (
     Line(
         "frictionloss, friction loss, joint friction, coulomb friction, dynamics",
         "rim_radius",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.COORDINATE, …}}`",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction, coefficient: 0.2, "
+        "radius: 1 cm}}`; of a `displacement` without `radius`",
     ),
     Line(
         "state targets, ref, initial, initial angle, springref, qpos0, qpos, position target",
@@ -70,7 +137,8 @@ LINES: Final = (
     Line(
         "tyre, tire, magic formula, pacejka",
         "spring-damper",
-        "there is no tyre; a wheel that does not slip is a joint, `{type: rolling, …}`",
+        "there is no tyre; a wheel that does not slip is a joint, `{type: rolling, …}`; one that may bounce and slide touches a plane, "
+        "`{type: contact, body: BODY, plane: MARKER, stiffness: 2e5, exponent: 1, restitution: 0.5}`",
     ),
     Line(
         "aerodynamic, aero, drag, lift, wind, magnetic, user, user force, custom, electrostatic, sfosub",
@@ -79,7 +147,7 @@ LINES: Final = (
     ),
     Line("body 1, body 2, body a, body b, mobile", "plane", "write `bodies: [FIRST, SECOND]`, or `body` and `plane`"),
     Line(
-        "body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2",
+        "between, body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2",
         "stiffness",
         "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]]`",
     ),
@@ -135,39 +203,61 @@ LINES: Final = (
     Line("type, kind", "gamepad", "an input is a number; `control: slider` or `control: button` is how it is shown"),
     Line("parent, child", "markers", "write `bodies: [PARENT, CHILD]`, first and second body of the joint"),
     Line(
-        "body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
+        "between, body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
         "markers",
         "write `bodies: [FIRST, SECOND]`",
     ),
     Line(
         "limits, limit, range, lower, upper, min, max",
         "markers",
-        "limits of a joint are a force: `forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: …, upper: …, stiffness: …}}`",
+        "limits of a joint are a force: "
+        "`forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: -1, upper: 1, stiffness: 1e4, restitution: 0.5}}`",
     ),
     Line(
         "damping, stiffness, spring, damper",
         "x_axis",
         "a spring or damper in a joint is a force: "
-        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: …}}`",
+        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: 0.1}}`",
     ),
     Line(
         "friction",
         "x_axis",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, …}}`",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction, coefficient: 0.2, "
+        "radius: 1 cm}}`; of a `displacement` without `radius`",
     ),
     Line(
         "motor, actuator, torque, force, motion, drive",
         "x_axis",
-        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}` prescribes its motion, "
-        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}` its effort",
+        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}` prescribes its motion, "
+        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}` its effort",
     ),
     Line(
         "free, floating, none",
         "revolute",
         "a body without a joint is free; leave the joint out",
     ),
-    Line("gear, belt, rack, coupler", "revolute", "a gear is a coupling: `couplings: {pair: {type: gear, …}}`"),
-    Line("bushing, mount", "revolute", "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`"),
+    Line(
+        "gear, belt, rack, coupler",
+        "revolute",
+        "a gear is a coupling: `couplings: {pair: {type: gear, joints: [FIRST, SECOND], teeth: [20, 40]}}`",
+    ),
+    Line(
+        "bushing, mount",
+        "revolute",
+        "a joint that yields is a force: `forces: {mount: {type: bushing, bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, 0]], "
+        "stiffness: [1e6, 1e6, 1e6, 1000, 1000, 1000]}}`",
+    ),
+    Line(
+        "contact, collision, impact",
+        "revolute",
+        "a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`",
+    ),
+    Line(
+        "spring, damper, spring damper",
+        "revolute",
+        "a spring is a force: `forces: {spring: {type: spring-damper, bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]], "
+        "stiffness: 1 kN/m, free_length: 1 m}}`",
+    ),
     Line(
         "rope, cable, wire",
         "revolute",
@@ -184,14 +274,34 @@ LINES: Final = (
         "bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0, 0, 1]}`",
     ),
     Line("material", "density", "write `density`, e.g. `density: 7850 kg/m^3` of steel"),
-    Line("colour, color, rgba", "density", "the viewer chooses the colours; leave it out"),
+    Line(
+        "colour, color, rgba",
+        "density",
+        "a colour is that of the shape: `shape: {type: sphere, radius: 5 cm, colour: red}`",
+    ),
+    Line(
+        "damping, stiffness, friction, drag",
+        "assembly_weight",
+        "what acts on a body is a force: `forces: {drag: {type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}}`",
+    ),
+    Line(
+        "frame, coordinate system, in, system, local",
+        "vector, axes",
+        "write `axes: body` where the vector turns with the body",
+    ),
+    Line("gears, wheels, shafts, joint 1, joint 2, first, second, driven", "teeth", "write `joints: [FIRST, SECOND]`"),
+    Line(
+        "radii, radius, radius 1, radius 2",
+        "teeth",
+        "write `ratio`, the radius of the second over that of the first: `ratio: 2`",
+    ),
     Line(
         "rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles",
         "orientation",
         "write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw",
     ),
     Line(
-        "rpy, roll pitch yaw, ypr, xyz, euler angles",
+        "rpy, roll pitch yaw, ypr, xyz, euler angles, roll, pitch, yaw",
         "euler_parameters",
         "roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far",
     ),

@@ -35,7 +35,7 @@ from nivel.machine import (
     State,
 )
 from nivel.machine.changes import changed
-from nivel.machine.named import Named
+from nivel.machine.named import Known, Named
 from nivel.machine.record import entry
 from nivel.machine.references import SECTIONS
 from nivel.wording import unknown_word
@@ -217,12 +217,13 @@ class Model(Elements):
     @property
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters of the machine's file, in SI units; none where the machine was written in Python."""
-        return dict(self._file_names.parameters)
+        return Known("parameter", self._file_names.parameters)
 
     @property
     def assemblies(self) -> Mapping[str, Subsystem]:
         """The subsystems that the `assemblies` of the machine's file make, by name."""
-        return {name: Subsystem(self.record, assembly) for name, assembly in self._file_names.assemblies.items()}
+        found = {name: Subsystem(self.record, assembly) for name, assembly in self._file_names.assemblies.items()}
+        return Known("assembly", found)
 
     @checked_arguments
     def __getitem__(self, path: str) -> Any:
@@ -238,8 +239,6 @@ class Model(Elements):
         return value_at(self.record, whole)
 
     def _parameter(self, name: str) -> float:
-        if name not in self.parameters:
-            raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self.parameters), "parameter")))
         return self.parameters[name]
 
     def __contains__(self, name: object) -> bool:

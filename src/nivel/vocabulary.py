@@ -32,7 +32,7 @@ SAME: Final[dict[str, str]] = {
     "duration": "end, t end, end time, stop time, final time, t final, t stop, t max, tf, max time, simulation time, time",
     "step": "step time, dt, time step, timestep, step size, delta t, h, sample time, fixed step",
     "largest_step": "max step, hmax, dt max, maximum step",
-    "output_interval": "output step, dt out, output dt, save every, print interval, communication interval",
+    "output_interval": "fps, frame rate, frames, output step, dt out, output dt, save every, print interval, communication interval",
     "integrator": "solver, method, integration, time integration, scheme, algorithm, solver type",
     "tolerance": "rtol, reltol, tol, atol, abstol, rel tol, relative tolerance, error, precision",
     "rk4": "ode4, runge kutta, runge kutta 4, classic, explicit",
@@ -47,7 +47,7 @@ SAME: Final[dict[str, str]] = {
     "generalised-alpha": "gen alpha, generalized alpha, chung hulbert",
     # bodies, places and turns
     "mass": "m, weight",
-    "inertia": "i, ixx, moment of inertia, inertia tensor, moments of inertia, inertial",
+    "inertia": "i, ixx, iyy, izz, ixy, ixz, iyz, moment of inertia, inertia tensor, moments of inertia, inertial",
     "centre_of_mass": "com, cog, cg, cm, centroid, center of gravity, centre of gravity",
     "position": "pos, xyz, reference position, origin, location, translation, coordinates, loc, place",
     "point": "origin, position, location, anchor, at, pos, loc, centre, center",
@@ -91,6 +91,21 @@ SAME: Final[dict[str, str]] = {
     "target": "setpoint, set point, reference, command, desired, goal",
     "integral": "ki, integral gain",
     "pid": "pid controller, pi, pd, pi controller, pd controller, controller",
+    "radius": "r, rad",
+    "xx": "ixx, jxx, i1",
+    "yy": "iyy, jyy, i2",
+    "zz": "izz, jzz, i3",
+    "xy": "ixy, jxy",
+    "xz": "ixz, jxz, izx",
+    "yz": "iyz, jyz",
+    "rate": "speed, velocity, angular velocity, dot, qd",
+    "free_value": "rest, neutral, rest angle, rest length, free angle, free length, springref, equilibrium, offset",
+    "law": "force, torque, expression, function",
+    "format": "version",
+    "effort": "torque, moment, value, command, u",
+    "coefficient": "mu, mu d, mu k, kinetic coefficient, friction coefficient, dynamic coefficient",
+    "static_coefficient": "mu s, static friction, static",
+    "equilibrium": "static, statics, rest, settled, balanced",
     "box": "brick, cuboid, block, rectangular, cube",
     "sphere": "ball, ellipsoid, globe",
     "extrusion": "prism, extruded solid, polygon, profile",
@@ -101,7 +116,7 @@ SAME: Final[dict[str, str]] = {
     "hand": "mouse spring, perturbation",
     "three-axis-spring": "linear spring 3d, cartesian spring damper, cartesian spring, translational bushing",
     "bushing": "bush, rubber mount, rigid body spring damper, field, compliant joint, mount",
-    "vector": "force, value, components, f, torque, load, magnitude",
+    "vector": "fx, fy, fz, mx, my, mz, force, value, components, f, torque, load, magnitude",
     "stiffness": "k, spring constant, rate, spring rate, spring stiffness, kp, gain, proportional gain, p",
     "damping": "c, d, damping coefficient, damper, kd, derivative gain",
     "free_length": "l0, rest length, natural length, unstretched length, length, initial length",
@@ -113,7 +128,7 @@ SAME: Final[dict[str, str]] = {
     "pump": "fixed displacement pump, variable displacement pump, gear pump, piston pump, axial piston pump, pressure compensated pump",
     "hydraulic-motor": "fixed displacement motor, variable displacement motor, gear motor, orbital motor",
     "flow-source": "flow rate source, ideal flow source, constant flow",
-    "cylinder": "double acting cylinder, single acting cylinder, hydraulic cylinder, actuator, ram, jack, differential cylinder",
+    "cylinder": "disc, disk, shaft, double acting cylinder, single acting cylinder, hydraulic cylinder, actuator, ram, jack",
     "telescopic-cylinder": "telescope, multi stage cylinder",
     "rotary-actuator": "rotary cylinder, semi rotary actuator, swing actuator, vane actuator",
     "directional-valve": "4 way valve, 4/3, 4/2, 3/2, 4/3 valve, 4/2 valve, 3/2 valve, proportional valve, servo valve, spool valve, valve",
@@ -176,7 +191,7 @@ SAME: Final[dict[str, str]] = {
     "gamepad": "joystick, axis, controller",
     # sensors
     "acceleration": "accelerometer",
-    "marker": "site, frame",
+    "marker": "site, frame, at, application point",
     # forces and drivers act on
     "relative": "joint, joint coordinates, minimal, reduced, internal, generalized, recursive",
     "absolute": "cartesian, global, maximal, redundant, body",
@@ -201,7 +216,7 @@ def translated(word: str, valid: Sequence[str]) -> str:
         if plain(own) == meant:
             return f"did you mean `{own}`?"
     for line in LINES:
-        if line.beside in valid and meant in _plain_words(line.words):
+        if all(word in valid for word in line.beside.split(", ")) and meant in _plain_words(line.words):
             return line.answer
     for own, others in SAME.items():
         if own in valid and meant in _plain_words(others):

@@ -41,8 +41,30 @@ def test_a_run_from_equilibrium_stays_there(tmp_path):
 
 
 def test_without_its_name_the_wheel_is_a_mechanism(tmp_path):
-    with pytest.raises(SolveError, match="the machine is a mechanism"):
+    with pytest.raises(SolveError, match="the machine is a mechanism") as caught:
         loaded(WHEEL.replace(", free: [axle]", ""), tmp_path).statics()
+    assert "`simulation: {free: [axle.angle]}`" in caught.value.advice
+
+
+def test_a_machine_without_equilibrium_is_checked_as_drawn(tmp_path):
+    facts = loaded(WHEEL.replace(", free: [axle]", ""), tmp_path).check()
+    assert [each.words for each in facts.freedoms] == [
+        "rail.displacement: block and wheel move",
+        "axle.angle: wheel moves",
+    ]
+    assert "`simulation: {free: [axle.angle]}`" in facts.unsettled[1]
+
+
+def test_a_rod_that_spins_between_two_balls_is_no_coordinate_to_be_named_free(tmp_path):
+    rod = "  rod: {mass: 1, inertia: [1, 1, 1], position: [1, 1, 1]}\njoints:\n"
+    balls = (
+        "  left: {type: spherical, bodies: [ground, rod], point: [1, 1, 0]}\n"
+        "  right: {type: point-on-line, bodies: [ground, rod], point: [1, 1, 2], axis: [0, 0, 1]}\n"
+    )
+    with pytest.raises(SolveError, match="rod, its turn about its z axis") as caught:
+        loaded(WHEEL.replace("joints:\n", rod + balls), tmp_path).simulate()
+    assert "free:" not in caught.value.advice
+    assert "`nivel check` names every freedom" in caught.value.advice
 
 
 def test_a_wheel_out_of_balance_is_not_free(tmp_path):

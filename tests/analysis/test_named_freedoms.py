@@ -123,3 +123,113 @@ def test_freedoms_of_a_machine_with_beams_are_not_named(tmp_path):
         encoding="utf-8",
     )
     assert nivel.load(file).check().freedoms == ()
+
+
+CYLINDER = {
+    "foot": "type: revolute, bodies: [ground, boom], point: [0, 0, 0], axis: [0, 1, 0]",
+    "base": "type: spherical, bodies: [ground, barrel], point: [1, 0, -1]",
+    "slide": "type: %s, bodies: [barrel, rod], point: [1.5, 0, -0.5], axis: [1, 0, 1]",
+    "eye": "type: spherical, bodies: [rod, boom], point: [2, 0, 0]",
+}
+LIFTED = {"boom": "1.5, 0, 0", "barrel": "1.2, 0, -0.8", "rod": "1.8, 0, -0.2"}
+
+
+def cylinder(tmp_path, slide, **changes):
+    joints = {name: changes.get(name, text) for name, text in CYLINDER.items()}
+    return checked(tmp_path, LIFTED, joints | {"slide": joints["slide"] % slide})
+
+
+def test_barrel_and_rod_of_a_cylinder_turn_idly_and_the_proposed_joints_stop_them(tmp_path):
+    facts = cylinder(tmp_path, "cylindrical")
+    idle = words(facts)[:2]
+    assert idle == [
+        "barrel turns about its own axis, through base and slide",
+        "rod turns about its own axis, through slide and eye",
+    ]
+    changes = {}
+    for freedom in facts.freedoms[:2]:
+        name, line = re.fullmatch(r"make (\w+) universal, with `(axes: .*)`", freedom.remedy).groups()
+        changes[name] = CYLINDER[name].replace("spherical", "universal") + f", {line}"
+    after = cylinder(tmp_path, "cylindrical", **changes)
+    assert after.degrees_of_freedom == facts.degrees_of_freedom - 2
+    assert after.redundant_rows == ()
+
+
+def test_bodies_that_turn_as_one_are_named_together(tmp_path):
+    facts = cylinder(tmp_path, "translational")
+    together = [freedom for freedom in facts.freedoms if "together" in freedom.words]
+    assert [each.words for each in together] == [
+        "barrel and rod turn together about their axis, through base and slide"
+    ]
+    assert together[0].remedy.startswith("make base universal, with `axes: ")
+
+
+def test_a_piston_is_kept_from_turning_by_its_bore(tmp_path):
+    facts = checked(
+        tmp_path,
+        {"rod": "1, 0, 0", "piston": "2, 0, 0"},
+        {
+            "pin": "type: universal, bodies: [ground, rod], point: [0, 0.5, 0], axes: [[0, 1, 0], [0, 0, 1]]",
+            "wrist": "type: spherical, bodies: [rod, piston], point: [2, 0, 0]",
+            "bore": "type: cylindrical, bodies: [ground, piston], point: [2, 0, 0], axis: [1, 0, 0]",
+        },
+    )
+    turn = facts.freedoms[0]
+    assert turn.words == "piston turns about its own axis, through wrist and bore"
+    assert turn.remedy == "make bore translational"
+
+
+def test_a_driven_angle_of_a_cylindrical_joint_is_no_idle_turn(tmp_path):
+    facts = checked(
+        tmp_path,
+        {"drill": "1, 0, 0"},
+        {
+            "sleeve": "type: cylindrical, bodies: [ground, drill], point: [0, 0, 0], axis: [1, 0, 0]",
+            "tip": "type: point-on-line, bodies: [ground, drill], point: [2, 0, 0], axis: [1, 0, 0]",
+        },
+        "forces:\n  motor: {type: motor, coordinate: sleeve.angle, effort: 1}\n",
+    )
+    assert "sleeve.angle: drill moves" in words(facts)
+
+
+def test_a_body_that_no_joint_holds_is_named_with_what_it_carries(tmp_path):
+    facts = checked(
+        tmp_path,
+        {"car": "1, 0, 0", "wheel": "2, 0, 0"},
+        {"axle": "type: revolute, bodies: [car, wheel], point: [2, 0, 0], axis: [0, 1, 0]"},
+    )
+    assert words(facts) == ["axle.angle: wheel moves", "car is free in space: car and wheel move"]
+
+
+HINGES = {
+    name: f"type: revolute, bodies: [ground, door], point: [0, 0, {z}], axis: [0, 0, 1]"
+    for name, z in {"top": 2, "low": 0, "mid": 1}.items()
+}
+GEAR = "couplings:\n  gear: {type: gear, joints: [a, b], ratio: 2}\n"
+WHEELS = {
+    name: f"type: revolute, bodies: [ground, {body}], point: [{x}, 0, 0], axis: [0, 0, 1]"
+    for name, body, x in (("a", "first", 0), ("b", "second", 1))
+}
+
+
+@pytest.mark.parametrize(
+    ("bodies", "joints", "more", "exact"),
+    [
+        ({"door": "1, 0, 0"}, HINGES, "", ("top spherical", "low point-on-line", "leave out mid")),
+        (
+            {"first": "0, 0, 0", "second": "1, 0, 0"},
+            WHEELS,
+            GEAR + GEAR[11:].replace("gear:", "same:"),
+            ("leave out same",),
+        ),
+        (
+            {"first": "0, 0, 0", "second": "1, 0, 0"},
+            WHEELS,
+            GEAR + "drivers:\n  one: {coordinate: a, value: time}\n  two: {coordinate: b, value: -time/2}\n",
+            ("leave out two",),
+        ),
+    ],
+)
+def test_where_freer_joints_do_not_suffice_something_is_left_out(tmp_path, bodies, joints, more, exact):
+    """A third hinge; a second gear between the same wheels; a second driver of the same motion."""
+    assert checked(tmp_path, bodies, joints, more).exact == exact

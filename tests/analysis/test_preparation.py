@@ -33,7 +33,8 @@ def test_friction_loaded_by_a_reaction_that_is_not_unique_is_refused():
     with pytest.raises(ModelError, match="is not unique") as caught:
         prepare(rubbing, "newton-euler")
     assert caught.value.faults[0].path == "forces.rub.coordinate"
-    assert "normal_load" in caught.value.faults[0].message
+    assert "give a `normal_load`, or make " in caught.value.faults[0].message
+    assert "spherical and " in caught.value.faults[0].message
 
 
 def test_friction_with_its_own_load_runs_in_a_redundant_machine():

@@ -37,6 +37,29 @@ def test_help_is_there_at_once_and_loads_nothing_heavy():
     assert min(times) * free_share() < 0.3
 
 
+@pytest.mark.parametrize(
+    ("arguments", "answer"),
+    [
+        (("run", "a.yaml", "--dt", "3"), "Did you mean '--step'?"),
+        (("run", "a.yaml", "--solver", "rk4"), "Did you mean '--integrator'?"),
+        (("help", "run"), "write `nivel run --help`"),
+        (("version",), "write `nivel --version`"),
+    ],
+)
+def test_options_and_commands_of_other_programs_are_answered_with_ours(arguments, answer):
+    outcome = nivel(*arguments)
+    assert outcome.exit_code == 2
+    assert answer in outcome.output
+
+
+def test_a_machine_file_of_a_similar_name_is_offered(tmp_path):
+    (tmp_path / "crane.yaml").write_text("format: 1\n", encoding="utf-8")
+    outcome = nivel("check", tmp_path / "crne.yaml")
+    assert outcome.exit_code == 2
+    assert "did you mean `" in outcome.output
+    assert "crane.yaml`?" in outcome.output.replace("\n", "")
+
+
 def test_help_lists_every_command():
     for arguments in ((), ("--help",), ("-h",)):
         shown = nivel(*arguments)

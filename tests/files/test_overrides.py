@@ -43,6 +43,12 @@ def test_what_the_file_leaves_out_can_be_set():
     assert parse_machine(bare, overrides={"simulation.step": "2 ms"}).simulation.step == 0.002
 
 
+def test_the_name_of_an_element_stands_for_its_path():
+    assert parse_machine(BASE, overrides={"crank.mass": "3 kg"}) == parse_machine(
+        BASE, overrides={"bodies.crank.mass": "3 kg"}
+    )
+
+
 def test_a_later_override_sees_an_earlier_one():
     assert changed(gravity="[0, 0, 0]", gravity__2="-5").gravity == (0, 0, -5)
 
@@ -56,6 +62,7 @@ def test_a_later_override_sees_an_earlier_one():
         ("bodies.crank.mass", "3 m", "bodies.crank.mass", "`3 m` is a length"),
         ("bodies.crank.mass.x", "3", "bodies.crank.mass.x", "is a single value"),
         ("body.crank.mass", "3", "body.crank.mass", "the section `body` is not known"),
+        ("crnk.mass", "1", "crnk.mass", "the element `crnk` is not known; did you mean `crank`"),
         ("gravity.3", "3", "gravity.3", "is a list of 3"),
         ("gravity.x", "3", "gravity.x", "is a list of 3"),
         ("gravity.-1", "3", "gravity.-1", "is a list of 3"),

@@ -1,6 +1,9 @@
 """What people bring from other programs, and slips of a first day: each is answered with the right word or the line to write."""
 
+import re
+
 import pytest
+import yaml
 
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_machine
@@ -127,6 +130,117 @@ MISTAKES = {
         2,
         "write `material: {youngs_modulus: 210 GPa",
     ),
+    "a solid in a body": ("position: [0.5, 0, 0]", "from: [0, 0, 0]", 7, "write `shape: {type: cylinder, from"),
+    "kind of a body": ("position: [0.5, 0, 0]", "type: point", 7, "`point_mass: true`"),
+    "one moment of inertia": ("inertia: [0.1, 0.1, 0.1]", "inertia: 0.1", 6, "write `inertia: [0.1, 0.1, 0.1]`"),
+    "axis the other way": ("axis: [0, 0, 1]}\nf", "axis: -y}\nf", 10, "write `axis: [0, -1, 0]`"),
+    "start of a hinge": (
+        "axis: [0, 0, 1]}\nf",
+        "axis: [0, 0, 1], start: 30 deg}\nf",
+        10,
+        "write `start: {angle: 30 deg}`",
+    ),
+    "a fixed joint anywhere": (
+        "type: revolute, bodies: [ground, rod], point: [0, 0, 0], axis: [0, 0, 1]",
+        "type: fixed, bodies: [ground, rod]",
+        10,
+        "write `bodies: [FIRST, SECOND], point: [0, 0, 0]`",
+    ),
+    "diameter": ("position: [0.5, 0, 0]", "shape: {type: cylinder, diameter: 1}", 7, "write `radius`, half of it"),
+    "axis of a cylinder": (
+        "position: [0.5, 0, 0]",
+        "shape: {type: cylinder, radius: 1, length: 1, axis: z}",
+        7,
+        "write `along: z`",
+    ),
+    "density of steel": ("mass: 2 kg", "density: steel", 5, "the density of steel is `7850 kg/m^3`"),
+    "kg/m3": ("mass: 2 kg", "density: 2 kg/m3", 5, "write `m^3`"),
+    "actuators": ("gravity: [0, -9.81, 0]", "actuators: {}", 2, "`forces: {motor: {type: motor"),
+    "contacts": ("gravity: [0, -9.81, 0]", "contacts: {}", 2, "`forces: {touch: {type: contact"),
+    "trajectories": ("gravity: [0, -9.81, 0]", "trajectories: {}", 2, "`functions: {NAME: {points:"),
+    "speed of a driver": (
+        "gravity: [0, -9.81, 0]",
+        "drivers: {d: {coordinate: hinge, value: 10 rad/s}}",
+        2,
+        "write `(10 rad/s)*time`",
+    ),
+    "velocity of a driver": (
+        "gravity: [0, -9.81, 0]",
+        "drivers: {d: {coordinate: hinge, velocity: 10 rad/s}}",
+        2,
+        "write `value: 10 rad/s*time`",
+    ),
+    "material of a rope": (
+        "type: force, body: rod",
+        "type: rope, E: 2e11",
+        12,
+        "write the `stiffness` of the whole rope",
+    ),
+    "friction without a model": (
+        "type: force, body: rod, vector: [1, 0, 0]",
+        "type: friction, coordinate: hinge, mu: 0.1",
+        12,
+        "`model` is missing: one of coulomb, stiction, lugre",
+    ),
+    "mu": ("type: force, body: rod", "type: friction, coordinate: hinge, mu: 0.1", 12, RATHER.format("coefficient")),
+    "torque of a motor": (
+        "type: force, body: rod",
+        "type: motor, coordinate: hinge, torque: 1",
+        12,
+        RATHER.format("effort"),
+    ),
+    "Ns/m": (
+        "type: force, body: rod, vector: [1, 0, 0]",
+        "type: joint-spring-damper, coordinate: hinge, damping: 3 Ns/m",
+        12,
+        "write `N*s`",
+    ),
+    "Nms/rad": (
+        "type: force, body: rod, vector: [1, 0, 0]",
+        "type: joint-spring-damper, coordinate: hinge, damping: 3 Nms/rad",
+        12,
+        "write `Nm*s`",
+    ),
+    "position of a body": ("gravity: [0, -9.81, 0]", "sensors: {s: rod.position.x}", 2, "write `s: {value: rod.x}`"),
+    "velocity of a body": ("vector: [1, 0, 0]", "vector: [-5*rod.velocity.x, 0, 0]", 12, "write `rod.vx`"),
+    "moments with other names": (
+        "inertia: [0.1, 0.1, 0.1]",
+        "inertia: [0.1, 0.1, 0.1, 0, 0, 0]",
+        6,
+        "write `inertia: {xx: 0.1, yy: 0.1, zz: 0.1, xy: 0, xz: 0, yz: 0}`",
+    ),
+    "moments in parentheses": ("[0.1, 0.1, 0.1]", "(0.1, 0.1, 0.1)", 6, "write `inertia: [0.1, 0.1, 0.1]`"),
+    "braces for brackets": ("bodies: [ground, rod]", "bodies: {ground, rod}", 10, "write `bodies: [ground, rod]`"),
+    "a place in the plane": ("position: [0.5, 0, 0]", "position: [0.5, 0]", 7, "write `position: [0.5, 0, 0]`"),
+    "one component": ("position: [0.5, 0, 0]", "velocity: {x: 1}", 7, "write `velocity: [1, 0, 0]`"),
+    "a turn as a number": (
+        "orientation: {axis: [0, 0, 1], angle: 0}",
+        "orientation: 30 deg",
+        8,
+        "write `orientation: {axis: [0, 0, 1], angle: 30 deg}`",
+    ),
+    "gravity of a planet": ("gravity: [0, -9.81, 0]", "gravity: earth", 2, "write `gravity: [0, 0, -9.81]`"),
+    "a marker as a point": ("point: [0, 0, 0]", "point: tip", 10, "write `markers: [FIRST, tip]`"),
+    "math.sin": ("vector: [1, 0, 0]", "vector: [math.sin(time), 0, 0]", 12, RATHER.format("sin")),
+    "a middle dot": ("mass: 2 kg", "mass: 2 kg·m", 5, "multiplied by `*`"),
+    "a choice in Python": ("vector: [1, 0, 0]", "vector: [1 if time > 1, 0, 0]", 12, "write `if(condition, a, b)`"),
+    "axes of a force": ("type: force", "frame: local, type: force", 12, "write `axes: body`"),
+    "a comparison as an event": (
+        "gravity: [0, -9.81, 0]",
+        "events: {top: {when: hinge.angle > 2 + 1}}",
+        2,
+        "write `when: hinge.angle - (2 + 1), direction: rising`",
+    ),
+    "a ratio of teeth": (
+        "gravity: [0, -9.81, 0]",
+        "couplings: {g: {type: gear, joints: [hinge, hinge], ratio: 2:1}}",
+        2,
+        "write `2/1`",
+    ),
+    "no space behind the colon": ("mass: 2 kg", "mass:2 kg", 6, "write line 5 as `mass: 2 kg`"),
+    "an equals sign": ("mass: 2 kg", "mass = 2 kg", 6, "write line 5 as `mass: 2 kg`"),
+    "two keys in one line": ("duration: 1 s", "duration: 1 s, end: 2", 14, "in braces: `{a: 1, b: 2}`"),
+    "start at rest": ("integrator: rk4", "start: static", 16, RATHER.format("equilibrium")),
     "modulus of a beam": (
         "gravity: [0, -9.81, 0]",
         "beams: {b: {E: 2e11}}",
@@ -143,6 +257,41 @@ def test_a_typical_mistake_is_answered_with_what_to_write(name):
     with pytest.raises(ModelError) as caught:
         parse_machine(BASE.replace(old, new), "machine.yaml")
     assert any(fault.line == line and answer in fault.message for fault in caught.value.faults), str(caught.value)
+
+
+# of a machine that proposed lines are copied into, and what their words stand for there
+PLAIN = {
+    "format": 1,
+    "bodies": {
+        "rod": {"mass": 2, "shape": {"type": "sphere", "radius": "5 cm"}},
+        "wheel": {"mass": 1, "inertia": [1, 1, 1]},
+    },
+    "markers": {"floor": {"body": "ground", "axis": [0, 1, 0]}},
+    "joints": {
+        name: {"type": "revolute", "bodies": ["ground", body], "point": [0, 0, 0], "axis": [0, 0, 1]}
+        for name, body in (("hinge", "rod"), ("axle", "wheel"))
+    },
+}
+STANDS_FOR = {
+    "BODY": "rod",
+    "JOINT": "hinge",
+    "COORDINATE": "angle",
+    "MARKER": "floor",
+    "FIRST": "ground",
+    "SECOND": "rod",
+}
+SECTIONS = "forces|couplings|drivers|joints|functions|simulation|parameters|inputs"
+PROPOSED = sorted({line for each in LINES for line in re.findall(rf"`((?:{SECTIONS}): {{[^`…]*)`", each.answer)})
+
+
+@pytest.mark.parametrize("line", PROPOSED)
+def test_every_whole_line_that_is_proposed_can_be_copied_in(line):
+    line = line.replace("joints: [FIRST, SECOND]", "joints: [hinge, axle]")
+    for word, meant in STANDS_FOR.items():
+        line = re.sub(rf"\b{word}\b", meant, line)
+    ((section, proposed),) = yaml.safe_load(line).items()
+    text = yaml.safe_dump(PLAIN | {section: PLAIN.get(section, {}) | proposed})
+    assert parse_machine(text, "machine.yaml").joints
 
 
 CIRCUIT = """\

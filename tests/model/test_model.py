@@ -110,6 +110,27 @@ def test_assigning_is_refused_with_the_line_to_write(crank):
         _ = crank.bodies.rod
 
 
+def test_elements_are_not_put_into_a_machine_by_assignment(crank):
+    bodies = crank.bodies
+    with pytest.raises(ModelError, match=r"write `machine = machine.replace\(crank\)`"):
+        bodies["crank"] = bodies["rod"]
+    with pytest.raises(ModelError, match=r"write `machine = machine.without\('crank'\)`"):
+        del bodies["crank"]
+
+
+def test_wrong_names_of_parameters_and_subsystems_are_answered_with_the_nearest(walker):
+    with pytest.raises(ModelError, match="the parameter `widht` is not known; did you mean `width`"):
+        walker.parameters["widht"]
+    with pytest.raises(ModelError, match="the assembly `lft` is not known; did you mean `left`"):
+        walker.assemblies["lft"]
+    assert walker.parameters.get("widht") is None
+
+
+def test_completion_offers_the_fields_of_a_record_and_nothing_of_its_machinery(crank):
+    offered = {name for name in dir(crank["crank"]) if not name.startswith("_")}
+    assert offered == {*nivel.Body.model_fields, "replace"}
+
+
 def test_a_part_written_in_python_is_placed_like_that_of_a_file(walker, tmp_path):
     leg = nivel.load(tmp_path / "leg.yaml")
     alone = nivel.Machine("trunk", bodies=[walker["trunk"]])

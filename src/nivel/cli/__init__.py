@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Final, NamedTuple
@@ -56,6 +57,8 @@ class LazyGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and not args[0].startswith("-") and args[0] not in COMMANDS:
+            if args[0] in ("help", "version"):
+                ctx.fail(f"write `nivel {'--version' if args[0] == 'version' else ' '.join([*args[1:2], '--help'])}`")
             near = get_close_matches(args[0], COMMANDS, n=1)
             hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(COMMANDS)}."
             ctx.fail(f"there is no command '{args[0]}'; {hint}")
@@ -67,11 +70,26 @@ class LazyGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         with told():
-            return super().invoke(ctx)
+            try:
+                return super().invoke(ctx)
+            except click.NoSuchOption as problem:
+                raise _with_our_word(problem) from None
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         with told():  # help, too, may find no room
             return super().parse_args(ctx, args)
+
+
+def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
+    """With what an option of other programs is called here."""
+    from nivel.vocabulary import translated
+
+    options = problem.ctx.command.params if problem.ctx is not None else []
+    ours = [option.removeprefix("--") for each in options for option in each.opts if option.startswith("--")]
+    found = re.fullmatch(r"did you mean `(.*)`\?", translated(problem.option_name.lstrip("-"), ours))
+    return (
+        click.NoSuchOption(problem.option_name, possibilities=[f"--{found[1]}"], ctx=problem.ctx) if found else problem
+    )
 
 
 def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:

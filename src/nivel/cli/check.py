@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
+from nivel.errors import SolveError
 
 
 @click.command(short_help="Check and assemble a machine, and describe it.")
@@ -62,3 +63,6 @@ def command(
         click.echo(str(facts))
         if weighed is not None:
             click.echo(str(weighed))
+    message, advice = facts.unsettled
+    if message:
+        raise SolveError(message, time=0.0, advice=advice)

@@ -15,6 +15,7 @@ import yaml
 from yaml import events
 
 DEEPEST: Final = 60
+TOO_DEEP: Final = "this is nested too deeply for a machine file"
 
 
 class Place(NamedTuple):
@@ -102,7 +103,7 @@ class _Composer:
     def node(self, event: Any, depth: int) -> Node:
         place = _place(event)
         if depth > DEEPEST:
-            raise NotYamlError("this is nested too deeply for a machine file", place)
+            raise NotYamlError(TOO_DEEP, place)
         if isinstance(event, events.AliasEvent):
             if event.anchor not in self.anchors:
                 raise NotYamlError(
@@ -137,13 +138,26 @@ def _restated(error: yaml.YAMLError, text: str) -> NotYamlError:
     """PyYAML's error with its place, and a hint for tabs."""
     place = _place_of_error(error, text)
     problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "it cannot be read"
+    if "nesting" in problem:  # libyaml, from 0.2.6, has a limit of its own and comes to it first where lists are deep
+        return NotYamlError(TOO_DEEP, place)
     context = getattr(error, "context", None)
     lines = text.splitlines()
     line = lines[place.line - 1] if place.line <= len(lines) else ""
-    hint = (
-        "; indent with spaces, not tabs" if line[place.column - 1 : place.column] == "\t" else _unit_behind_list(line)
-    )
+    if line[place.column - 1 : place.column] == "\t":
+        hint = "; indent with spaces, not tabs"
+    else:
+        hint = _unit_behind_list(line) or _no_key(lines[: place.line])
     return NotYamlError(f"this is not YAML: {problem}{f' {context}' if context else ''}{hint}", place)
+
+
+def _no_key(lines: list[str]) -> str:
+    """A hint for `mass:2 kg` and `mass = 2 kg` in the line before the last, and for `a: 1, b: 2` in the last one."""
+    if lines and re.match(r"\s*[\w-]+: [^{\['\"]*,\s*[\w-]+:", lines[-1]):
+        return "; two keys stand in two lines, or in braces: `{a: 1, b: 2}`"
+    found = re.fullmatch(r"\s*([\w-]+)\s*[:=]\s*([^:=]+?)\s*", lines[-2]) if len(lines) > 1 else None
+    if found and not re.search(r":\s", lines[-2]):
+        return f"; write line {len(lines) - 1} as `{found[1]}: {found[2]}`"
+    return ""
 
 
 def _unit_behind_list(line: str) -> str:

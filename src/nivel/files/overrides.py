@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import deepcopy
+from difflib import get_close_matches
 from typing import Any
 
 from nivel.errors import Fault, ModelError
@@ -33,7 +34,7 @@ def override(
     """
     for path, value in overrides.items():
         try:
-            steps = [step.strip() for step in path.split(".")]
+            steps = _with_section(tree.data, [step.strip() for step in path.split(".")], words)
             assembly = _assembly(tree, steps)
             if assembly is None:
                 _set(tree, path, steps, read_value(value) if isinstance(value, str) else deepcopy(value), words)
@@ -43,6 +44,23 @@ def override(
         except ModelError as error:
             messages = "; ".join(fault.message for fault in error.faults)
             tree.faults.append(Fault(tree.file, 0, 0, path, f"{messages} (set from outside the file)"))
+
+
+def _with_section(data: Any, steps: list[str], words: tuple[str, ...]) -> list[str]:
+    """`steps` with their section before them, where they begin with the name of an element."""
+    if steps[0] in words or not isinstance(data, dict):
+        return steps
+    named = {section: list(data[section]) for section in SECTIONS if isinstance(data.get(section), dict)}
+    sections = [section for section, names in named.items() if steps[0] in names]
+    if len(sections) > 1:
+        listed = " or ".join(f"`{section}.{'.'.join(steps)}`" for section in sections)
+        raise ModelError(f"several elements are called `{steps[0]}`: write {listed}")
+    if sections:
+        return [sections[0], *steps]
+    names = [str(name) for each in named.values() for name in each]
+    if steps[0] and len(steps) > 1 and get_close_matches(steps[0], names) and not get_close_matches(steps[0], words):
+        raise ModelError(unknown_word(steps[0], names, "element"))
+    return steps
 
 
 def _assembly(tree: Tree, steps: list[str]) -> tuple[str, str] | None:

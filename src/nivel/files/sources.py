@@ -138,6 +138,20 @@ def read_text(path: str | FilePath) -> str:
         raise ModelError(Fault(file, line, column, "", message)) from None
 
 
+def _near_file(file: str) -> str:
+    """The file that may be meant: with an ending, or of a similar name beside it; empty where there is none."""
+    found = next((each for end in (".yaml", ".yml") if FilePath(each := f"{file}{end}").is_file()), "")
+    path = FilePath(file)
+    if found or not path.suffix:
+        return found
+    try:
+        beside = sorted(each.name for each in path.parent.iterdir() if each.suffix in (path.suffix, ".yaml", ".yml"))
+    except OSError:
+        return ""
+    near = get_close_matches(path.name, beside, n=1, cutoff=0.8)
+    return str(path.parent / near[0]) if near else ""
+
+
 def read_bytes(path: str | FilePath) -> bytes:
     """The content of the file at `path`.
 
@@ -153,7 +167,7 @@ def read_bytes(path: str | FilePath) -> bytes:
             raise ModelError(Fault(file, 0, 0, file, f"the file has {size}; up to {LARGEST // 10**6} MB are read"))
         return FilePath(path).read_bytes()
     except FileNotFoundError:
-        near = next((each for end in (".yaml", ".yml") if FilePath(each := f"{file}{end}").is_file()), "")
+        near = _near_file(file)
         meant = f"; did you mean `{near}`?" if near else ""
         raise ModelError(Fault(file, 0, 0, file, f"there is no such file{meant}")) from None
     except IsADirectoryError:

@@ -15,7 +15,7 @@ from typing import Any, Final
 from nivel.errors import Fault, ModelError
 from nivel.files import nodes
 from nivel.files.commas import cut_at_comma
-from nivel.files.nodes import DEEPEST, Node, NotYamlError, Place, Scalar, Sequence, compose
+from nivel.files.nodes import DEEPEST, TOO_DEEP, Node, NotYamlError, Place, Scalar, Sequence, compose
 
 Path = tuple[str | int, ...]
 
@@ -152,7 +152,7 @@ class _Reader:
         if self.count > _MOST_NODES:
             raise ModelError(self.tree.fault(path, f"the file has more than {_MOST_NODES} entries"))
         if len(path) > DEEPEST:  # through aliases of aliases
-            raise ModelError(self.tree.fault(path[:3], "this is nested too deeply for a machine file"))
+            raise ModelError(self.tree.fault(path[:3], TOO_DEEP))
         if node.tag is not None:
             self.report(path, f"the tag `{node.tag.replace(_PREFIX, '!!')}` is not used in machine files")
         if isinstance(node, Scalar):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -17,12 +18,23 @@ from nivel.machine.units.quantity import fault, of_one_kind, shown
 _COMPARISONS = ("<", ">", "=")
 
 
+def _passing(text: str) -> str:
+    """The keys that say what a comparison means; those of an example where there is more than one."""
+    sides = re.split(r"[<>]=?|==?", text)
+    if len(sides) != 2 or " and " in text or " or " in text:
+        return "for `hinge.angle > 2` `when: hinge.angle - 2, direction: rising`"
+    left, right = (side.strip() for side in sides)
+    right = f"({right})" if re.search(r"[^eE(]\s*[-+]", right) else right
+    difference = left if right in ("0", "0.0") else f"{left} - {right}"
+    direction = ", direction: rising" if ">" in text else ", direction: falling" if "<" in text else ""
+    return f"`when: {difference}{direction}`"
+
+
 def _passes_zero(value: Any, info: ValidationInfo) -> Any:
     """Refuse comparisons, which people try first, and sums of unlike terms."""
     if isinstance(value, str) and any(sign in value for sign in _COMPARISONS):
         raise fault(
-            f"an event is where an expression passes zero, not a comparison as in {shown(value)}: "
-            "for `hinge.angle > 2` write `hinge.angle - 2` and `direction: rising`"
+            f"an event is where an expression passes zero, not a comparison as in {shown(value)}: write {_passing(value)}"
         )
     return of_one_kind(value, info)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -35,9 +36,16 @@ _MAPPINGS: Final = {
     "section": "{type: circle, radius: 1 cm}",
     "material": "{youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}",
 }
+_COUNTS: Final = {"bodies": 2, "markers": 2, "joints": 2}  # entries of lists; three of others
+_WORDS: Final = {"coordinate": "JOINT.angle"}
 # of sections: the key of an element that a single value most likely means
 _MAIN_KEYS: Final = {"inputs": "rest", "sensors": "value", "states": "rate", "events": "when"}
-_DIRECTIONS: Final = {"x": "[1, 0, 0]", "y": "[0, 1, 0]", "z": "[0, 0, 1]"}
+_OF_COORDINATES: Final = {"coordinatevalues": "start", "coordinaterates": "start_rates"}  # what they are read as
+_ANGULAR: Final = r"\b(?:deg|rad|rev|rpm)\b|°"
+_DIRECTIONS: Final = {
+    **{"x": "[1, 0, 0]", "y": "[0, 1, 0]", "z": "[0, 0, 1]"},
+    **{"-x": "[-1, 0, 0]", "-y": "[0, -1, 0]", "-z": "[0, 0, -1]"},
+}
 
 
 def list_line(field: str, given: Any) -> str:
@@ -47,6 +55,10 @@ def list_line(field: str, given: Any) -> str:
         size = _size(given) or "9.81"
         return f"; gravity has a direction: write `gravity: [0, 0, -{size}]` where z points up, `[0, -{size}, 0]` where y does"
     line = entries or _LISTS.get(field)
+    if field == "angular_velocity" and line is None and isinstance(given, int | float | str):
+        line = f"[0, 0, {given}]"
+    if field in ("point", "points") and line is None and isinstance(given, str):
+        return f"; it is a place in numbers; where two markers are known by name write `markers: [FIRST, {given}]`"
     return f"; write `{field}: {line}`" if line else ""
 
 
@@ -54,6 +66,10 @@ def mapping_line(field: str, given: Any) -> str:
     """As `list_line`, of a field that is a mapping."""
     if field == "shape" and isinstance(given, str):
         return f"; write `shape: {{type: {given}, …}}`"
+    if field in _OF_COORDINATES:
+        return _coordinates_line(_OF_COORDINATES[field], given)
+    if field == "orientation" and isinstance(given, int | float | str) and re.match(r"-?[\d.]", str(given)):
+        return f"; write `orientation: {{axis: [0, 0, 1], angle: {given}}}`"
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 4:
         return f"; write `orientation: {{euler_parameters: {_listed(given)}}}`, scalar first"
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 3:
@@ -61,16 +77,43 @@ def mapping_line(field: str, given: Any) -> str:
     return f"; write `{field}: {_MAPPINGS[field]}`" if field in _MAPPINGS else ""
 
 
+def _coordinates_line(field: str, given: Any) -> str:
+    """The values of joint coordinates, of which the name was left out."""
+    if isinstance(given, bool) or not isinstance(given, int | float | str):
+        return f"; write `{field}: {_MAPPINGS[field]}`"
+    angle, way = f"`{field}: {{angle: {given}}}`", f"`{field}: {{displacement: {given}}}`"
+    if not isinstance(given, str):
+        return f"; write {angle} of a revolute, {way} of a translational joint"
+    return f"; write {angle if re.search(_ANGULAR, given) else way}"
+
+
 def element_line(section: str, name: str, given: Any) -> str:
     """As `list_line`, of an element of a section: ``; write `lever: {rest: 0}` ``."""
     key = _MAIN_KEYS.get(section)
+    if section == "markers" and isinstance(given, list | tuple) and len(given) == 3:
+        return f"; write `{name}: {{body: BODY, position: {_listed(given)}}}`"
+    if isinstance(given, str):
+        given = re.sub(r"\.position\.([xyz])\b", r".\1", given)  # places are read as BODY.x, velocities as BODY.vx
+        given = re.sub(r"\.velocity\.([xyz])\b", r".v\1", given)
     return f"; write `{name}: {{{key}: {given}}}`" if key and not isinstance(given, list | tuple) else ""
+
+
+def missing_line(field: str) -> str:
+    """As `list_line`, of a field that is not given: ``: write `coordinate: JOINT.angle` ``."""
+    line = _LISTS.get(field) or _MAPPINGS.get(field) or _WORDS.get(field)
+    return f"; write `{field}: {line}`" if line else ""
 
 
 def _entries(field: str, given: Any) -> str | None:
     """What was given, as a list, where that is what was meant."""
-    if isinstance(given, Mapping) and set(given) == set("xyz"):
-        return _listed([given[axis] for axis in "xyz"])
+    if isinstance(given, Mapping) and given and set(given) <= set("xyz"):
+        return _listed([given.get(axis, 0) for axis in "xyz"])
+    if (
+        isinstance(given, Mapping)
+        and len(given) == _COUNTS.get(field, 3)
+        and all(each is None for each in given.values())
+    ):
+        return _listed(list(given))  # braces in place of brackets
     if not isinstance(given, str):
         return None
     letter = given.strip().removeprefix("+").casefold()
@@ -94,4 +137,5 @@ def _size(given: Any) -> str:
     """The size of gravity that was given as a number, with its unit."""
     if isinstance(given, bool) or not isinstance(given, int | float | str):
         return ""
-    return str(given).strip().lstrip("+-").strip()
+    size = str(given).strip().lstrip("+-").strip()
+    return size if size[:1].isdigit() else ""

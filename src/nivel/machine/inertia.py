@@ -5,6 +5,7 @@ Tensors are about the stated point in body axes with tensor components: I_xx = �
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Final
@@ -26,6 +27,8 @@ Array = NDArray[np.float64]
 # Moments of a thin plate obey I_z = I_x + I_y exactly; printed with three digits they may break it by half a percent.
 TRIANGLE_TOLERANCE: Final = 5e-3
 SYMMETRY_TOLERANCE: Final = 1e-6
+_ORDER: Final = ("xx", "yy", "zz", "xy", "xz", "yz")  # of six numbers
+_NUMBER: Final = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
 class Inertia(Record):
@@ -47,11 +50,29 @@ def _components(value: Any, info: ValidationInfo) -> Any:
     if not isinstance(value, list | tuple) or len(value) != 3:
         raise fault(
             "three moments [xx, yy, zz], a mapping {xx: …, yy: …, zz: …, xy: …, xz: …, yz: …} or a 3×3 matrix "
-            f"was expected, got {f'a list of {len(value)}' if isinstance(value, list | tuple) else shown(value)}"
+            f"was expected, got {f'a list of {len(value)}' if isinstance(value, list | tuple) else shown(value)}{_line(value)}"
         )
     if not any(isinstance(row, list | tuple) for row in map(listed, value)):
         return dict(zip(("xx", "yy", "zz"), value, strict=True))
     return _from_matrix([listed(row) for row in value], info)
+
+
+def _line(value: Any) -> str:
+    """What to write where one moment is given, or three or six in another form."""
+    if isinstance(value, list | tuple) and len(value) == 6:
+        return (
+            "; write `inertia: {" + ", ".join(f"{key}: {each}" for key, each in zip(_ORDER, value, strict=True)) + "}`"
+        )
+    if isinstance(value, list | tuple) and len(value) == 1:
+        value = value[0]
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return ""
+    found = re.findall(_NUMBER, str(value))
+    if len(found) == 3:
+        return f"; write `inertia: [{', '.join(found)}]`"
+    if not re.match(_NUMBER, str(value)):
+        return ""
+    return f"; write `inertia: [{value}, {value}, {value}]`, or give a `shape` instead"
 
 
 def _from_matrix(rows: list[Any], info: ValidationInfo) -> dict[str, float]:

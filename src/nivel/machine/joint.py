@@ -279,8 +279,9 @@ class Joint(Checked):
             yield Problem(("interface",), "give `point` or `interface`, not both", at_key=True)
         if self.bodies is None or not (self._gives(where) or by_interface):
             what = "a `point`" if where == "point" else "`points`"
+            line = "point: [0, 0, 0]" if where == "point" else "points: [[0, 0, 0], [1, 0, 0]]"
             what += "; the second body is a beam" if kind.rail else ", or two `markers`"
-            yield Problem((), f"a {self.type} joint needs `bodies` and {what}")
+            yield Problem((), f"a {self.type} joint needs `bodies` and {what}; write `bodies: [FIRST, SECOND], {line}`")
         if self.bodies is not None and self.bodies[0] == self.bodies[1]:
             yield Problem(("bodies",), f"`bodies`: a joint needs two different bodies, got `{self.bodies[0]}` twice")
         for key in kind.place[1:]:

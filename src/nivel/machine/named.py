@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Generic, TypeVar
+from typing import Final, Generic, TypeVar
 
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
@@ -11,6 +11,21 @@ from nivel.machine.record import Record
 from nivel.wording import unknown_word
 
 Element = TypeVar("Element", bound=Record)
+
+_UNCHANGED: Final = "nothing changes a machine; write"
+_ANOTHER: Final = "which gives another one"
+Value = TypeVar("Value")
+
+
+class Known(dict[str, Value]):
+    """Values by name; a wrong name is answered with the nearest. `singular` is one of them in words."""
+
+    def __init__(self, singular: str, values: Mapping[str, Value]) -> None:
+        super().__init__(values)
+        self._singular = singular
+
+    def __missing__(self, name: object) -> Value:
+        raise ModelError(Fault("", 0, 0, "", unknown_word(str(name), list(self), self._singular)))
 
 
 class Named(Mapping[str, Element], Generic[Element]):
@@ -29,6 +44,14 @@ class Named(Mapping[str, Element], Generic[Element]):
         if name not in self._records:
             raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self._records), self._singular)))
         return self._records[name]
+
+    def __setitem__(self, name: str, element: object) -> None:
+        """Refused: nothing changes a machine. Raises ModelError with the line to write."""
+        raise ModelError(Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.replace({name})`, {_ANOTHER}"))
+
+    def __delitem__(self, name: str) -> None:
+        """As `__setitem__`."""
+        raise ModelError(Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.without({name!r})`, {_ANOTHER}"))
 
     def __getattr__(self, name: str) -> Element:
         message = f"elements are read by their names: write [{name!r}]" if not name.startswith("_") else name

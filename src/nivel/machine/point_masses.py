@@ -56,7 +56,9 @@ def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
         if body not in index.point_masses or type_ in ON_EITHER:
             continue
         if type_ not in ON_SECOND:
-            yield (*place, *where), f"`{body}`: {_TURN}; it can be in the joints {', '.join((*ON_EITHER, *ON_SECOND))}"
+            held = "; `type: spherical` holds it" if type_ == "fixed" else ""
+            others = ", ".join((*ON_EITHER, *ON_SECOND))
+            yield (*place, *where), f"`{body}`: {_TURN}; it can be in the joints {others}{held}"
         elif where[-1] == 0:
             yield (*place, *where), f"`{body}`: {_TURN}; in a {type_} joint it can only be the second body"
 

@@ -19,8 +19,8 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
-from nivel.machine.example_line import list_line, mapping_line
-from nivel.machine.signature import PlainSignature
+from nivel.machine.example_line import list_line, mapping_line, missing_line
+from nivel.machine.signature import PlainSignature, words_of
 from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
 from nivel.wording import shown, unknown_word
 
@@ -67,6 +67,7 @@ class Record(BaseModel):
 
     @checked_arguments
     def __init__(self, /, **data: Any) -> None:
+        """Raises ModelError with everything that is wrong."""
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -89,6 +90,14 @@ class Record(BaseModel):
         )
         message = f"a record never changes; write `{line}`, which gives another one"
         raise ModelError(Fault("", 0, 0, f"{own}.{field}" if own else field, message))
+
+    def __dir__(self) -> list[str]:
+        """What completion offers: the fields, and what a record can do; not the machinery below it."""
+        own = {name for each in type(self).__mro__ if issubclass(each, Record) for name in vars(each)}
+        return [
+            *type(self).model_fields,
+            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "model_config"}),
+        ]
 
     def __str__(self) -> str:
         return repr(self)
@@ -161,15 +170,17 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
         case "nivel":
             return str(context["message"])
         case "missing" if isinstance(line["loc"][-1], int):
-            return f"entries are missing: there {'is' if len(line['input']) == 1 else 'are'} only {len(line['input'])}"
+            return _too_few(line["input"], line["loc"])
         case "missing":
-            return f"`{line['loc'][-1]}` is missing"
+            return f"`{line['loc'][-1]}` is missing{_of_missing(str(line['loc'][-1]), record)}"
         case "extra_forbidden":
             return unknown_word(str(line["loc"][-1]), field_words(record), "key")
         case "too_short" | "too_long":
             count = context.get("actual_length")
             wanted = context.get("min_length", context.get("max_length"))
             return f"{wanted} entries were expected, got {'more' if count is None else count}"
+        case "literal_error" if isinstance(line["input"], list | tuple | Mapping):
+            return f"one of {', '.join(_quoted(context['expected']))} was expected, got {shown(line['input'])}"
         case "literal_error":
             return unknown_word(shown(line["input"]).strip("`"), _quoted(context["expected"]), "word")
         case "union_tag_invalid":
@@ -184,6 +195,29 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
             sentence = _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
             return sentence + _line_to_write(line, record)
     return line["msg"]
+
+
+_IN_SPACE = ("position", "point", "velocity", "centre_of_mass", "centre", "gravity", "vector", "axis", "x_axis")
+
+
+def _too_few(given: Sequence[Any], place: Sequence[int | str]) -> str:
+    """That a list is too short; of two components in space also the line to write."""
+    said = f"entries are missing: there {'is' if len(given) == 1 else 'are'} only {len(given)}"
+    in_space = len(place) > 1 and place[-2] in _IN_SPACE and isinstance(given, list | tuple) and len(given) == 2
+    return f"{said}; write `{place[-2]}: [{given[0]}, {given[1]}, 0]`" if in_space else said
+
+
+def _of_missing(key: str, record: type[Record]) -> str:
+    """What the field `key` takes, as the end of the sentence that it is missing."""
+    if line := missing_line(key):
+        return line
+    field = next((each for name, each in record.model_fields.items() if key in (name, each.alias)), None)
+    if field is None:
+        return ""
+    said = words_of(field)
+    takes = f"one of {said.replace(chr(39), '').replace(' |', ',')}" if said.startswith("'") else said
+    told = [each for each in (takes if takes.startswith(("a ", "an ", "one of ")) else "", field.description) if each]
+    return f": {', '.join(told)}" if told else ""
 
 
 def _line_to_write(line: ErrorDetails, record: type[Record]) -> str:

@@ -27,6 +27,7 @@ from nivel.machine.units.quantity import (
     check_kind,
     expected_kind,
     expression_fault,
+    kinds_of,
     parameters_of,
     read_quantity,
     reported,
@@ -35,6 +36,7 @@ from nivel.machine.units.quantity import (
 TimeFunction = float | Table | Expression | PythonLaw
 
 MOTION_RESULTS: Final = 3  # what a law that drives returns: value, rate, acceleration
+_RATES: Final = {"length": "velocity", "angle": "angular velocity"}
 
 
 def read_time_function(
@@ -69,9 +71,29 @@ def _is_law(given: Mapping[Any, object]) -> bool:
 def _read_text(text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> float | Expression:
     tree = bound_tree(text, parameters, local)
     if not varies(tree):
-        return read_quantity(text, kind, parameters)
+        return _read_constant(text, kind, parameters)
     _check_kind_of_varying(tree, text.strip(), kind)
     return Expression(render(fold(tree)))
+
+
+def _read_constant(text: str, kind: Kind, parameters: Parameters) -> float:
+    """A quantity of `kind`. Raises ExpressionError, with the line to write where the speed is given in place of the way."""
+    try:
+        return read_quantity(text, kind, parameters)
+    except ExpressionError as problem:
+        rates = tuple(_RATES[each] for each in kinds_of(kind) if each in _RATES)
+        if rates and _reads(text, rates, parameters):
+            raise ExpressionError(f"{problem}; with this speed write `({text.strip()})*time`") from None
+        raise
+
+
+def _reads(text: str, kind: Kind, parameters: Parameters) -> bool:
+    """Whether `text` is a quantity of `kind`."""
+    try:
+        read_quantity(text, kind, parameters)
+    except ExpressionError:
+        return False
+    return True
 
 
 def _check_kind_of_varying(tree: Node, text: str, kind: Kind) -> None:

@@ -17,7 +17,6 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
-from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import GROUND
 from nivel.system.system import Array
@@ -44,11 +43,12 @@ _FREER: Final[dict[str, dict[str, tuple[str, ...]]]] = {
 }
 
 
-def exact_joints(machine: MachineRecord, motion: MotionEquations, joints: Collection[str]) -> tuple[str, ...]:
-    """Fewest changes of `joints`, each in words, in the position last evaluated; empty where MOST changes do not suffice.
+def exact_joints(machine: MachineRecord, motion: MotionEquations, repeated: Collection[str]) -> tuple[str, ...]:
+    """Fewest changes of joints, couplings and drivers named `repeated`, each in words, in the position last evaluated; empty where MOST
+    changes do not suffice.
 
     A change counts where the rank of the constraints stays: no motion becomes free. Joints between two moving bodies come first, points on
-    lines and planes last.
+    lines and planes then, and only where freer joints do not suffice are some left out, as few as can be.
     """
     system = motion.system
     if system.machine_rows * 6 * system.body_count > LARGEST:
@@ -56,25 +56,36 @@ def exact_joints(machine: MachineRecord, motion: MotionEquations, joints: Collec
     _, N = dependent_rows(scaled_jacobian(motion))
     lengths = row_lengths(motion)
     proposed: list[str] = []
-    for names in _groups(motion, N, [each for each in machine.joints if each.name in joints]):
+    elements = (*machine.joints, *machine.couplings, *machine.drivers)
+    for names in _groups(motion, N, [each.name for each in elements if each.name in repeated]):
         rows = np.isin(system.row_owner[: len(N)], list(names))
         U, sizes, _ = np.linalg.svd(N[rows], full_matrices=False)
         free = np.zeros((len(N), int(np.sum(sizes > 0.5))))  # the shares of a group are 1, those of others 0
         free[rows] = U[:, : free.shape[1]]
-        changes = list(_changes(machine, motion, free / lengths[:, None], names))
-        usual = [change for change in changes if not change.freer.startswith("point")]
-        chosen = _fewest(usual, free.shape[1]) or _fewest(changes, free.shape[1])
+        chosen = _chosen(machine, motion, free / lengths[:, None], names)
         if not chosen:
             return ()
-        proposed += [f"{each.joint} {each.freer}" for each in chosen]
+        proposed += [f"{each.joint} {each.freer}" if each.freer else f"leave out {each.joint}" for each in chosen]
     return tuple(proposed)
 
 
-def _groups(motion: MotionEquations, N: Array, joints: Sequence[Joint]) -> list[set[str]]:
-    """Names of joints whose rows repeat each other; joints of different groups do not."""
+def _chosen(machine: MachineRecord, motion: MotionEquations, N: Array, names: Collection[str]) -> Sequence[_Change]:
+    """The changes of some elements. N (rows, surplus) : multipliers without effect, of rows as they are."""
+    surplus = N.shape[1]
+    changes = list(_changes(machine, motion, N, names))
+    usual = [change for change in changes if not change.freer.startswith("point")]
+    found = _fewest(usual, surplus) or _fewest(changes, surplus)
+    every = (*changes, *_left_out(machine, motion, N, names))
+    for most in range(1, MOST + 1):
+        found = found or _fewest(every, surplus, most)
+    return found
+
+
+def _groups(motion: MotionEquations, N: Array, repeated: Sequence[str]) -> list[set[str]]:
+    """Names of elements whose rows repeat each other; elements of different groups do not."""
     from scipy.sparse.csgraph import connected_components
 
-    names = np.array([joint.name for joint in joints])
+    names = np.array(repeated)
     owner = np.array(motion.system.row_owner[: len(N)])
     share = np.abs(N @ N.T)
     own = [owner == name for name in names]
@@ -84,14 +95,17 @@ def _groups(motion: MotionEquations, N: Array, joints: Sequence[Joint]) -> list[
     return [set(names[group == k].tolist()) for k in dict.fromkeys(group.tolist())]
 
 
-def _fewest(changes: Sequence[_Change], surplus: int) -> Sequence[_Change]:
-    """The first of the fewest changes that give up as many rows as are too many, with independent ones left."""
+def _fewest(changes: Sequence[_Change], surplus: int, left_out: int = 0) -> Sequence[_Change]:
+    """The first of the fewest changes that give up as many rows as are too many, with independent ones left; `left_out`: how many elements
+    may be."""
     looked_at = 0
     most = max((change.less for change in changes), default=0)
     enough = (count for count in range(1, MOST + 1) if count * most >= surplus)
     listed = islice(chain.from_iterable(combinations(changes, count) for count in enough), LISTED)
     for chosen in listed:
         if sum(each.less for each in chosen) != surplus or len({each.joint for each in chosen}) < len(chosen):
+            continue
+        if sum(not each.freer for each in chosen) > left_out:
             continue
         looked_at += 1
         if looked_at > TRIED:
@@ -103,7 +117,8 @@ def _fewest(changes: Sequence[_Change], surplus: int) -> Sequence[_Change]:
 
 
 class _Change(NamedTuple):
-    """A joint with a freer type: how many rows less, and what it gives up of the multipliers without effect, Rᵀ N (less, surplus)."""
+    """A joint with a freer type, or (empty) an element left out: how many rows less, and what it gives up of the multipliers without
+    effect, Rᵀ N (less, surplus)."""
 
     joint: str
     freer: str
@@ -130,3 +145,12 @@ def _changes(machine: MachineRecord, motion: MotionEquations, N: Array, joints: 
             order = (freer.startswith("point"), not inner)
             found.append((order, _Change(joint.name, freer, len(given_up), np.vstack(given_up))))
     yield from (change for _, change in sorted(found, key=lambda each: each[0]))
+
+
+def _left_out(machine: MachineRecord, motion: MotionEquations, N: Array, names: Collection[str]) -> Iterator[_Change]:
+    """Elements left out, the last ones first: drivers, couplings, joints."""
+    owner = np.array(motion.system.row_owner[: len(N)])
+    for element in reversed((*machine.joints, *machine.couplings, *machine.drivers)):
+        if element.name in names:
+            own = N[owner == element.name]
+            yield _Change(element.name, "", len(own), own)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
+from nivel.analysis.assembly.idle_turns import idle_angles, without_turn
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array
 
@@ -58,15 +58,19 @@ class _Names:
         self.machine, self.motion, self.left = machine, motion, free
         self.system, self.record = motion.system, motion.system.record
         self.labels = list(self.system.layout.coordinates["joint_coordinate"])
+        self.idle = np.array([label in idle_angles(machine) for label in self.labels], dtype=bool)
         places = [int(index) for index in self.record.joints.coordinate]
         self.coordinates = coordinate_derivatives(motion, places) if places else np.zeros((0, free.directions.shape[1]))
 
     def all(self) -> list[Freedom]:
-        found = [freedom for body in range(self.system.body_count) for freedom in self._alone(body)]
-        found += self._of_coordinates()
+        bodies = range(self.system.body_count)
+        found = [freedom for body in bodies for freedom in self._alone(body)]
+        found += [freedom for body in bodies for freedom in self._between_joints(body)]
+        carried = self._carried()
+        found += [*self._of_coordinates(), *carried, *self._together()]
         if len(self.left.directions):
-            bodies = self._moving(self.left.directions)
-            found.append(Freedom(len(self.left.directions), f"{bodies}, which no joint coordinate shows"))
+            moving = self._moving(self.left.directions)
+            found.append(Freedom(len(self.left.directions), f"{moving}, which no joint coordinate shows"))
         return found
 
     def _alone(self, body: int) -> list[Freedom]:
@@ -84,6 +88,51 @@ class _Names:
             return [self._screw(body, motions[0])]
         point = self._common_point(body, motions) if count == 3 else ""
         return [Freedom(count, f"{name} turns in every direction about {point}" if point else f"{name} moves alone")]
+
+    def _between_joints(self, body: int) -> list[Freedom]:
+        """The turn of a body about the line of its joints, as of a piston: an angle shows it, and nothing uses that."""
+        others = np.delete(np.eye(6 * self.system.body_count), np.s_[6 * body : 6 * body + 6], axis=0)
+        own = self.left.without(np.vstack([others, self._scaled_coordinates()[~self.idle]]))
+        if len(own.directions) != 1:
+            return []
+        named = self._screw(body, own.directions[0, 6 * body : 6 * body + 6])
+        if " and " not in named.words.partition(", through ")[2]:
+            return []
+        self._take(own.directions)
+        return [named]
+
+    def _carried(self) -> list[Freedom]:
+        """Six motions of every body that no joint holds, the heaviest of those that hang together, with what it carries."""
+        whole, found = self.left.directions, []
+        for body in np.argsort(-self.record.bodies.mass[: self.system.body_count], kind="stable"):
+            place = np.s_[6 * body : 6 * body + 6]
+            own = self.left.directions[:, place]
+            if len(own) < 6 or np.linalg.matrix_rank(own, tol=DEPENDENT) < 6:
+                continue
+            moving = self._moving(np.linalg.pinv(whole[:, place]) @ whole)
+            found.append(Freedom(6, f"{self.system.bodies[body]} is free in space: {moving}"))
+            self.left = self.left.without(np.eye(6 * self.system.body_count)[place])
+        return found
+
+    def _together(self) -> list[Freedom]:
+        """The turn of some bodies as one, where that is all that is left."""
+        if len(self.left.directions) != 1:
+            return []
+        motions = self.left.directions[0].reshape(-1, 6)
+        bodies = np.flatnonzero(np.linalg.norm(motions, axis=1) > STILL)
+        record, size = self.record.bodies, self.system.size
+        omega = np.einsum("kij,kj->ki", record.A[bodies], motions[bodies, 3:])
+        # of the point of each body that is at the origin
+        velocity = motions[bodies, :3] * size - np.cross(omega, record.R[bodies])
+        apart = np.abs(omega - omega[0]).max() * size + np.abs(velocity - velocity[0]).max()
+        first = int(bodies[0])
+        named = self._screw(first, motions[first])
+        if apart > STILL * size or " turns about " not in named.words:
+            return []
+        self._take(self.left.directions)
+        where = named.words.partition(" turns about ")[2].replace("its own axis", "their axis")
+        moving = self._moving(motions.reshape(1, -1)).replace(" move", " turn together")
+        return [Freedom(1, f"{moving} about {where}", named.remedy)]
 
     def _scaled_coordinates(self) -> Array:
         return self.coordinates / np.maximum(np.linalg.norm(self.coordinates, axis=1, keepdims=True), 1e-300)
@@ -106,14 +155,7 @@ class _Names:
         centre = self.record.bodies.R[body] + self.record.bodies.A[body] @ self.record.bodies.centre_b[body]
         own = "its own axis" if _on_axis(centre, point, axis, NEAR * size) else f"the axis {_direction(axis)}"
         through = f", through {' and '.join(joints)}" if joints else ""
-        return Freedom(1, f"{name} turns about {own}{through}", self._without_spin(joints))
-
-    def _without_spin(self, joints: Sequence[str]) -> str:
-        types = {joint.name: joint.type for joint in self.machine.joints}
-        balls = [joint for joint in joints if types[joint] == "spherical"]
-        if not balls:
-            return ""
-        return f"make {balls[0]} universal, with `axes` across that axis"
+        return Freedom(1, f"{name} turns about {own}{through}", without_turn(self.machine, joints, axis))
 
     def _joints_at(self, body: int) -> list[tuple[str, Array]]:
         """The joints of a body, and where they hold it."""

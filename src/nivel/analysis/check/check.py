@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,7 +25,8 @@ from nivel.analysis.check.elements import (
 from nivel.analysis.plan.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.machine.machine_record import MachineRecord
@@ -107,6 +108,10 @@ class Check:
     followed: tuple[str, ...]  # of the bodies whose velocities were changed those for which none was given
     cut: tuple[str, ...]  # joints that stay constraints in relative coordinates
     settings: RunSettings
+    unsettled: tuple[str, str] = (
+        "",
+        "",
+    )  # why no equilibrium was found to start from, and what to try: then it is shown as drawn
 
     def __repr__(self) -> str:
         extra = f", redundant: {', '.join(self.redundant_rows)}" if self.redundant_rows else ""
@@ -241,7 +246,7 @@ def _vector(values: tuple[float, ...], digits: int = 6) -> str:
 def check(plan: Plan) -> Check:
     """Assemble the machine of a plan. Raises ModelError with what is wrong."""
     own, machine, settings = plan.machine, plan.methods.machine, plan.settings
-    prepared = prepare(plan.methods)
+    prepared, unsettled = _prepared(plan.methods)
     system = prepared.absolute.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
     from nivel.kernels.output.observe import observe
@@ -300,7 +305,20 @@ def check(plan: Plan) -> Check:
         followed=assembly.followed,
         cut=_cut(plan.methods) if settings.coordinates == "relative" else (),
         settings=settings,
+        unsettled=unsettled,
     )
+
+
+def _prepared(methods: Methods) -> tuple[Prepared, tuple[str, str]]:
+    """The machine ready to run: as drawn where no equilibrium is found to start from, and then why and what to try."""
+    try:
+        return prepare(methods), ("", "")
+    except SolveError as error:
+        machine = methods.machine
+        if machine.simulation.start != "equilibrium":
+            raise
+        drawn = machine.replace(simulation=machine.simulation.replace(start="as-given"))
+        return prepare(replace(methods, machine=drawn)), (error.message, error.advice)
 
 
 def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
@@ -299,16 +299,27 @@ def refuse_struck_nodes(
         raise ModelError(faults)
 
 
-def refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:
-    """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many."""
+def refuse_uncertain_loads(
+    machine: MachineRecord, redundancy: Redundancy, exact: Callable[[], tuple[str, ...]]
+) -> None:
+    """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many.
+
+    exact : changes of joints with which nothing is redundant, in words.
+    """
     faults = []
     for force in machine.forces:
         if isinstance(force, Friction) and force.normal_load is None:
             joint, _ = resolve(force.coordinate, machine.joints)
             if joint in redundancy.non_unique_joints:
+                rows, changes = redundancy.redundant_rows, exact()
                 message = (
-                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(redundancy.redundant_rows)} "
-                    f"repeat other constraints; give a `normal_load`, or replace joints until no constraint is redundant"
+                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(rows)} "
+                    f"repeat{'s' if len(rows) == 1 else ''} other constraints; give a `normal_load`, or "
+                    + (
+                        f"make {' and '.join(changes)}"
+                        if changes
+                        else "replace joints until no constraint is redundant"
+                    )
                 )
                 faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
     if faults:

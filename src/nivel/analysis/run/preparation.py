@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,6 +12,7 @@ import numpy as np
 from nivel.analysis.assembly.assemble import Assembly, assemble
 from nivel.analysis.assembly.circuit_start import circuit_start
 from nivel.analysis.assembly.equations import MotionEquations, equations
+from nivel.analysis.assembly.exact_joints import exact_joints
 from nivel.analysis.assembly.ground import touches_ground
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
 from nivel.analysis.assembly.left_out import leave_out, rows_everywhere
@@ -84,7 +86,7 @@ def prepare(methods: Methods, given: Assembled | None = None, residual: Residual
     if rest is not None:
         assembly = rest.assembled(motion, assembly)
     redundancy, absolute = _independent_rows(machine, motion, assembly.y)
-    refuse_uncertain_loads(machine, redundancy)
+    refuse_uncertain_loads(machine, redundancy, partial(_exactly_constrained, machine, motion, assembly.y, redundancy))
     refuse_deep_starts(machine, absolute, assembly.y)
     motion.system.record.coordinates.reference[:] = assembly.reference
     system, y = circuit_start(machine, absolute, assembly.y)
@@ -114,6 +116,14 @@ def prepare(methods: Methods, given: Assembled | None = None, residual: Residual
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
         jumping,
     )
+
+
+def _exactly_constrained(
+    machine: MachineRecord, motion: MotionEquations, y: Array, redundancy: Redundancy
+) -> tuple[str, ...]:
+    """Changes of joints after which no constraint repeats another."""
+    motion.evaluate(0.0, y)
+    return exact_joints(machine, motion, redundancy.non_unique_joints)
 
 
 def _assembled(machine: MachineRecord) -> Assembled:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.statics.equations import StateError, StaticEquations
+from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.labels import direction_in_words, worst_row
 from nivel.analysis.statics.linear import PivotError
+from nivel.analysis.statics.loose import loose_coordinates
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
 from nivel.analysis.statics.search import MOVES_ON
@@ -17,10 +18,14 @@ IMPLICIT_ACCELERATIONS = 1e-6
 HOLD = "Hold that motion by a joint, a spring, a driver, or a load that brings it back."
 
 
-def without_stiffness(equations: StaticEquations, loose: Softest) -> tuple[str, str]:
-    """(message, advice) where the machine can move without any resistance."""
+def without_stiffness(equations: StaticEquations, state: Rest, loose: Softest) -> tuple[str, str]:
+    """(message, advice) where the machine can move without any resistance from an equilibrium."""
     words = direction_in_words(equations, loose.direction)
-    return f"the machine is a mechanism: a motion has no stiffness, in which most moves: {words}", HOLD
+    message = f"the machine is a mechanism: a motion has no stiffness, in which most moves: {words}"
+    coordinates = loose_coordinates(equations, state)
+    if not coordinates:
+        return message, f"{HOLD} `nivel check` names every freedom, and what removes an idle one."
+    return message, f"{HOLD} Or let it stay as placed: `simulation: {{free: [{', '.join(coordinates)}]}}`."
 
 
 def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, str]:
@@ -35,7 +40,7 @@ def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, 
     if loose is not None and is_mechanism(loose):
         left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
         if left <= IMPLICIT_ACCELERATIONS * equations.loads(error.state):
-            return without_stiffness(equations, loose)
+            return without_stiffness(equations, error.state, loose)
         words = direction_in_words(equations, loose.direction)
         return f"{message}; a motion has no stiffness, in which most moves: {words}", HOLD
     if error.reason == MOVES_ON:

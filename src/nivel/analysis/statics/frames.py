@@ -85,6 +85,19 @@ class FrameWriter:
             out = np.concatenate([out, self._vibrating(state, facts.vibrations)])
         return out[None]
 
+    def rates(self, state: Rest, directions: Array) -> Array:
+        """(k, n) rates of all joint coordinates in motions (k, f) without units; angles per radian, ways per length of the machine."""
+        equations = self.equations
+        columns = next(each.columns for each in self._full.variables if each.name == "joint_rate")
+        found = np.zeros((len(directions), columns.stop - columns.start))
+        for k, direction in enumerate(directions):
+            velocity = np.zeros(equations.n)
+            velocity[equations.free] = direction * equations.length[equations.free]
+            found[k] = self._observed(state, velocity)[columns]
+        lengths = np.array([each == "m" for each in equations.system.coordinate_units], dtype=bool)
+        found[:, lengths] /= equations.system.size
+        return found
+
     def _observed(self, state: Rest, velocity: Array) -> Array:
         """A frame of a machine in this state without accelerations, moving at this velocity (n,).
 

@@ -161,7 +161,7 @@ def _follow(
     loose = None if equations.states_move else softest(found.tangent)
     as_drawn = found.iterations == 0 and not settings.duration
     if loose is not None and is_mechanism(loose) and not (settings.modes and as_drawn):
-        walk.outcome, walk.ended = "failed", without_stiffness(equations, loose)
+        walk.outcome, walk.ended = "failed", without_stiffness(equations, found.state, loose)
         return
     equations.follow(found.state)
     first = Point(found, 0.0)

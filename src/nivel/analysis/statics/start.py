@@ -84,7 +84,7 @@ def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
         raise SolveError("the forces at t = 0 are not numbers", time=0.0, advice="Look at their laws.") from None
     loose = None if equations.states_move else softest(found.tangent)
     if loose is not None and is_mechanism(loose):
-        message, advice = without_stiffness(equations, loose)
+        message, advice = without_stiffness(equations, found.state, loose)
         raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice)
     equations.follow(found.state)
     reference = equations.record.coordinates.reference.copy()

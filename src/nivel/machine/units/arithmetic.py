@@ -9,7 +9,7 @@ What varies is `time` and signals: what the machine itself does, such as `hinge.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from itertools import pairwise
@@ -17,6 +17,7 @@ from typing import Final, SupportsFloat
 
 from nivel.machine.units.dimension import Dimension
 from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated
+from nivel.machine.units.slips import spelled
 from nivel.machine.units.unit import UNITS, UnknownUnitError, unit
 
 
@@ -284,7 +285,8 @@ def _bind_call(function: str, arguments: tuple[Node, ...], parameters: Parameter
             raise FaultyParameterError(function)
         raise ExpressionError(f"`{function}` is a number and takes no arguments; `*` is missing behind it")
     known = [*FUNCTIONS, LOOKUP, *(name for name, each in parameters.items() if isinstance(each, Function))]
-    near = [each for each in known if each == function.casefold()] or get_close_matches(function, known, n=1)
+    last = function.casefold().rpartition(".")[2]  # of `math.sin`
+    near = [each for each in known if each == last] or get_close_matches(function, known, n=1)
     hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(known)}"
     raise ExpressionError(f"there is no function `{function}`{hint}")
 
@@ -354,14 +356,26 @@ def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Numb
         return value
     if name in CONSTANTS:
         return Number(CONSTANTS[name])
+    meant = spelled(name)
     try:
-        return Number(*unit(name))
+        if not meant or name in UNITS or not name.lstrip("kMm").startswith("N"):
+            return Number(*unit(name))  # pint would take the `s` of `Nms` for a plural
     except UnknownUnitError:
-        if name.lower() in NOT_FINITE:
-            raise ExpressionError(f"a finite number is needed, got `{name}`") from None
-        near = get_close_matches(name, [*local, *parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
-        hint = f"; did you mean `{near[0]}`?" if near else ""
-        raise UnknownNameError(name, hint) from None
+        pass
+    if name.lower() in NOT_FINITE:
+        raise ExpressionError(f"a finite number is needed, got `{name}`")
+    near = _near(name, [*local, *parameters, *RESERVED, *UNITS])
+    hint = f"; write `{meant}`" if meant else f"; did you mean `{near[0]}`?" if near else ""
+    raise UnknownNameError(name, hint)
+
+
+def _near(name: str, known: Sequence[str]) -> list[str]:
+    """What may be meant by `name`: a unit in small letters, or one of the `known`; nothing is near a single letter."""
+    try:
+        unit(name.lower())
+    except UnknownUnitError:
+        return get_close_matches(name, known, n=1, cutoff=0.6) if len(name) > 1 else []
+    return [name.lower()]
 
 
 def evaluate(node: Node, time: float = math.nan, values: Mapping[str, float] | None = None) -> float:

@@ -41,6 +41,7 @@ from nivel.machine.units.unit import UNITS
 _MOST_TOKENS = 400  # trees are walked by recursion: this and _DEEPEST keep them far from Python's limit
 _MOST_LISTED = 20_000  # with numbers and commas, of which points of curves are made
 _DEEPEST = 60
+_VECTORS = {"position": "", "pos": "", "velocity": "v", "vel": "v", "angular_velocity": "w", "omega": "w"}  # of bodies
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|"
     r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*|°)|(?P<symbol>\*\*|<=|>=|[-+*/^(),<>]))"
@@ -212,6 +213,9 @@ def _named(name: str) -> Node:
     if "." not in name:
         return Time() if name == TIME else Name(name)
     if name.count(".") > 1:
+        element, quantity, *rest = name.split(".")
+        if quantity in _VECTORS and rest in (["x"], ["y"], ["z"]):
+            raise ExpressionError(f"`{name}` has more than one dot; write `{element}.{_VECTORS[quantity]}{rest[0]}`")
         raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
     return Signal(name)
 

@@ -8,6 +8,7 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 from __future__ import annotations
 
 import numbers
+import re
 from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
@@ -193,8 +194,8 @@ def expression_fault(problem: ExpressionError, value: object) -> PydanticCustomE
     message = str(problem)
     if isinstance(value, str) and f"`{value.strip()}`" not in message:
         message = f"{shown(value.strip())}: {message}"
-    if isinstance(value, str):
-        message += slip(value)
+    if isinstance(value, str) and (answer := slip(value)):
+        message = re.sub(r"; did you mean `[^`]*`\?$", "", message) + answer
     return fault(message)
 
 

@@ -11,8 +11,14 @@ _ANSWERS: Final = (
     (r"(?<![\w.])(?:TIME|Time|T)(?![\w.(])", " (the time is written `time`)"),
     (r"(?<![\w.])\d+(?:\.\d*)?[dD](?![\w.])", " (`d` is the unit day; degrees are written `30 deg`)"),
     (r"\?", "; write `if(condition, a, b)`"),
+    (r"(?i)\b(?:where|ifelse|iif|select)\s*\(|\S\s+if\s", "; write `if(condition, a, b)`"),
+    (r"(?i)\b(?:heaviside|unit_?step|u_step)\s*\(", "; a jump is a comparison: write `(time > 1)`"),
+    (r"·|×", "; units and numbers are multiplied by `*`"),
+    (r"[²³]", "; powers are written `^2`, `^3`"),
+    (r"(?i)\d\s*kilos?\b", "; write `kg`"),
+    (r"^\s*[\d.]+\s*:\s*[\d.]+\s*$", "; it does not divide: write `2/1`"),
     (r"(?i)\bthen\b|\belse\b", "; write `if(condition, a, b)`"),
-    (r"(?i)\b(?:akispl|cubspl|curve|interp1)\s*\(", "; a curve of `functions:` is called by its name: `NAME(time)`"),
+    (r"(?i)\b(?:akispl|cubspl|curve|interp|interp1|interp1d)\s*\(", "; a curve of `functions:` is called by its name: `NAME(time)`"),
     (r"(?i)\b(?:impact|bistop)\s*\(", "; an impact is a force: `{type: contact, …}`, or `{type: stop, …}` of a joint"),
     (r"(?i)\bstep5\s*\(|\bhavsin\s*\(|\bsmooth_?step\s*\(|\bsmoothstep\s*\(", "; write `step(time, t0, a, t1, b)`"),
     (r"(?i)\b[dvaw][xyzm]\s*\(", "; motion is read by name: `BODY.x`, `BODY.vx`, `SENSOR.value`"),
@@ -21,8 +27,28 @@ _ANSWERS: Final = (
     (r"(?i)\b(?:dtor|rtod)\b", "; write `30 deg` in place of a factor"),
     (r"\[\d\]|\[[xyz]\]", "; components are read by name: `BODY.x`, `BODY.vx`"),
     (r"\.dot\b|\bder\s*\(|'", "; rates are read by name: `JOINT.angle_rate`, `BODY.vx`"),
+    (r"(?i)^\s*(?:steel|iron|stainless)\s*$", "; the density of steel is `7850 kg/m^3`"),
+    (r"(?i)^\s*alumini?um\s*$", "; the density of aluminium is `2700 kg/m^3`"),
+    (r"(?i)^\s*(?:plastic|wood|concrete|brass|copper|titanium|nylon|abs|pla)\s*$", "; write a number, e.g. `1200 kg/m^3`"),
     (r"&&|\|\||(?<![\w.])!(?!=)", "; conditions are joined by `and`, `or` and `not(…)`"),
 )  # fmt: skip
+
+
+_PART: Final = r"k?Nm(?!m)|[kMm]?N|[kMG]?Pa|bar|k?J|k?W|kg|[mck]?m|rad|deg|min|[sghNt]|\d"
+_OF_FORCE: Final = r"[kMm]?N|[kMG]?Pa|bar|k?J|k?W"  # before an `s` that is no plural
+
+
+def spelled(name: str) -> str:
+    """The product of units that is meant by `name`: ``kg*m^2`` for `kgm2`, ``N*s`` for `Ns`; empty where none is seen."""
+    parts = re.findall(_PART, name)
+    if len(parts) < 2 or "".join(parts) != name or parts[0].isdigit():
+        return ""
+    if parts[-1] == "s" and not re.match(_OF_FORCE, name):
+        return ""
+    text = parts[0]
+    for part in parts[1:]:
+        text += f"^{part}" if part.isdigit() else f"*{part}"
+    return text
 
 
 def slip(text: str) -> str:

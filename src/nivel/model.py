@@ -35,7 +35,7 @@ from nivel.machine import (
     State,
 )
 from nivel.machine.changes import changed
-from nivel.machine.named import Known, Named
+from nivel.machine.named import Named, NamedValues
 from nivel.machine.record import entry
 from nivel.machine.references import SECTIONS
 from nivel.wording import unknown_word
@@ -217,13 +217,13 @@ class Model(Elements):
     @property
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters of the machine's file, in SI units; none where the machine was written in Python."""
-        return Known("parameter", self._file_names.parameters)
+        return NamedValues("parameter", self._file_names.parameters)
 
     @property
     def assemblies(self) -> Mapping[str, Subsystem]:
         """The subsystems that the `assemblies` of the machine's file make, by name."""
         found = {name: Subsystem(self.record, assembly) for name, assembly in self._file_names.assemblies.items()}
-        return Known("assembly", found)
+        return NamedValues("assembly", found)
 
     @checked_arguments
     def __getitem__(self, path: str) -> Any:

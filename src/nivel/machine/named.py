@@ -17,7 +17,7 @@ _ANOTHER: Final = "which gives another one"
 Value = TypeVar("Value")
 
 
-class Known(dict[str, Value]):
+class NamedValues(dict[str, Value]):
     """Values by name; a wrong name is answered with the nearest. `singular` is one of them in words."""
 
     def __init__(self, singular: str, values: Mapping[str, Value]) -> None:

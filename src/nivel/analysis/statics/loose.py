@@ -9,7 +9,7 @@ import numpy as np
 from nivel.analysis.assembly.freedoms import Freedoms
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import FrameWriter
-from nivel.analysis.statics.linear import PivotError, free_directions, is_small
+from nivel.analysis.statics.linear import PivotError, is_small
 from nivel.system.system import Array
 
 LOOSE: Final = 1e-12  # stiffness below this share of the largest counts as none
@@ -22,7 +22,7 @@ def loose_coordinates(equations: StaticEquations, state: Rest) -> tuple[str, ...
         tangent = equations.tangent(state)
         if not is_small(tangent):
             return ()
-        Z = free_directions(tangent)
+        Z = tangent.free_directions
         stiffness = Z.T @ (tangent.K @ Z)
         size = float(np.abs(tangent.K).max()) if tangent.K.nnz else 0.0
         values, vectors = np.linalg.eigh(0.5 * (stiffness + stiffness.T))

@@ -56,7 +56,8 @@ def _lists(values: Mapping[str, Any]) -> dict[str, list[Any]]:
     for path, given in values.items():
         each = given.tolist() if getattr(given, "ndim", 0) == 1 else given
         if isinstance(each, str) or not isinstance(each, Sequence) or not len(each):
-            faults.append(Fault("", 0, 0, path, f"a list of values was expected, got {shown(given)}"))
+            got = "an empty list" if isinstance(each, Sequence) and not len(each) else shown(given)
+            faults.append(Fault("", 0, 0, path, f"a list of values was expected, got {got}"))
         else:
             lists[path] = [plain(value) for value in each]
     if faults:

@@ -96,10 +96,10 @@ def install():
     Signature.function_at = lambda _, address: FUNCTIONS[int(address)]
     library.missing = lambda _: []
     library.address_of_law = lambda text, _: address_of(noted(law_of(text, "<law>")))
-    from nivel.kernels.core import handle
+    from nivel.kernels.core import block, handle
 
     handles = WeakValueDictionary()
-    make = handle.Handle.__init__
+    make = block.Handle.__init__
 
     def kept(self, record):
         make(self, record)
@@ -109,5 +109,5 @@ def install():
     def record_at(address):
         return handles[int(address[0] if isinstance(address, tuple) else address)].checked
 
-    handle.Handle.__init__ = kept
+    block.Handle.__init__ = kept
     handle.reader = lambda *_: record_at

@@ -433,5 +433,5 @@ def test_statics_say_of_stability_what_they_know(sampled, verdict):
     result = Machine.from_record(parse_machine(ARM % sampled)).statics()
     (stability,) = [item for item in result.trust.items if item.name == "stability"]
     assert stability.verdict == verdict
-    assert ("not judged" in stability.text) == bool(sampled)
+    assert ("not determined" in stability.text) == bool(sampled)
     np.testing.assert_allclose(result["hinge.angle"], 0.4, rtol=0, atol=1e-9)

@@ -121,4 +121,4 @@ def test_a_red_run_names_what_is_too_fast_for_its_steps():
     assert result.trust.verdict == "red"
     (item,) = [item for item in result.trust.items if item.name == "steps"]
     assert (item.verdict, item.row) == ("amber", "spring")
-    assert "rk4 follows it with steps below 0.00991 s, not 0.05 s" in item.text
+    assert "rk4 follows it with steps below 0.00991 s, but the step is 0.05 s" in item.text

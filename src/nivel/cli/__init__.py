@@ -87,9 +87,11 @@ def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
     options = problem.ctx.command.params if problem.ctx is not None else []
     ours = [option.removeprefix("--") for each in options for option in each.opts if option.startswith("--")]
     found = re.fullmatch(r"did you mean `(.*)`\?", translated(problem.option_name.lstrip("-"), ours))
-    return (
-        click.NoSuchOption(problem.option_name, possibilities=[f"--{found[1]}"], ctx=problem.ctx) if found else problem
-    )
+    if not found:
+        return problem
+    # possibilities given to it would be left out where they are spelled otherwise
+    message = f"No such option '{problem.option_name}'. Did you mean '--{found[1]}'?"
+    return click.NoSuchOption(problem.option_name, message, ctx=problem.ctx)
 
 
 def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:

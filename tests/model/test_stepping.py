@@ -49,7 +49,9 @@ def test_a_state_that_is_restored_goes_on_as_before(integrator, tmp_path):
     sim.advance(0.05)
     expected = sim["position"]
     other = machine.start(integrator=integrator, coordinates="absolute" if integrator == "generalised-alpha" else None)
-    other.restore(Snapshot.open(tmp_path / "state.npz"))
+    saved = Snapshot.open(tmp_path / "state.npz")
+    assert repr(saved) == f"Snapshot(time={saved.time!r})"
+    other.restore(saved)
     assert other.time == pytest.approx(0.05)
     other.advance(0.05)
     np.testing.assert_array_equal(other["position"], expected)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
@@ -56,8 +56,8 @@ class Snapshot:
     """
 
     time: float
-    machine: str
-    arrays: tuple[NDArray[Any], ...]
+    machine: str = field(repr=False)
+    arrays: tuple[NDArray[Any], ...] = field(repr=False)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write it to a file (NumPy's `.npz`); an existing file is replaced."""

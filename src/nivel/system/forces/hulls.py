@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces import hull_contact as kernel
+from nivel.kernels.forces.hull_pair import NUMBERS
 from nivel.machine.body import Body
 from nivel.machine.forces import Contact
 from nivel.machine.shape import Box, Extrusion, Mesh
@@ -90,7 +90,7 @@ def _edges(corners: Array, faces: Array) -> NDArray[np.int64]:
 
 
 def row_of(hulls: tuple[Hull, Hull], force: Contact) -> tuple[list[int], list[float]]:
-    """Columns behind the markers, and numbers, of a contact: see `nivel.kernels.forces.hull_contact`."""
+    """Columns behind the markers, and numbers, of a contact: see `nivel.kernels.forces.hull_pair`."""
     first, second = hulls
     counts = (
         [len(each.corners) for each in hulls]
@@ -100,7 +100,7 @@ def row_of(hulls: tuple[Hull, Hull], force: Contact) -> tuple[list[int], list[fl
     modulus, speed = force.foundation_modulus or 0.0, force.friction_transition_speed or 1.0
     # pressure of both bodies at the same depth: half the overlap each
     numbers = [2.0 * modulus, force.damping or 0.0, force.friction, speed, first.radius, second.radius]
-    numbers += [0.0] * (kernel.NUMBERS - len(numbers))
+    numbers += [0.0] * (NUMBERS - len(numbers))
     numbers += [*first.corners.ravel(), *first.faces.ravel(), *np.zeros(second.faces.size)]
     numbers += [*second.corners.ravel(), *second.faces.ravel(), *np.zeros(second.corners.size)]
     faces = len(first.faces) + len(second.faces)

@@ -146,7 +146,7 @@ def peak() -> float:
 
 def main() -> None:
     records = {
-        "slider-crank": nivel.load(EXAMPLES / "slider-crank.yaml").record,
+        "slider-crank": nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").record,
         "chain of 256": chain(256),
     }
     cases = [

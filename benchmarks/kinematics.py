@@ -8,7 +8,7 @@ from time import perf_counter
 
 import nivel
 
-MACHINE = Path(__file__).parent.parent / "examples" / "slider-crank.yaml"
+MACHINE = Path(__file__).parent.parent / "examples" / "mechanisms" / "slider-crank.yaml"
 POSITIONS, RUNS = 10_001, 7
 
 

@@ -19,7 +19,7 @@ from nivel.analysis.run.preparation import prepare
 from nivel.kernels.output.observe import accept, observe
 from part import REPEATS, measure, part
 
-EXAMPLE = Path(__file__).parent.parent / "examples" / "slider-crank.yaml"
+EXAMPLE = Path(__file__).parent.parent / "examples" / "mechanisms" / "slider-crank.yaml"
 
 
 @part

@@ -17,6 +17,7 @@ import nivel
 from nivel.errors import ModelError, SolveError
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+RIGID = ("mechanisms", "contact", "vehicles", "machines", "control")
 STARTS, DRAWS = 200, 20
 BALANCED = 1e-9  # of the largest load
 
@@ -96,4 +97,5 @@ def main(starts, names):
 
 if __name__ == "__main__":
     count = int(sys.argv[1]) if len(sys.argv) > 1 else STARTS
-    main(count, sys.argv[2:] or sorted(path.stem for path in EXAMPLES.glob("*.yaml")))
+    rigid = (path for folder in RIGID for path in sorted((EXAMPLES / folder).glob("*.yaml")))
+    main(count, sys.argv[2:] or [path.relative_to(EXAMPLES).with_suffix("").as_posix() for path in rigid])

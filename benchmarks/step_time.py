@@ -68,7 +68,7 @@ class OwnRun:
         self, name: str, coordinates: str, formulation: str, stabilisation: str, step: float, integrator: str
     ) -> None:
         self.row = Row(name, "nivel", f"{coordinates}, {formulation}", stabilisation)
-        self._machine = nivel.load(ROOT / "examples" / f"{name}.yaml")
+        self._machine = nivel.load(ROOT / "examples" / "mechanisms" / f"{name}.yaml")
         self._options = {
             "duration": DURATIONS[name],
             "step": step,

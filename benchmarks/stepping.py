@@ -15,7 +15,7 @@ EXAMPLES = Path(__file__).parent.parent / "examples"
 
 def main() -> None:
     """Print both, in microseconds a step; the least difference of several rounds."""
-    sim = nivel.load(EXAMPLES / "slider-crank.yaml").start()
+    sim = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").start()
     rounds = []
     for _ in range(8):
         begin = time.thread_time()

@@ -82,7 +82,7 @@ def _spent() -> Iterator[dict[str, float]]:
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Processor time of a sweep over that of its compiled loops.")
-    parser.add_argument("machine", nargs="?", default=ROOT / "examples" / "suspension.yaml")
+    parser.add_argument("machine", nargs="?", default=ROOT / "examples" / "vehicles" / "suspension.yaml")
     parser.add_argument("--path", default="parameters.stiffness")
     parser.add_argument("--from", dest="low", type=float, default=24e3)
     parser.add_argument("--to", dest="high", type=float, default=32e3)

@@ -62,7 +62,7 @@ class OwnRun:
 
     def __init__(self, name: str, integrator: str, coordinates: str, stabilisation: str) -> None:
         self.row = Row(name, "nivel", f"{integrator}, {coordinates}, {stabilisation}")
-        self._machine = nivel.load(ROOT / "examples" / f"{name}.yaml")
+        self._machine = nivel.load(ROOT / "examples" / "mechanisms" / f"{name}.yaml")
         self._chooses = INTEGRATORS[integrator].chooses_steps
         self._options = {
             "duration": DURATIONS[name],

@@ -301,7 +301,7 @@ def result_files(rng: random.Random, folder: Path) -> Callable[[], object]:
     """A result with changed bytes, opened and read."""
     original = folder.parent / "original.nc"
     if not original.exists():
-        nivel.load(ROOT / "examples" / "simple-pendulum.yaml").simulate(duration=0.05, out=original)
+        nivel.load(ROOT / "examples" / "mechanisms" / "simple-pendulum.yaml").simulate(duration=0.05, out=original)
     path = folder / "result.nc"
     content = bytearray(original.read_bytes())
     for _ in range(rng.randint(1, 30)):

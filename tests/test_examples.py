@@ -2,19 +2,17 @@
 
 import csv
 import runpy
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 import nivel
+from example_files import EXAMPLES, RIGID
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
 
-
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.yaml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", RIGID, ids=lambda path: path.stem)
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 def test_example_runs_green(path, formulation):
     result = nivel.load(path, allow_code=True).simulate(formulation=formulation)
@@ -27,7 +25,7 @@ def test_example_runs_green(path, formulation):
 
 def test_slider_crank_passes_its_first_top_dead_centre_at_the_known_time():
     """1.307 s (rigid.md), and the motion of the one-degree-of-freedom solution."""
-    result = nivel.load(EXAMPLES / "slider-crank.yaml").simulate(output_interval="1 ms", duration=2)
+    result = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").simulate(output_interval="1 ms", duration=2)
     height = result.array("crank.position")[:, 1]  # gravity is along -Y
     assert result.time[np.argmax(height[:1500])] == pytest.approx(1.307, abs=2e-3)
     expected = slider_crank.solve(result.time)
@@ -35,14 +33,14 @@ def test_slider_crank_passes_its_first_top_dead_centre_at_the_known_time():
 
 
 def test_four_bar_follows_its_one_degree_of_freedom_solution():
-    result = nivel.load(EXAMPLES / "four-bar.yaml").simulate(output_interval="50 ms")
+    result = nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml").simulate(output_interval="50 ms")
     x, y, _ = result.array("position")[0, 0]
     expected = four_bar.solve(result.time, crank_angle=np.arctan2(y, x))
     np.testing.assert_allclose(result.array("position"), expected.position, atol=1e-6)
 
 
 def test_heavy_top_follows_the_reference():
-    result = nivel.load(EXAMPLES / "heavy-top.yaml").simulate(step="0.05 ms", output_interval="20 ms")
+    result = nivel.load(EXAMPLES / "mechanisms" / "heavy-top.yaml").simulate(step="0.05 ms", output_interval="20 ms")
     expected = heavy_top.solve(result.time)
     axes = Rotation.from_quat(result.array("orientation")[:, 0], scalar_first=True).as_matrix()
     np.testing.assert_allclose(axes, expected.rotation, atol=1e-5)
@@ -50,7 +48,7 @@ def test_heavy_top_follows_the_reference():
 
 def test_andrews_squeezer_follows_its_seven_angles():
     """Frames away from the centres of mass, three loops, a spring; the reference meets the published end values."""
-    machine = nivel.load(EXAMPLES / "andrews-squeezer.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "andrews-squeezer.yaml")
     result = machine.simulate()
     expected = andrews.solve(result.time, spring=True)
     A = (
@@ -65,14 +63,14 @@ def test_andrews_squeezer_follows_its_seven_angles():
 
 
 def test_simple_pendulum_meets_the_benchmark():
-    result = nivel.load(EXAMPLES / "simple-pendulum.yaml").simulate()
+    result = nivel.load(EXAMPLES / "mechanisms" / "simple-pendulum.yaml").simulate()
     expected = pendulum.solve(result.time, pendulum.IFTOMM_A01)
     np.testing.assert_allclose(result.array("bob.position"), expected.position, atol=1e-5)
     assert np.abs(result.array("energy_error")).max() < 5e-5
 
 
 def test_machine_written_in_python_runs_and_round_trips(tmp_path):
-    machine = runpy.run_path(str(EXAMPLES / "double_pendulum.py"))["machine"]
+    machine = runpy.run_path(str(EXAMPLES / "mechanisms" / "double_pendulum.py"))["machine"]
     result = machine.simulate(duration=1)
     assert result.trust.verdict == "green"
     machine.save(tmp_path / "double.yaml")
@@ -84,7 +82,7 @@ def test_double_pendulum_matches_its_two_equations():
     """Lagrange's equations of two bars, relative to the vertical, written here; DOP853 at 1e-12."""
     from scipy.integrate import solve_ivp
 
-    machine = runpy.run_path(str(EXAMPLES / "double_pendulum.py"))["machine"]
+    machine = runpy.run_path(str(EXAMPLES / "mechanisms" / "double_pendulum.py"))["machine"]
     result = machine.simulate(duration=2)
     L, width, g = 0.5, 0.04, 9.81
     # a bar's mass cancels; J about its centre, the box L by width in the plane of motion
@@ -107,7 +105,7 @@ def test_double_pendulum_matches_its_two_equations():
 
 
 def test_csv_of_a_result_is_read_back(tmp_path):
-    result = nivel.load(EXAMPLES / "simple-pendulum.yaml").simulate(duration=0.1)
+    result = nivel.load(EXAMPLES / "mechanisms" / "simple-pendulum.yaml").simulate(duration=0.1)
     result.export_csv(tmp_path / "pendulum.csv", select=["bob.position"])
     rows = list(csv.reader((tmp_path / "pendulum.csv").read_text(encoding="utf-8").splitlines()))
     assert len(rows) > len(result.time)
@@ -115,7 +113,7 @@ def test_csv_of_a_result_is_read_back(tmp_path):
 
 def test_result_is_never_written_over_its_own_machine(tmp_path):
     path = tmp_path / "machine.yaml"
-    text = (EXAMPLES / "simple-pendulum.yaml").read_text(encoding="utf-8")
+    text = (EXAMPLES / "mechanisms" / "simple-pendulum.yaml").read_text(encoding="utf-8")
     path.write_text(text, encoding="utf-8")
     with pytest.raises(nivel.ModelError, match="made from"):
         nivel.load(path).simulate(out=path, force=True, duration=0.01)

@@ -1,13 +1,11 @@
 """The machines of a newcomer's first day: each does what its first line says."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import nivel
+from example_files import rigid_example
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
 MACHINES = (
     "double-wishbone",
     "excavator",
@@ -21,7 +19,7 @@ MACHINES = (
 
 
 def simulated(name, **settings):
-    return nivel.load(EXAMPLES / f"{name}.yaml").simulate(**settings)
+    return nivel.load(rigid_example(name)).simulate(**settings)
 
 
 def way(t, begin, end, length):
@@ -32,7 +30,7 @@ def way(t, begin, end, length):
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_a_machine_takes_at_most_forty_lines(name):
-    assert len((EXAMPLES / f"{name}.yaml").read_text(encoding="utf-8").splitlines()) <= 40
+    assert len((rigid_example(name)).read_text(encoding="utf-8").splitlines()) <= 40
 
 
 def test_cylinders_of_the_excavator_move_by_their_strokes():

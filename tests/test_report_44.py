@@ -1,7 +1,7 @@
 """Tables 9 to 11 of report 44 (Rouvinen 2003) come out of its program written again, and docs/report-44.md says what is so.
 
 Of the program the cells of the four-bar are run, with `--full` all. That it gives the library's numbers without its habits is asserted
-for three of the seventeen cells that do not run away, with `--full` for ten; examples/report_44.py prints them all.
+for three of the seventeen cells that do not run away, with `--full` for ten; examples/report-44/report_44.py prints them all.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""What docs/singular-positions.md concludes is so, and its tables hold what examples/singular_positions.py computes."""
+"""What docs/singular-positions.md concludes is so, and its tables hold what examples/report-44/singular_positions.py computes."""
 
 import re
 from functools import cache

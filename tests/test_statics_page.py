@@ -57,9 +57,9 @@ def test_toggle_has_the_limit_load_that_its_file_states():
     half_span, stiffness, length = 1.0, 1000.0, 1.09**0.5
     s = (length * half_span**2) ** (1 / 3)
     limit = 2 * stiffness * (length / s - 1) * (s**2 - half_span**2) ** 0.5
-    assert f"{limit:.2f} N" in (ROOT / "examples" / "toggle.yaml").read_text(encoding="utf-8")
+    assert f"{limit:.2f} N" in (ROOT / "examples" / "mechanisms" / "toggle.yaml").read_text(encoding="utf-8")
     with pytest.raises(SolveError, match="limit point") as caught:
-        nivel.load(ROOT / "examples" / "toggle.yaml").statics()
+        nivel.load(ROOT / "examples" / "mechanisms" / "toggle.yaml").statics()
     assert 20 * caught.value.result.time[-1] == pytest.approx(limit, rel=1e-4)
 
 

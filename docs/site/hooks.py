@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = {"NOTATION.md": "notation.md", "benchmarks/README.md": "benchmarks.md", "README.md": "index.md"}
 OUTSIDE = re.compile(r"\]\(((?:\.\./)+[^)#\s]+)(#[^)\s]*)?\)")
 ANY = re.compile(r"\]\((?!http|#)([^)#\s]+)(#[^)\s]*)?\)")
-MOVING = ("slider-crank", "suspension", "four-bar")
+MOVING = ("mechanisms/slider-crank", "vehicles/suspension", "mechanisms/four-bar")
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
@@ -58,7 +58,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for name, text in drawn.items():
         add(name, text)
     for name in MOVING if pictures else ():
-        add(f"moving/{name}.html", moving_picture(name))
+        add(f"moving/{Path(name).name}.html", moving_picture(name))
     return files
 
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import nivel
+from example_files import rigid_example
 from nivel.analysis.assembly.turned_frame import cardan, nearest_angles, rates_of_angles
 from nivel.analysis.interactive import posing
 from nivel.analysis.interactive.posing import Posing
@@ -25,7 +26,7 @@ def patience(monkeypatch):
 
 
 def posed(name) -> Posing:
-    return nivel.load(EXAMPLES / f"{name}.yaml", allow_code=True).posed()
+    return nivel.load(rigid_example(name), allow_code=True).posed()
 
 
 def gaps(machine: Posing) -> float:
@@ -61,7 +62,7 @@ def test_a_crank_goes_all_round_and_its_rocker_does_not():
 def test_other_freedoms_of_an_open_chain_stay():
     import runpy
 
-    machine = runpy.run_path(str(EXAMPLES / "double_pendulum.py"))["machine"].posed()
+    machine = runpy.run_path(str(EXAMPLES / "mechanisms" / "double_pendulum.py"))["machine"].posed()
     machine.move("elbow.angle", 0.4)
     machine.move("shoulder.angle", -0.9)
     values = dict(zip([each.name for each in machine.movements], machine.values(), strict=True))

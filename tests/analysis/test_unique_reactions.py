@@ -8,7 +8,7 @@ import pytest
 import nivel
 from nivel.analysis.assembly.unique_reactions import COMPONENTS
 
-FOUR_BAR = Path(__file__).parents[2] / "examples" / "four-bar-revolutes.yaml"
+FOUR_BAR = Path(__file__).parents[2] / "examples" / "mechanisms" / "four-bar-revolutes.yaml"
 
 
 @pytest.fixture(scope="module")

@@ -17,10 +17,10 @@ from nivel.results.frames.csv_table import columns
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 CASES = {
-    "explicit": ("slider-crank.yaml", {}),
-    "implicit": ("slider-crank.yaml", {"integrator": "generalised-alpha"}),
-    "absolute": ("four-bar.yaml", {"coordinates": "absolute"}),
-    "friction": ("friction-brake.yaml", {}),
+    "explicit": ("mechanisms/slider-crank.yaml", {}),
+    "implicit": ("mechanisms/slider-crank.yaml", {"integrator": "generalised-alpha"}),
+    "absolute": ("mechanisms/four-bar.yaml", {"coordinates": "absolute"}),
+    "friction": ("contact/friction-brake.yaml", {}),
 }
 DEAR = [
     pytest.param("beams/slider-crank.yaml", {}, marks=pytest.mark.full, id="beams"),
@@ -55,7 +55,9 @@ def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
 @pytest.fixture(scope="module")
 def pendulum(tmp_path_factory):
     """The library of the pendulum as Python sees it: functions, and a maker of blocks."""
-    folder = nivel.load(EXAMPLES / "simple-pendulum.yaml").export_c(tmp_path_factory.mktemp("c") / "c").folder
+    folder = (
+        nivel.load(EXAMPLES / "mechanisms" / "simple-pendulum.yaml").export_c(tmp_path_factory.mktemp("c") / "c").folder
+    )
     library = ctypes.CDLL(str(build(folder, "libsimple_pendulum.so") / "libsimple_pendulum.so"))
     library.simple_pendulum_size.restype = ctypes.c_size_t
     library.simple_pendulum_time.restype = ctypes.c_double
@@ -107,11 +109,11 @@ def test_machines_beside_each_other_do_not_meet(pendulum):
 
 
 def test_what_a_library_cannot_be_is_refused(tmp_path):
-    machine = nivel.load(EXAMPLES / "slider-crank.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     with pytest.raises(nivel.ModelError, match=r"steps of one length.*--integrator rk4"):
         machine.with_settings({"integrator": "dopri5"}).export_c(tmp_path / "c")
     with pytest.raises(nivel.ModelError, match="Python laws cannot go into a C library"):
-        nivel.load(EXAMPLES / "python-law.yaml", allow_code=True).export_c(tmp_path / "c")
+        nivel.load(EXAMPLES / "vehicles" / "python-law.yaml", allow_code=True).export_c(tmp_path / "c")
     assert not (tmp_path / "c").exists()
     (tmp_path / "c").mkdir()
     with pytest.raises(nivel.ModelError, match="is there already"):

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from nivel.cli import main
 from nivel.results import Result
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "toggle.yaml"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "mechanisms" / "toggle.yaml"
 PENDULUM = """\
 format: 1
 name: pendulum

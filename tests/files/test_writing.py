@@ -1,16 +1,13 @@
 """Machines written to files and read back."""
 
-from pathlib import Path
-
 import pytest
 from base_machine import BASE
 from hypothesis import given
 from hypothesis import strategies as st
 
+from example_files import RIGID
 from nivel.files import parse_machine, read_machine, write_machine
 from nivel.machine import Body, Expression, Joint, MachineRecord, Marker, Orientation, PointForce, Sphere, Table, Tube
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def test_a_machine_comes_back_equal_and_its_text_too():
@@ -20,7 +17,7 @@ def test_a_machine_comes_back_equal_and_its_text_too():
     assert write_machine(parse_machine(text)) == text
 
 
-@pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.yaml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("example", RIGID, ids=lambda path: path.stem)
 def test_examples_come_back(example):
     machine = read_machine(example, allow_code=True)
     assert machine.name == example.stem

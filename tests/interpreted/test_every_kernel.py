@@ -371,7 +371,7 @@ def test_statics(coordinates):
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_kinematics_and_linear_equations(coordinates):
-    machine = nivel.load(ROOT / "examples" / "four-bar.yaml")
+    machine = nivel.load(ROOT / "examples" / "mechanisms" / "four-bar.yaml")
     machine.kinematics(drive="crank_pivot", positions=3, end="1 rad", coordinates=coordinates)
     machine.linearise(inputs=["crank_pivot"], coordinates=coordinates)
 

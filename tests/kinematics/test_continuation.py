@@ -76,7 +76,7 @@ def test_a_parallelogram_crosses_the_antiparallelogram_where_it_is_flat():
 
 
 def test_the_curve_of_positions_is_that_of_the_driven_machine():
-    machine = nivel.load(f"{EXAMPLES}/slider-crank.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml")
     found = machine.configuration_curve("slide").to_xarray()
     driven = machine.kinematics(drive="hinge", end=float(found["hinge.angle"][-1]), positions=181)
     order = np.argsort(found["hinge.angle"].to_numpy())
@@ -88,6 +88,6 @@ def test_the_curve_of_positions_is_that_of_the_driven_machine():
 
 def test_machines_with_other_than_one_free_motion_are_refused():
     with pytest.raises(nivel.ModelError, match="one free motion, here are 0"):
-        nivel.load(f"{EXAMPLES}/scissor-lift.yaml").configuration_curve("base")
+        nivel.load(f"{EXAMPLES}/mechanisms/scissor-lift.yaml").configuration_curve("base")
     with pytest.raises(nivel.ModelError, match="one free motion, here are 6"):
-        nivel.load(f"{EXAMPLES}/robot-arm.yaml").configuration_curve("j1")
+        nivel.load(f"{EXAMPLES}/control/robot-arm.yaml").configuration_curve("j1")

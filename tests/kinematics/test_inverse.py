@@ -11,7 +11,7 @@ EXAMPLES = "examples"
 
 @pytest.fixture(scope="module")
 def crank():
-    return nivel.load(f"{EXAMPLES}/slider-crank.yaml")
+    return nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml")
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def test_power_is_the_change_of_energy(crank, turn):
 
 def test_efforts_fed_back_reproduce_the_motion():
     """A motor with the efforts of half a turn, as a cubic table, takes the place of the driver."""
-    record = nivel.load(f"{EXAMPLES}/slider-crank.yaml").record
+    record = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").record
     driver = nivel.Driver(name="turn", coordinate="hinge", value="0.5*time^2")
     machine = nivel.Machine.from_record(record.replace(drivers=(driver,)))
     motion = machine.kinematics(duration=2, positions=801)
@@ -85,7 +85,7 @@ def test_what_no_actuator_gives_is_told(crank, turn):
 
 def test_a_motion_of_another_machine_is_noticed(crank, turn):
     """The same names, a longer rod: its joints are open in the motion of the shorter one."""
-    other = nivel.load(f"{EXAMPLES}/slider-crank.yaml", {"parameters.rod_length": 1.9})
+    other = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml", {"parameters.rod_length": 1.9})
     found = other.inverse(actuators="hinge", motion=turn)
     assert "joints open by" in found.statements()[0]
     assert not crank.inverse(actuators="hinge", motion=turn).statements()

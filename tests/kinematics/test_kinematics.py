@@ -5,6 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import nivel
+from example_files import rigid_example
 from nivel.results.analyses.mechanism import joint_place
 from references import four_bar, one_dof, slider_crank
 
@@ -25,7 +26,7 @@ def crank_angles(name, result):
 def driven(request):
     """(linkage, result of one turn of the crank in 2 s, its angles)."""
     module, joint = LINKAGES[request.param]
-    machine = nivel.load(f"{EXAMPLES}/{request.param}.yaml")
+    machine = nivel.load(rigid_example(request.param))
     result = machine.kinematics(drive=joint, duration=2, positions=401)
     return module.LINKAGE, result, crank_angles(request.param, result)
 
@@ -59,7 +60,7 @@ def test_the_effort_of_the_driver_is_that_of_lagranges_equation(driven):
 
 def test_velocities_and_accelerations_are_derivatives_of_positions():
     """Fourth-order differences of 4001 positions: h⁴/30 of the fifth derivative is below 1e-8."""
-    machine = nivel.load(f"{EXAMPLES}/watt-six-bar.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/watt-six-bar.yaml")
     result = machine.kinematics(duration="60 s/180", positions=4001)
     for lower, upper in (("position", "velocity"), ("velocity", "acceleration")):
         values = result.array(lower).reshape(4001, -1)
@@ -69,7 +70,7 @@ def test_velocities_and_accelerations_are_derivatives_of_positions():
 
 
 def test_every_coordinates_give_the_same_positions_and_reactions():
-    machine = nivel.load(f"{EXAMPLES}/rssr.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/rssr.yaml")
     results = [machine.kinematics(coordinates=name, positions=31) for name in ("relative", "absolute")]
     for name in ("position", "acceleration", "joint_force", "joint_torque", "driver.motor.effort"):
         first, second = (each.array(name) for each in results)
@@ -77,14 +78,14 @@ def test_every_coordinates_give_the_same_positions_and_reactions():
 
 
 def test_long_steps_are_shortened_and_end_in_the_same_positions():
-    machine = nivel.load(f"{EXAMPLES}/slider-crank.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml")
     coarse, fine = (machine.kinematics(drive="hinge", positions=count) for count in (4, 3001))
     np.testing.assert_allclose(coarse.array("position"), fine.array("position")[::1000], atol=1e-11)
     assert coarse.timing["rejected"] > 0
 
 
 def test_a_run_has_the_multipliers_of_kinematics():
-    machine = nivel.load(f"{EXAMPLES}/rssr.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/rssr.yaml")
     run = machine.simulate(duration=0.5, step="0.1 ms", output_interval="0.05 s")
     still = machine.kinematics(duration=0.5, positions=11)
     wanted = still.array("driver.motor.effort")
@@ -96,7 +97,7 @@ FOUR_BAR = (0.08, np.hypot(0.23, 0.105), np.hypot(0.03, 0.185), 0.26)  # crank, 
 
 def test_the_transmission_angle_of_a_slider_is_that_against_the_normal_of_its_slide():
     """sin μ = x/l, x the part of the rod of length l along the slide; joints in one place have no line."""
-    result = nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(drive="hinge", positions=31)
+    result = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").kinematics(drive="hinge", positions=31)
     rod = result.array("slider.position") - joint_place(result, "pin")
     wanted = np.arcsin(np.abs(rod[:, 0]) / np.linalg.norm(rod, axis=1))
     np.testing.assert_allclose(result.transmission_angle("pin", "wrist", "slide"), wanted, atol=1e-7)
@@ -106,7 +107,7 @@ def test_the_transmission_angle_of_a_slider_is_that_against_the_normal_of_its_sl
 
 def test_a_rocker_goes_as_far_as_crank_and_coupler_are_in_line():
     """Dead centres of a crank-rocker: the pin is at a + b and at b - a from the crank's pivot."""
-    machine = nivel.load(f"{EXAMPLES}/four-bar-revolutes.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/four-bar-revolutes.yaml")
     found = machine.range_of_motion("rocker_pivot")
     a, b, c, d = FOUR_BAR
     wanted = [np.arccos((c * c + d * d - far * far) / (2.0 * c * d)) for far in (a + b, b - a)]
@@ -120,11 +121,11 @@ def test_a_rocker_goes_as_far_as_crank_and_coupler_are_in_line():
 
 
 def test_a_crank_that_can_turns_right_round():
-    assert nivel.load(f"{EXAMPLES}/four-bar-revolutes.yaml").range_of_motion("crank_pivot").full_turn
+    assert nivel.load(f"{EXAMPLES}/mechanisms/four-bar-revolutes.yaml").range_of_motion("crank_pivot").full_turn
 
 
 def test_a_locked_machine_keeps_its_positions_and_says_what_holds_it():
-    machine = nivel.load(f"{EXAMPLES}/four-bar-revolutes.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/four-bar-revolutes.yaml")
     with pytest.raises(nivel.SolveError) as caught:
         machine.kinematics(drive="rocker_pivot")
     assert "jams" in caught.value.message
@@ -137,7 +138,7 @@ def test_a_locked_machine_keeps_its_positions_and_says_what_holds_it():
 
 
 def test_the_transmission_angle_is_that_of_the_cosine_law():
-    machine = nivel.load(f"{EXAMPLES}/four-bar-revolutes.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/four-bar-revolutes.yaml")
     result = machine.kinematics(drive="crank_pivot", positions=91)
     found = result.transmission_angle("crank_pin", "rocker_pin", "rocker_pivot")
     a, b, c, d = FOUR_BAR
@@ -147,7 +148,7 @@ def test_the_transmission_angle_is_that_of_the_cosine_law():
 
 
 def test_the_curvature_of_a_cranks_pin_is_one_over_its_radius():
-    machine = nivel.load(f"{EXAMPLES}/slider-crank.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml")
     result = machine.kinematics(drive="hinge", positions=37)
     curve = result.coupler_curve("crank", (0.25, 0.0, 0.0))
     np.testing.assert_allclose(curve["curvature"], 2.0, rtol=1e-10)
@@ -158,18 +159,18 @@ def test_the_curvature_of_a_cranks_pin_is_one_over_its_radius():
 
 def test_motions_that_nothing_drives_are_named():
     with pytest.raises(nivel.ModelError, match=r"1 motion is not driven.*hinge.angle.*--drive"):
-        nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics()
+        nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").kinematics()
 
 
 def test_two_drivers_of_one_motion_are_refused():
-    machine = nivel.load(f"{EXAMPLES}/rssr.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/rssr.yaml")
     with pytest.raises(nivel.ModelError, match="driven by motor already"):
         machine.kinematics(drive="shaft.angle")
 
 
 def test_drivers_that_repeat_each_other_are_refused():
     """Two drivers at rest where they are: consistent, and one too many."""
-    record = nivel.load(f"{EXAMPLES}/slider-crank.yaml").record
+    record = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").record
     drivers = tuple(nivel.Driver(name=n, coordinate=c, value="0 * time") for n, c in (("a", "hinge"), ("b", "slide")))
     machine = nivel.Machine.from_record(record.replace(drivers=drivers))
     with pytest.raises(nivel.ModelError, match="more motions than there are"):
@@ -196,7 +197,7 @@ def test_bodies_that_bend_are_refused():
 )
 def test_bad_options_are_explained(given, said):
     with pytest.raises(nivel.ModelError, match=said):
-        nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(**given)
+        nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").kinematics(**given)
 
 
 # --- singular positions ---
@@ -238,7 +239,7 @@ def test_a_frame_on_a_singular_position_is_told():
 
 
 def test_ordinary_machines_stay_on_one_branch():
-    result = nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(drive="hinge", positions=19)
+    result = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").kinematics(drive="hinge", positions=19)
     assert [each.verdict for each in result.trust.items if each.name == "branches"] == ["green"]
 
 

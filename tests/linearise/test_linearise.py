@@ -6,6 +6,7 @@ from scipy.optimize import brentq
 from scipy.signal import lsim
 
 import nivel
+from example_files import rigid_example
 from nivel.machine.control import Pid
 from references import four_bar, one_dof, slider_crank
 
@@ -27,7 +28,7 @@ CRANKS = {"slider-crank": (slider_crank, "hinge"), "four-bar": (four_bar, "crank
 def sprung(request):
     """(linkage, angles at which the spring is slack and the machine rests, machine with a spring and a damper on its crank)."""
     module, joint = CRANKS[request.param]
-    record = nivel.load(f"{EXAMPLES}/{request.param}.yaml").record
+    record = nivel.load(rigid_example(request.param)).record
     spring = nivel.JointSpringDamper(name="spring", coordinate=joint, stiffness=STIFFNESS, damping=DAMPING)
     machine = nivel.Machine.from_record(record.replace(forces=(*record.forces, spring)))
     start, still = machine.simulate(duration="1 ms", step="1 ms"), machine.statics(duration=0)
@@ -300,13 +301,13 @@ def test_a_beam_has_the_frequencies_of_statics():
 
 
 def test_a_machine_at_rest_out_of_balance_is_not_given_eigenvalues():
-    model = nivel.load(f"{EXAMPLES}/simple-pendulum.yaml").linearise()
+    model = nivel.load(f"{EXAMPLES}/mechanisms/simple-pendulum.yaml").linearise()
     assert not model.steady
     assert "not in equilibrium" in model.notes[0]
 
 
 def test_a_moment_of_a_run_is_linearised_there():
-    machine = nivel.load(f"{EXAMPLES}/simple-pendulum.yaml")
+    machine = nivel.load(f"{EXAMPLES}/mechanisms/simple-pendulum.yaml")
     model = machine.linearise(about="0.3 s")
     angle = machine.simulate(duration=0.3).array("hinge.angle")[-1]
     rate = model.states.index("hinge.angle.rate")
@@ -327,23 +328,23 @@ def test_a_moment_of_a_run_is_linearised_there():
 )
 def test_bad_options_are_explained(given, said):
     with pytest.raises(nivel.ModelError, match=said):
-        nivel.load(f"{EXAMPLES}/simple-pendulum.yaml").linearise(**given)
+        nivel.load(f"{EXAMPLES}/mechanisms/simple-pendulum.yaml").linearise(**given)
 
 
 def test_friction_that_sticks_is_refused():
     with pytest.raises(nivel.ModelError, match="has no derivative where it sticks"):
-        nivel.load(f"{EXAMPLES}/friction-brake.yaml").linearise()
+        nivel.load(f"{EXAMPLES}/contact/friction-brake.yaml").linearise()
 
 
 def test_a_model_without_inputs_has_no_response():
-    model = nivel.load(f"{EXAMPLES}/simple-pendulum.yaml").linearise(about="equilibrium")
+    model = nivel.load(f"{EXAMPLES}/mechanisms/simple-pendulum.yaml").linearise(about="equilibrium")
     with pytest.raises(nivel.ModelError, match="no inputs: name some"):
         model.state_space()
 
 
 def test_an_opened_driver_leaves_zeros_and_nothing_that_looks_like_motion():
     """A driven lift at rest: its driver's place and speed, and no ±1e-7 of round-off."""
-    model = nivel.load(f"{EXAMPLES}/scissor-lift.yaml").linearise()
+    model = nivel.load(f"{EXAMPLES}/mechanisms/scissor-lift.yaml").linearise()
     assert model.inputs == ("push",)
     np.testing.assert_array_equal(model.eigenvalues, [0.0, 0.0])
     assert model.structural.all()

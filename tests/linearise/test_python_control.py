@@ -9,7 +9,7 @@ import nivel
 
 control = pytest.importorskip("control")
 pytest.importorskip("control.statesp")  # a folder `control` of examples is no library
-CRANE = Path(__file__).parents[2] / "examples" / "crane-control.yaml"
+CRANE = Path(__file__).parents[2] / "examples" / "control" / "crane-control.yaml"
 
 
 @pytest.fixture(scope="module")

@@ -1,16 +1,15 @@
 """The model in Python: elements by name, copies with other values, and machines that go to a file and back."""
 
 import inspect
-from pathlib import Path
 
 import pytest
 
 import nivel
+from example_files import EXAMPLES, RIGID
 from nivel.errors import ModelError
 from nivel.machine.forces import FORCES
 from nivel.machine.references import SECTIONS
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 LEG = """
 format: 1
 parameters: {length: 40 cm}
@@ -33,7 +32,7 @@ joints:
 
 @pytest.fixture
 def crank():
-    return nivel.load(EXAMPLES / "slider-crank.yaml")
+    return nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
 
 
 @pytest.fixture
@@ -138,9 +137,7 @@ def test_a_part_written_in_python_is_placed_like_that_of_a_file(walker, tmp_path
     assert both["left_thigh"] == walker["left_thigh"]
 
 
-@pytest.mark.parametrize(
-    "path", sorted([*EXAMPLES.glob("*.yaml"), *EXAMPLES.glob("beams/*.yaml")]), ids=lambda path: path.stem
-)
+@pytest.mark.parametrize("path", [*RIGID, *sorted(EXAMPLES.glob("beams/*.yaml"))], ids=lambda path: path.stem)
 def test_every_example_survives_the_way_to_a_file_and_back(path, tmp_path):
     machine = nivel.load(path, allow_code=True)
     machine.save(tmp_path / "again.yaml")

@@ -28,7 +28,7 @@ def cart():
 
 
 def test_steps_make_the_motion_of_a_run_to_the_last_bit():
-    machine = nivel.load(EXAMPLES / "slider-crank.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     run = machine.simulate(duration=0.3, output_interval="1 ms")  # whose last step is made to end at the end
     sim = machine.start(record=True, output_interval="1 ms")
     for _ in range(100):
@@ -42,7 +42,7 @@ def test_steps_make_the_motion_of_a_run_to_the_last_bit():
 
 @pytest.mark.parametrize("integrator", ["rk4", "am4", "generalised-alpha"])
 def test_a_state_that_is_restored_goes_on_as_before(integrator, tmp_path):
-    machine = nivel.load(EXAMPLES / "four-bar.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml")
     sim = machine.start(integrator=integrator, coordinates="absolute" if integrator == "generalised-alpha" else None)
     sim.advance(0.05)
     sim.state.save(tmp_path / "state.npz")
@@ -118,7 +118,10 @@ def test_a_step_that_fails_says_when_and_why():
         (lambda sim: sim.advance(0.0015), "is not a multiple of the step"),
         (lambda sim: sim.advance("1 s"), "a number of seconds was expected, got `1 s`"),
         (lambda sim: sim["rail.displacment"], "did you mean `rail.displacement`"),
-        (lambda sim: sim.restore(nivel.load(EXAMPLES / "four-bar.yaml").start().state), "of another machine"),
+        (
+            lambda sim: sim.restore(nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml").start().state),
+            "of another machine",
+        ),
         (lambda sim: sim.result(), "record=True"),
         (lambda sim: Snapshot.open(__file__), "is no saved state"),
     ],

@@ -43,7 +43,7 @@ def test_every_variant_of_a_grid_is_its_closed_form(spring):
 
 
 def test_processes_give_what_one_process_gives():
-    machine = nivel.load(EXAMPLES / "slider-crank.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     values = {"bodies.rod.mass": np.linspace(1, 3, 5), "crank.mass": np.linspace(20, 24, 5)}
     from nivel.analysis.sweep import sweep as module
 
@@ -98,7 +98,7 @@ def test_machines_that_a_function_makes_are_swept():
 
 def test_a_sweep_may_start_from_equilibrium():
     """The springs of the suspension carry the same weight whatever their stiffness: it rests lower on softer ones."""
-    machine = nivel.load(EXAMPLES / "suspension.yaml")
+    machine = nivel.load(EXAMPLES / "vehicles" / "suspension.yaml")
     found = machine.sweep({"parameters.stiffness": ["22 kN/m", "28 kN/m", "34 kN/m"]}, duration="10 ms", step="1 ms")
     heave = found["heave.displacement"].isel(time=0).values
     assert (np.diff(heave) > 0).all()
@@ -175,10 +175,10 @@ def test_a_sweep_gives_to_the_last_bit_what_runs_one_by_one_give(path, values, t
 @pytest.mark.parametrize(("path", "value"), [("upper_ball.point.1", 0.665), ("parameters.bump", "7 cm")])
 def test_a_sweep_from_equilibrium_gives_to_the_last_bit_what_a_run_alone_gives(path, value):
     settings = {"duration": 0.02, "start": "equilibrium"}
-    machine = nivel.load(EXAMPLES / "suspension.yaml")
+    machine = nivel.load(EXAMPLES / "vehicles" / "suspension.yaml")
     found = machine.sweep({path: [value]}, save=["position", "joint_force"], processes=1, **settings)
     alone = nivel.Machine.from_record(
-        read_machine(EXAMPLES / "suspension.yaml", overrides={whole_path(machine.record, path): value})
+        read_machine(EXAMPLES / "vehicles" / "suspension.yaml", overrides={whole_path(machine.record, path): value})
     )
     result = alone.simulate(**settings)
     assert found.verdict.values[0] == result.trust.verdict
@@ -188,7 +188,7 @@ def test_a_sweep_from_equilibrium_gives_to_the_last_bit_what_a_run_alone_gives(p
 
 def test_reasons_of_a_sweep_are_those_of_a_run_alone():
     path, value = "parameters.tyre", "-200 kN/m"
-    machine = nivel.load(EXAMPLES / "suspension.yaml")
+    machine = nivel.load(EXAMPLES / "vehicles" / "suspension.yaml")
     found = machine.sweep({path: ["200 kN/m", value]}, processes=1, duration=0.01)
     with pytest.raises(nivel.SolveError) as alone:
         machine.with_values({path: value}).simulate(duration=0.01)

@@ -8,7 +8,7 @@ import nivel
 from nivel.errors import ModelError
 from nivel.files.reader import read_machine
 
-SUSPENSION = Path(__file__).parents[2] / "examples" / "suspension.yaml"
+SUSPENSION = Path(__file__).parents[2] / "examples" / "vehicles" / "suspension.yaml"
 MACHINE = """
 format: 1
 parameters: {length: 20 cm, offset: 0, half: length/2}

@@ -13,12 +13,12 @@ from nivel.system.laws.laws import law_address
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 # controllers sampled and continuous, set-points, drives, circuits, expressions
-NAMES = ("control/servo-axis", "hydraulics/excavator", "crane-control")
+NAMES = ("control/servo-axis", "hydraulics/excavator", "control/crane-control")
 CODE = f"""
 import sys
 sys.modules["numba"] = None
 import nivel
-nivel.load("{EXAMPLES}/slider-crank.yaml").simulate(duration=2e-3)
+nivel.load("{EXAMPLES}/mechanisms/slider-crank.yaml").simulate(duration=2e-3)
 print("scipy" not in sys.modules)
 for name in {NAMES}:
     print(nivel.load(f"{EXAMPLES}/{{name}}.yaml").simulate(duration=2e-3).time.size > 1)

@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from checking import check
+from example_files import rigid_example
 from nivel.analysis.plan.plan import plan_run
 from nivel.files import parse_machine
 
@@ -50,8 +51,8 @@ def test_python_of_a_page_runs_from_top_to_bottom(page, tmp_path):
     text = (DOCS / page).read_text(encoding="utf-8")
     for name, block in files_of(text).items():
         (tmp_path / name).write_text(block, encoding="utf-8")
-    for example in ("suspension.yaml", "toggle.yaml"):
-        shutil.copy(ROOT / "examples" / example, tmp_path)
+    for example in ("suspension", "toggle"):
+        shutil.copy(rigid_example(example), tmp_path)
     code = "\n".join(blocks(text, "python"))
     if not code:
         pytest.skip("no Python on this page")

@@ -11,6 +11,7 @@ import pytest
 import machines
 import nivel
 from assembled import TIME, mass_matrix, random_states
+from example_files import RIGID, rigid_example
 from nivel.analysis.assembly.equations import change_between, moved
 from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.dynamics import march
@@ -30,7 +31,7 @@ MACHINES = {
     "heavy-top": machines.heavy_top,
     "tree": lambda: machines.tree(np.random.default_rng(5)),
     **{kind: (lambda kind=kind: machines.pair(kind, np.random.default_rng(7))) for kind in machines.BETWEEN_BODIES},
-    **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in EXAMPLES.glob("*.yaml")},
+    **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in RIGID},
 }
 EACH = pytest.mark.parametrize("name", MACHINES)
 
@@ -257,10 +258,10 @@ def test_rk4_converges_with_order_four(machine, step):
     assert np.all(slopes > 3.7)
 
 
-@pytest.mark.parametrize("name", ["rssr.yaml", "watt-six-bar.yaml", "cam.yaml"])
+@pytest.mark.parametrize("name", ["rssr", "watt-six-bar", "cam"])
 def test_drivers_are_followed_exactly(name):
     """Time-dependent constraints: positions, velocities and reactions are those of absolute coordinates."""
-    machine = nivel.load(EXAMPLES / name, allow_code=True)
+    machine = nivel.load(rigid_example(name), allow_code=True)
     a, b = (machine.simulate(coordinates=c) for c in ("absolute", "independent"))
     for variable in ("position", "velocity", "acceleration", "joint_force"):
         scale = np.abs(a.array(variable)).max()
@@ -270,7 +271,7 @@ def test_drivers_are_followed_exactly(name):
 
 def test_redundant_machine_has_the_reactions_of_absolute_coordinates():
     """Three rows too many: the motion, the unique reactions, and the least ones of those that are not unique."""
-    machine = nivel.load(EXAMPLES / "four-bar-revolutes.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "four-bar-revolutes.yaml")
     a, b = (machine.simulate(coordinates=c, duration=0.3) for c in ("absolute", "independent"))
     assert len(b.trust.redundant_rows) == 3
     for variable in ("position", "velocity", "acceleration", "joint_force", "joint_torque"):
@@ -279,7 +280,7 @@ def test_redundant_machine_has_the_reactions_of_absolute_coordinates():
 
 
 def test_friction_is_that_of_absolute_coordinates():
-    machine = nivel.load(EXAMPLES / "friction-brake.yaml")
+    machine = nivel.load(EXAMPLES / "contact" / "friction-brake.yaml")
     a, b = (machine.simulate(coordinates=c, duration=0.5) for c in ("absolute", "independent"))
     np.testing.assert_allclose(b.array("position"), a.array("position"), atol=1e-9)
     np.testing.assert_allclose(b.array("dissipated_energy"), a.array("dissipated_energy"), atol=1e-9, rtol=1e-9)

@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import nivel
+from example_files import rigid_example
 from references import andrews, dyads, rssr
 from simulating import G
 
@@ -17,7 +18,7 @@ FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange
 
 
 def example(name, **settings):
-    return nivel.load(EXAMPLES / f"{name}.yaml", allow_code=True).simulate(**settings)
+    return nivel.load(rigid_example(name), allow_code=True).simulate(**settings)
 
 
 def turned(result, body):
@@ -228,7 +229,7 @@ def test_rod_of_a_body_makes_the_same_motion_and_heavier_forces():
 @FORMULATIONS
 def test_four_bar_of_revolutes_moves_as_the_one_without_redundant_rows(formulation):
     """The same with a spherical and a cylindrical joint at the coupler: forces in the plane agree, too."""
-    machine = nivel.load(EXAMPLES / "four-bar-revolutes.yaml")
+    machine = nivel.load(EXAMPLES / "mechanisms" / "four-bar-revolutes.yaml")
     record = machine.record
     free = {"crank_pin": "spherical", "rocker_pin": "cylindrical"}
     joints = tuple(
@@ -286,7 +287,7 @@ def test_valve_leaves_its_cam_at_a_higher_speed():
     lifts = 1e-3 * np.array([0] * 5 + [0.3, 1.5, 3.6, 5.9, 7.6, 8.2, 7.6, 5.9, 3.6, 1.5, 0.3] + [0] * 5)
     lowest = []
     for turn in (0.020, 0.012):
-        r = nivel.load(EXAMPLES / "cam.yaml", {"parameters.turn": f"{turn} s"}).simulate()
+        r = nivel.load(EXAMPLES / "mechanisms" / "cam.yaml", {"parameters.turn": f"{turn} s"}).simulate()
         spline = CubicSpline(np.linspace(0, turn, 21), lifts, bc_type="natural")
         t = r.time[:-1]
         effort = 0.12 * (spline(t, 2) + G) + 25e3 * (spline(t) + 6e-3) + 15 * spline(t, 1)
@@ -297,7 +298,7 @@ def test_valve_leaves_its_cam_at_a_higher_speed():
 
 def test_quarter_car_with_its_python_damper():
     """The two equations of motion, with the function of the file itself called by SciPy's integrator."""
-    damper = runpy.run_path(str(EXAMPLES / "python-law.py"))["damper"]
+    damper = runpy.run_path(str(EXAMPLES / "vehicles" / "python-law.py"))["damper"]
     r = example("python-law")
     car, wheel, tyre, suspension, g = 320.0, 38.0, 190e3, 18e3, 9.81
 

@@ -157,7 +157,7 @@ def squeezed():
 @COORDINATES
 def test_andrews_squeezer(tolerance, coordinates):
     """30 ms, q of the IVP test set at the end."""
-    machine = nivel.load(EXAMPLES / "andrews-squeezer.yaml").record
+    machine = nivel.load(EXAMPLES / "mechanisms" / "andrews-squeezer.yaml").record
     result = solved(machine, tolerance=tolerance, coordinates=coordinates, step=1e-4, output_interval=1e-4)
     A = Rotation.from_quat(result.orientation.reshape(-1, 4), scalar_first=True).as_matrix()
     A = A.reshape(len(result.time), -1, 3, 3)

@@ -9,6 +9,7 @@ import linked
 import machines
 import nivel
 from assembled import TIME, mass_matrix, random_states
+from example_files import RIGID
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
@@ -51,7 +52,7 @@ MACHINES = {
        for model in ("coulomb", "stiction", "lugre")},
     **PAIRS,
     **{kind: seeded(machines.pair, kind) for kind in machines.BETWEEN_BODIES if kind not in CARRIERS},
-    **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in EXAMPLES.glob("*.yaml")},
+    **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in RIGID},
 }  # fmt: skip
 EACH = pytest.mark.parametrize("name", MACHINES)
 

@@ -134,7 +134,9 @@ def test_a_ball_on_a_turntable_goes_round_at_two_sevenths_of_its_rate():
 
 
 def bicycle_eigenvalues(speed, **values):
-    bicycle = nivel.load(EXAMPLES / "bicycle.yaml").with_values({"parameters.speed": f"{speed} m/s", **values})
+    bicycle = nivel.load(EXAMPLES / "vehicles" / "bicycle.yaml").with_values(
+        {"parameters.speed": f"{speed} m/s", **values}
+    )
     return bicycle.linearise(inputs=[], outputs=[])
 
 
@@ -181,7 +183,7 @@ def test_the_bicycle_has_the_critical_speeds_of_the_benchmark():
 
 def bicycle(speed, heading=0.0, turned=0.0, reverse=False):
     """The bicycle of the example, its wheels turned already and headed elsewhere; reverse: axles and normals point the other way."""
-    record = nivel.load(EXAMPLES / "bicycle.yaml").with_values({"parameters.speed": f"{speed} m/s"}).record
+    record = nivel.load(EXAMPLES / "vehicles" / "bicycle.yaml").with_values({"parameters.speed": f"{speed} m/s"}).record
     c, s = np.cos(heading), np.sin(heading)
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     sign = -1.0 if reverse else 1.0
@@ -239,7 +241,11 @@ def test_a_rolling_bicycle_sways_back_as_its_linear_equations_say():
 
     size, t = 1e-4, 0.6
     values = {"parameters.speed": "4.6 m/s", "parameters.roll": f"{size} rad/s"}
-    r = nivel.load(EXAMPLES / "bicycle.yaml").with_values(values).simulate(duration=t, step="2 ms", output_interval=t)
+    r = (
+        nivel.load(EXAMPLES / "vehicles" / "bicycle.yaml")
+        .with_values(values)
+        .simulate(duration=t, step="2 ms", output_interval=t)
+    )
     model = bicycle_eigenvalues(4.6)
     x = np.zeros(len(model.states))
     x[model.states.index("frame.turn_x.rate")] = size
@@ -252,7 +258,7 @@ def test_a_rolling_bicycle_sways_back_as_its_linear_equations_say():
 
 
 def test_freedoms_of_positions_and_of_velocities_are_counted_apart():
-    check = nivel.load(EXAMPLES / "bicycle.yaml").check()
+    check = nivel.load(EXAMPLES / "vehicles" / "bicycle.yaml").check()
     assert (check.degrees_of_freedom, check.position_freedoms) == (3, 7)
     assert "3 degrees of freedom, 7 of positions" in str(check)
 

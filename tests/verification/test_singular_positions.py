@@ -56,7 +56,7 @@ def test_flat_position_that_is_passed_is_told_with_its_time(speed):
 
 def test_positions_in_line_that_are_not_singular_are_not_told():
     """The four-bar of report 44 has crank and coupler in line at 2.610 s, where its constraints stay independent."""
-    result = nivel.load(EXAMPLES / "four-bar.yaml").simulate(duration=3.0, verify=True)
+    result = nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml").simulate(duration=3.0, verify=True)
     assert "singular" not in {item.name for item in result.trust.items}
 
 

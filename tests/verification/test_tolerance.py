@@ -106,7 +106,7 @@ def test_iftomm_pendulum_meets_the_benchmark():
 
 @cache
 def squeezer():
-    return nivel.load(EXAMPLES / "andrews-squeezer.yaml").record
+    return nivel.load(EXAMPLES / "mechanisms" / "andrews-squeezer.yaml").record
 
 
 def loop_angles(result):

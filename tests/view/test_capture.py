@@ -192,6 +192,6 @@ def test_what_cannot_be_shown_is_said_with_exit_code_two(arguments, said, stored
 
 
 def test_a_machine_is_exported_as_it_is_assembled(tmp_path):
-    done = view(tmp_path, EXAMPLES / "simple-pendulum.yaml", "--export", "pendulum.html", "--quiet")
+    done = view(tmp_path, EXAMPLES / "mechanisms" / "simple-pendulum.yaml", "--export", "pendulum.html", "--quiet")
     assert done.exit_code == 0, done.stderr
     assert (tmp_path / "pendulum.html").stat().st_size < 1_000_000

@@ -99,7 +99,7 @@ def test_pitch_circles_touch_and_are_as_their_teeth(stage):
 
 
 def test_an_internal_gear_is_as_much_larger_as_its_axes_are_apart():
-    ring = nivel.load(EXAMPLES / "gear-train.yaml").viewer_source()
+    ring = nivel.load(EXAMPLES / "mechanisms" / "gear-train.yaml").viewer_source()
     couplings = named(from_bytes(ring.package())[0]["stages"][0]["couplings"])
     planet, wheel = couplings["ring_1"]["wheels"]
     arm = 2e-3 * (24 + 21) / 2

@@ -70,7 +70,7 @@ def test_examples_of_flexible_bodies_play_and_scrub(name, folder, browser, tmp_p
 
 @pytest.mark.full
 def test_a_path_of_equilibria_says_its_load_and_not_a_time(browser, tmp_path):
-    path = nivel.load(EXAMPLES / "toggle.yaml").statics(duration=1, step=0.05, arc_length=True)
+    path = nivel.load(EXAMPLES / "mechanisms" / "toggle.yaml").statics(duration=1, step=0.05, arc_length=True)
     assert_plays_and_scrubs(browser, path, tmp_path / "scene.html")
     assert (np.diff(path.time) < 0.0).any()  # the load falls on the way
     with watched(browser) as seen:
@@ -118,7 +118,7 @@ def test_what_slides_along_a_beam_stands_at_the_slider(browser, tmp_path):
 
 
 def test_axes_and_frames_of_joints_and_markers_stand_where_they_are(browser, tmp_path):
-    result = nivel.load(EXAMPLES / "slider-crank.yaml").simulate(duration=0.2)
+    result = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").simulate(duration=0.2)
     file = write_scene([result], tmp_path / "scene.html")
     place = """(what) => { const { instances, spots } = nivel.app.actor.extras.made.get(what), m = instances.mesh;
       return spots.map((spot, k) => { const a = Array.from(m.instanceMatrix.array.slice(16 * k, 16 * k + 16));

@@ -20,7 +20,7 @@ image = pytest.importorskip("PIL.Image")
 
 @pytest.fixture(scope="module")
 def source():
-    return Playback([nivel.load(EXAMPLES / "four-bar.yaml").simulate(duration=0.5)])
+    return Playback([nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml").simulate(duration=0.5)])
 
 
 def assert_moving(pictures):

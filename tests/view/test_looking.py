@@ -22,7 +22,7 @@ def browser():
 
 @pytest.fixture(scope="module")
 def scene(tmp_path_factory):
-    result = nivel.load(EXAMPLES / "slider-crank.yaml").simulate(duration=1)
+    result = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").simulate(duration=1)
     return result, write_scene([result], tmp_path_factory.mktemp("scene") / "scene.html")
 
 

@@ -11,7 +11,7 @@ nbclient = pytest.importorskip("nbclient")
 pytest.importorskip("ipykernel")
 nbconvert = pytest.importorskip("nbconvert")
 
-EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "simple-pendulum.yaml"
+EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "mechanisms" / "simple-pendulum.yaml"
 
 
 @pytest.mark.filterwarnings("ignore")  # of the programs that run notebooks

@@ -11,6 +11,7 @@ import pytest
 import nivel
 import synthetic_run as pendulum
 from browsing import PATIENCE, chromium, drawn, landed, served, until, watched
+from example_files import RIGID
 from lanes import tail
 from nivel.results import Memory
 from nivel.view.export import write_scene
@@ -18,7 +19,7 @@ from nivel.view.sources import Playback
 from playing import assert_plays_and_scrubs
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
-MACHINES = [*sorted(EXAMPLES.glob("*.yaml")), EXAMPLES / "double_pendulum.py"]
+MACHINES = [*RIGID, EXAMPLES / "mechanisms" / "double_pendulum.py"]
 SHOWN = [path for path in MACHINES if path.stem == "slider-crank"]
 
 
@@ -41,7 +42,7 @@ def test_every_example_plays_scrubs_and_opens_from_a_file(path, browser, tmp_pat
 
 
 def test_the_served_page_fetches_what_it_plots(browser):
-    result = result_of(EXAMPLES / "slider-crank.yaml")
+    result = result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     with served(Playback([result])) as viewing, watched(browser) as seen:
         page = seen.open(viewing.address.url)
         page.get_by_role("button", name="crank", exact=True).click()
@@ -80,7 +81,7 @@ def test_a_ball_and_a_free_body_are_moved_by_their_sliders(browser):
 
 
 def test_a_machine_is_moved_by_its_sliders(browser):
-    source = nivel.load(EXAMPLES / "four-bar.yaml").viewer_source()
+    source = nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml").viewer_source()
     with served(source) as viewing, watched(browser) as seen:
         page = seen.open(viewing.address.url)
         before = np.array(seen.pose(1))
@@ -98,7 +99,7 @@ def test_a_machine_is_moved_by_its_sliders(browser):
 
 
 def test_the_time_is_dragged_with_the_mouse_and_tapped_with_a_finger(browser, tmp_path):
-    file = write_scene([result_of(EXAMPLES / "simple-pendulum.yaml")], tmp_path / "scene.html")
+    file = write_scene([result_of(EXAMPLES / "mechanisms" / "simple-pendulum.yaml")], tmp_path / "scene.html")
     with watched(browser, touch=True) as seen:
         page = seen.open(file.as_uri())
         start, end = page.evaluate("nivel.span()")
@@ -195,7 +196,7 @@ def test_torques_that_are_round_off_have_no_arrows(browser, tmp_path):
 
 
 def test_keys_do_what_the_help_says(browser, tmp_path):
-    result = result_of(EXAMPLES / "slider-crank.yaml")
+    result = result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     file = write_scene([result], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open(file.as_uri())
@@ -240,7 +241,7 @@ def test_keys_do_what_the_help_says(browser, tmp_path):
 
 
 def test_everything_can_be_switched_on_without_complaint(browser, tmp_path):
-    result = result_of(EXAMPLES / "slider-crank.yaml")
+    result = result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     file = write_scene([result, result], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open(file.as_uri())
@@ -259,7 +260,7 @@ def test_everything_can_be_switched_on_without_complaint(browser, tmp_path):
 
 
 def test_every_joint_is_read_as_name_and_kind_and_plots_are_reached_by_keys(browser, tmp_path):
-    result = result_of(EXAMPLES / "slider-crank.yaml")
+    result = result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     file = write_scene([result], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open(file.as_uri())
@@ -276,7 +277,7 @@ def test_every_joint_is_read_as_name_and_kind_and_plots_are_reached_by_keys(brow
 
 
 def test_of_sheets_one_stays_when_the_page_gets_narrow(browser, tmp_path):
-    file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
+    file = write_scene([result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open(file.as_uri())
         assert page.locator(".panel:visible").count() == 2
@@ -286,7 +287,10 @@ def test_of_sheets_one_stays_when_the_page_gets_narrow(browser, tmp_path):
 
 
 def test_a_ghost_is_named_and_of_another_machine_said_to_be_one(browser, tmp_path):
-    one, other = result_of(EXAMPLES / "slider-crank.yaml"), result_of(EXAMPLES / "simple-pendulum.yaml")
+    one, other = (
+        result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml"),
+        result_of(EXAMPLES / "mechanisms" / "simple-pendulum.yaml"),
+    )
     with watched(browser) as seen:
         page = seen.open(write_scene([one, one], tmp_path / "same.html").as_uri())
         assert page.locator(".notes .ghost").inner_text() == f"Ghost: {one.name}"
@@ -312,7 +316,7 @@ def test_negative_times_play_and_scrub(browser, tmp_path):
 
 
 def test_a_click_into_the_picture_chooses_a_body(browser, tmp_path):
-    file = write_scene([result_of(EXAMPLES / "simple-pendulum.yaml")], tmp_path / "scene.html")
+    file = write_scene([result_of(EXAMPLES / "mechanisms" / "simple-pendulum.yaml")], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open(file.as_uri())
         x, y = page.evaluate(
@@ -333,7 +337,7 @@ def test_a_click_into_the_picture_chooses_a_body(browser, tmp_path):
     ],
 )
 def test_the_page_fits_its_window_and_every_control_has_a_name(browser, tmp_path, scheme, width, height):
-    file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
+    file = write_scene([result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")], tmp_path / "scene.html")
     with watched(browser, width=width, height=height, scheme=scheme, touch=width < 500) as seen:
         page = seen.open(file.as_uri())
         for name in ("Structure", "Data and plots", "Display"):
@@ -379,7 +383,7 @@ def inner(page):
 
 
 def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
-    result = result_of(EXAMPLES / "slider-crank.yaml")
+    result = result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     report = result.report(tmp_path / "report.html")
     with watched(browser) as seen:
         page = seen.page
@@ -395,7 +399,7 @@ def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
 
 
 def test_a_report_says_that_a_motion_is_left_out_and_how_to_see_it(monkeypatch, tmp_path):
-    result = result_of(EXAMPLES / "slider-crank.yaml")
+    result = result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     assert "The motion is not in this page" not in result.report(tmp_path / "with.html").read_text(encoding="utf-8")
     monkeypatch.setattr("nivel.report.write.LARGEST_MOTION", 1000)
     text = result.report(tmp_path / "without.html").read_text(encoding="utf-8")
@@ -405,14 +409,14 @@ def test_a_report_says_that_a_motion_is_left_out_and_how_to_see_it(monkeypatch, 
 
 
 def test_an_exported_page_plays_at_once_where_its_address_asks_for_it(browser, tmp_path):
-    file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
+    file = write_scene([result_of(EXAMPLES / "mechanisms" / "slider-crank.yaml")], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open(f"{file.as_uri()}#play")
         until(page, "nivel.app.player.playing && nivel.app.player.time > 0")
 
 
 def test_damaged_data_are_told_in_the_page(browser, tmp_path):
-    file = write_scene([result_of(EXAMPLES / "simple-pendulum.yaml")], tmp_path / "scene.html")
+    file = write_scene([result_of(EXAMPLES / "mechanisms" / "simple-pendulum.yaml")], tmp_path / "scene.html")
     text = file.read_text(encoding="utf-8")
     start = text.index('id="package">') + len('id="package">')
     (tmp_path / "cut.html").write_text(text[: start + 400] + text[text.index("</script>", start) :], encoding="utf-8")

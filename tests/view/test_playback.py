@@ -280,7 +280,7 @@ def test_names_cannot_break_the_page():
 
 
 def test_ten_seconds_of_the_slider_crank_fit_into_two_megabytes():
-    path = Path(__file__).parent.parent.parent / "examples" / "slider-crank.yaml"
+    path = Path(__file__).parent.parent.parent / "examples" / "mechanisms" / "slider-crank.yaml"
     result = nivel.load(path).simulate(duration=10)
     assert len(result.time) == 1001
     text = scene_html([result])

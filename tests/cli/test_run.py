@@ -50,6 +50,17 @@ def process(folder, *arguments, **options):
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300, **options)
 
 
+def test_a_run_into_a_log_says_what_it_does_in_plain_lines(folder):
+    done = process(folder, "run", "pendulum.yaml")
+    lines = done.stderr.splitlines()
+    stages = ("preparing", "running", "verifying with", "writing the report", "ended after", "pendulum: completed")
+    places = [next(k for k, line in enumerate(lines) if line.startswith(stage)) for stage in stages]
+    assert places == sorted(places)
+    assert all(line.isprintable() for line in lines)
+    silent = process(folder, "run", "pendulum.yaml", "--force", "--quiet")
+    assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "")
+
+
 @pytest.mark.parametrize("call", [nivel, process])
 def test_result_and_report_stand_beside_each_other(folder, call):
     done = call(folder, "run", "pendulum.yaml")

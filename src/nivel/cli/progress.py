@@ -1,7 +1,8 @@
-"""What long computations tell on standard error while they go on."""
+"""What long computations tell on standard error while they go on: a bar in a terminal, plain lines in a file or a pipe."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -12,11 +13,18 @@ if TYPE_CHECKING:
 
 @contextmanager
 def progress_listener(quiet: bool) -> Iterator[Listener]:
-    """Hears what is being done: says nothing where `quiet`, else stages and a progress bar."""
+    """Hears what is being done: says nothing where `quiet`, else stages and how far they are."""
     from nivel.analysis.progress.listener import Listener
 
     if quiet:
         yield Listener()
+        return
+    if not sys.stderr.isatty():
+        from nivel.analysis.progress.log import Log
+
+        log = Log()
+        yield log.listener
+        log.end()
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -28,7 +36,7 @@ def progress_listener(quiet: bool) -> Iterator[Listener]:
 
         def stage(text: str, total: float | None = None) -> None:
             if text.startswith("compiling"):
-                console.print(text)  # stays, also where no bar can be shown
+                console.print(text)  # stays
             bar.update(task, description=text, total=total, completed=0, reached="")
 
         def progress(time: float) -> None:
@@ -39,9 +47,13 @@ def progress_listener(quiet: bool) -> Iterator[Listener]:
 
 @contextmanager
 def progress_stage(quiet: bool) -> Iterator[Callable[[str, float], None]]:
-    """Hears what begins and which share of all is done, from 0 to 1: says nothing where `quiet`, else a progress bar."""
+    """Hears what begins and which share of all is done, from 0 to 1: says nothing where `quiet`."""
     if quiet:
         yield lambda _text, _share: None
+        return
+    if not sys.stderr.isatty():
+        with progress_listener(quiet) as listener:
+            yield lambda text, _share: listener.say(text)
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -50,3 +62,23 @@ def progress_stage(quiet: bool) -> Iterator[Callable[[str, float], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, share: bar.update(task, description=text, completed=share)
+
+
+@contextmanager
+def progress_count(what: str, quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
+    """Hears how many of how many are done, and which is the last; `what` is done with all. Says nothing where `quiet`."""
+    if quiet:
+        yield lambda _done, _count, _name: None
+        return
+    if not sys.stderr.isatty():
+        with progress_listener(quiet) as listener:
+            listener.say(what)
+            yield lambda done, count, _name: listener.say(f"{what}: {done} of {count}")
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, count, name: bar.update(task, completed=done, total=count, description=name or what)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from nivel.cli.options import allow_code_option, file_argument, force_option, override_option, quiet_option
+from nivel.cli.progress import progress_count
 
 if TYPE_CHECKING:
     from nivel.view.capture import Look
@@ -190,8 +189,8 @@ def _export(source: Source, target: Path, look: Look, quiet: bool) -> None:
     elif target.suffix.lower() == ".png":
         _still(source, target, None, look)
     else:
-        with _film_progress(quiet) as shown:
-            film(source, target, look, shown)
+        with progress_count("drawing the film", quiet) as tell:
+            film(source, target, look, lambda done, count: tell(done, count, ""))
     _say(f"written: {target}", quiet)
 
 
@@ -199,20 +198,6 @@ def _still(source: Source, target: Path, moment: float | None, look: Look) -> No
     from nivel.view.capture import still
 
     still(source, target, look, moment)
-
-
-@contextmanager
-def _film_progress(quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Hears how many of how many frames are done."""
-    if quiet:
-        yield lambda _done, _all: None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("drawing the film", total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
 def _say(text: str, quiet: bool) -> None:

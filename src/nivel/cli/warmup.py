@@ -7,6 +7,7 @@ import time
 import click
 
 from nivel.cli.options import quiet_option
+from nivel.cli.progress import progress_count
 
 
 @click.command(short_help="Compile all kernels ahead of the first run.")
@@ -17,7 +18,6 @@ def command(quiet: bool) -> None:
     Entries that are compiled already are kept. After an interruption, the next call continues.
     """
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     from nivel.analysis.plan.compilation import all_entries
     from nivel.native import library, store
@@ -26,12 +26,12 @@ def command(quiet: bool) -> None:
     begin = time.perf_counter()
     entries = all_entries()
     missing = library.missing(entries)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as progress:
-        task = progress.add_task("compiling", total=len(missing))
+    with progress_count("compiling", quiet) as tell:
+        names: list[str] = []
 
         def done(name: str) -> None:
-            progress.update(task, advance=1, description=name)
+            names.append(name)
+            tell(len(names), len(missing), name)
 
         library.build(missing, done)
     spent = time.perf_counter() - begin

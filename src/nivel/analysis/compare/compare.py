@@ -35,7 +35,7 @@ def compare(machine: MachineRecord, grid: Grid, *, repeat: int = 3, listener: Li
         bench.refer(solve(machine, grid, listener))
         note = "" if bench.references else "no reference: none of its runs came to the end"
         for k, cell in enumerate(grid.cells):
-            bench.add(cell, f"{k + 1}/{len(grid.cells)}")
+            bench.add(cell, f"{k + 1} of {len(grid.cells)}")
     except KeyboardInterrupt:
         outcome = "interrupted"
     comparison = Comparison(
@@ -78,7 +78,7 @@ class _Bench:
             self.rows.append(replace(row, outcome="refused", reason=cell.reason))
             return
         what = f"step {seconds(row.step)}" if row.step else f"tolerance {number(row.tolerance)}"
-        self.listener.say(f"{place} {', '.join(dict.fromkeys(cell.method))}, {what}", cell.plan.settings.duration)
+        self.listener.say(f"{place}: {', '.join(dict.fromkeys(cell.method))}, {what}", cell.plan.settings.duration)
         try:
             result, finished = run_in_memory(cell.plan, self.listener.progress)
         except ModelError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Log
 from nivel.analysis.sweep.processes import Job, run_in_processes
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
 from nivel.analysis.sweep.variants import Variants
@@ -101,7 +103,10 @@ def _refuse_if_none_started(runs: Sequence[VariantRun]) -> None:
 
 @contextmanager
 def progress_bar(count: int) -> Iterator[Listener]:
-    """A bar on standard error that says how many variants are done, and about how long the rest takes."""
+    """Says on standard error how many variants are done: a bar, with about how long the rest takes, or plain lines in a file."""
+    if not sys.stderr.isatty():
+        yield Log().listener
+        return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 

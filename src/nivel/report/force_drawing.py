@@ -55,6 +55,8 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
             if body == "ground":
                 drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
                 drawing.points.append(end + np.array([0.0, 14.0]))
+    if not force["name"]:  # a further part of a rope
+        return
     middle = 0.5 * (ends[0] + ends[1]) if force["type"] != "torsional-spring-damper" else ends[0]
     drawing.labels.append(Label(force["name"], float(middle[0]), float(middle[1]), "force-name"))
 

@@ -19,6 +19,10 @@ MANY = 40  # names; then only those that find room close by are shown
 CLOSE_BY = 0.5
 TRIED = 100  # names; of more, so many evenly taken
 DISTANCES = (15.0, 25.0, 38.0, 56.0)  # pixels from the point to the label
+LEADING = (78.0, 104.0)  # and further ones, where a line leads from the point to the label
+WITHOUT_LINE = "body"  # kind of labels that have none
+APART = 14.0  # pixels between two labels from which on they do not crowd each other
+CLOSE = 1.2  # cost of a label that touches another
 ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
 
 
@@ -73,7 +77,7 @@ class _Surroundings:
 
     def of(self, label: Label) -> tuple[Array, Array, NDArray[np.int64]]:
         """Points, samples and the lines of these that any place of the label may touch."""
-        reach = np.array([text_width(label.text), 1.15 * FONT]) + DISTANCES[-1] + NEAR
+        reach = np.array([text_width(label.text), 1.15 * FONT]) + LEADING[-1] + NEAR
         place = np.array([label.x, label.y])
         near, beside = (np.all(np.abs(each - place) <= reach, axis=1) for each in (self.points, self.samples))
         return self.points[near], self.samples[beside], self.line[beside]
@@ -88,7 +92,7 @@ def _candidates(label: Label) -> list[tuple[Box, float]]:
     """Boxes around the point, and how far each is off."""
     wide, high = text_width(label.text), FONT * 1.15
     out = []
-    for k, distance in enumerate(DISTANCES):
+    for k, distance in enumerate(DISTANCES if label.kind == WITHOUT_LINE else DISTANCES + LEADING):
         for angle in ANGLES:
             dx, dy = np.cos(angle), np.sin(angle)
             x = label.x + distance * dx + 0.5 * wide * _eased(dx)
@@ -119,6 +123,9 @@ def _cost(
         a = other.box
         if left < a[2] + 3.0 and right > a[0] - 3.0 and top < a[3] + 1.0 and bottom > a[1] - 1.0:
             cost += 10.0
+        else:
+            gap = max(left - a[2], a[0] - right, top - a[3], a[1] - bottom)
+            cost += CLOSE * max(1.0 - gap / APART, 0.0)
     if len(points):
         dx = np.maximum(np.maximum(left - points[:, 0], points[:, 0] - right), 0.0)
         dy = np.maximum(np.maximum(top - points[:, 1], points[:, 1] - bottom), 0.0)

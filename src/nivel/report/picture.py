@@ -20,7 +20,7 @@ from nivel.report.drawing import Drawing
 from nivel.report.force_drawing import Plane, draw_force, draw_plane, force_points, planes
 from nivel.report.frame import WIDTH, Frame, fit
 from nivel.report.joint_drawing import draw_joint
-from nivel.report.labels import FONT, Label, place
+from nivel.report.labels import FONT, WITHOUT_LINE, Label, place
 
 MANY_BODIES, VERY_MANY_BODIES = 20, 200
 ALONG = np.linspace(0.0, 1.0, 12)[None, :, None]  # where lines are probed
@@ -130,7 +130,7 @@ def _svg(drawing: Drawing, frame: Frame) -> str:
 def _text(label: Label, x: float, y: float) -> str:
     far = np.hypot(label.x - x, label.y - y)
     leader = ""
-    if far > 40.0 and label.kind != "body":
+    if far > 40.0 and label.kind != WITHOUT_LINE:
         ux, uy = (x - label.x) / far, (y - label.y) / far
         start, stop = (
             (label.x + 9.0 * ux, label.y + 9.0 * uy),

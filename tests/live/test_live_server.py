@@ -5,8 +5,9 @@ import json
 import random
 import socket
 import struct
+import threading
 import time
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, closing, contextmanager
 
 import numpy as np
 import pytest
@@ -16,8 +17,12 @@ from browsing import served
 from nivel.errors import ModelError
 from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, DONE
 from nivel.live.datagrams import Counts, Datagrams, packed_inputs, place_of
-from nivel.live.source import LiveSource
+from nivel.live.preparation import SILENCE
+from nivel.live.source import ONLY_WATCH, LiveSource
+from nivel.system.layout import frame_layout
+from nivel.view.messages import NotUnderstoodError, read_message
 from nivel.view.records import FRAME
+from nivel.view.server import Address
 
 websockets = pytest.importorskip("websockets")
 
@@ -157,7 +162,21 @@ def test_twenty_watchers_of_whom_four_stop_reading_change_nothing_for_the_operat
 
 
 def nonsense(random_numbers):
-    """A message: bytes, broken JSON, records with wrong parts, names that look like paths."""
+    """A message that is none: bytes, broken JSON, records with wrong parts, names that look like paths."""
+    while understood(message := anything(random_numbers)):
+        pass
+    return message
+
+
+def understood(message):
+    try:
+        read_message(message)
+    except NotUnderstoodError:
+        return False
+    return True
+
+
+def anything(random_numbers):
     pick = random_numbers.randrange(6)
     if pick == 0:
         return random_numbers.randbytes(random_numbers.randrange(60))
@@ -194,6 +213,182 @@ def test_places_of_datagrams_are_looked_up_at_once():
         place_of("127.0.0.1:x", "udp")
     with pytest.raises(ModelError, match="is no host that is known here"):
         place_of("no host:9000", "udp-to")
+
+
+class Stub:
+    """A session of two inputs without a solver, and a clock that is set."""
+
+    def __init__(self):
+        self.inputs = (None, None)
+        self.facts = {"layout": frame_layout([], [], ["rail.displacement"], [], [])}
+        self.newest = None
+        self.heard = []
+        self.now = 100.0
+
+    def operate(self, values):
+        self.heard.append(values)
+
+    @contextmanager
+    def datagrams(self):
+        with closing(Datagrams(self, None, None, clock=lambda: self.now)) as outside:
+            yield outside
+
+
+HONEST, STRANGER = ("127.0.0.1", 1), ("127.0.0.1", 2)
+
+
+def test_a_second_of_garbage_does_not_make_an_honest_sender_unheard():
+    """100 000 malformed datagrams within a second, from its own address and from another: every honest one between them is taken."""
+    stub = Stub()
+    with stub.datagrams() as outside:
+        for k in range(100):
+            stub.now += 0.01
+            for n in range(1000):
+                outside.take(b"x", STRANGER if n % 2 else HONEST)
+            outside.take(packed_inputs([0.5, 0.5], k + 1, 0), HONEST)
+        assert outside.counts == Counts(taken=100, malformed=100_000)
+        assert stub.heard == [[0.5, 0.5]] * 100
+
+
+def test_too_many_datagrams_of_a_sender_charge_it_alone_and_only_while_they_come():
+    """Of 20 000 in no time a sender has 4096 taken. A hundredth of a second later it has earned forty more, as if it had never sent them;
+    after the watchdog's silence another one is heard at once."""
+    stub = Stub()
+    with stub.datagrams() as outside:
+        for k in range(20_000):
+            outside.take(packed_inputs([0.0, 0.0], k + 1, 0), STRANGER)
+        assert (outside.counts.taken, outside.counts.excessive) == (4096, 20_000 - 4096)
+        stub.now += 0.01
+        for k in range(100):
+            outside.take(packed_inputs([0.0, 0.0], 30_000 + k, 0), STRANGER)
+        assert outside.counts.taken == 4096 + 40
+        stub.now += SILENCE
+        outside.take(packed_inputs([1.0, 1.0], 1, 0), HONEST)
+        assert stub.heard[-1] == [1.0, 1.0]
+
+
+def test_a_datagram_far_ahead_makes_its_sender_unheard_for_the_silence_of_the_watchdog_at_most():
+    """One with a sequence 2³¹ - 1 ahead, then one each hundredth of a second as before: those within the silence are stale, not more."""
+    stub = Stub()
+    with stub.datagrams() as outside:
+        outside.take(packed_inputs([0.0, 0.0], 1, 0), HONEST)
+        outside.take(packed_inputs([0.0, 0.0], 2**31, 0), HONEST)
+        taken = []
+        for k in range(200):
+            stub.now += 0.01
+            outside.take(packed_inputs([1.0, 0.0], k + 2, 0), HONEST)
+            taken.append(outside.counts.taken == 2 + len(taken) + 1 - outside.counts.stale)
+        assert all(taken)
+        assert outside.counts.stale == pytest.approx(SILENCE / 0.01, abs=1)
+        assert outside.counts.taken == 202 - outside.counts.stale
+
+
+def test_a_sender_that_was_started_again_is_taken_after_the_silence_of_the_watchdog():
+    """From sequence 0 on, from its old port or a new one. Before, a stranger is not heard while the first one is."""
+    for place in (HONEST, STRANGER):
+        stub = Stub()
+        with stub.datagrams() as outside:
+            outside.take(packed_inputs([1.0, 0.0], 1000, 0), HONEST)
+            stub.now += 0.9 * SILENCE
+            assert outside.is_driving
+            outside.take(packed_inputs([0.0, 0.0], 0, 0), place)
+            assert stub.heard == [[1.0, 0.0]]
+            assert outside.counts.stale + outside.counts.others == 1
+            stub.now += 0.2 * SILENCE
+            assert not outside.is_driving
+            outside.take(packed_inputs([0.25, 0.0], 0, 0), place)
+            outside.take(packed_inputs([0.5, 0.0], 1, 0), place)
+            assert stub.heard == [[1.0, 0.0], [0.25, 0.0], [0.5, 0.0]]
+
+
+def test_an_honest_sender_is_heard_while_another_sends_garbage(live):
+    """Through real sockets, while a thread sends as fast as it can."""
+    session, _ = live
+    outside = Datagrams(session, ("127.0.0.1", 0), None)
+    stop = threading.Event()
+
+    def flood():
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            while not stop.is_set():
+                sender.sendto(b"x", outside.address)
+
+    thread = threading.Thread(target=flood)
+    thread.start()
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            for k in range(60):
+                sender.sendto(packed_inputs([0.25, 0.5], k + 1, 0), outside.address)
+                time.sleep(0.01)
+    finally:
+        stop.set()
+        thread.join()
+        outside.close()
+    assert outside.counts.malformed > 1000
+    assert outside.counts.taken > 5
+    assert outside.counts.excessive == 0
+
+
+class Program:
+    """Drives a machine as long as a test says so."""
+
+    is_driving = True
+
+
+def test_a_page_can_only_watch_while_a_program_drives():
+    """Not one of its commands is done, and each is answered in words; when the program is silent, the machine can be paused and reset."""
+    program = Program()
+    with cart.running() as session, served(LiveSource(session, program)) as viewing:
+        session.command("run")
+
+        async def refusal(page, word):
+            await page.send(json.dumps({"type": "command", "word": word, "number": 0.1}))
+            return (await statuses(page, lambda m: m["type"] == "note"))["text"]
+
+        async def talk():
+            async with connected(viewing) as page:
+                status = await statuses(page, lambda m: m["type"] == "status")
+                words = ("reset", "pause", "restore", "save", "step", "speed", "run")
+                refused = [await refusal(page, word) for word in words]
+                await page.send('{"type": "take", "on": 1}')
+                refused.append((await statuses(page, lambda m: m["type"] == "note"))["text"])
+                await page.send('{"type": "drive", "values": [1, 2]}')
+                await page.send('{"type": "hold", "body": 0, "point": [0, 0, 0], "towards": [1, 0, 0], "on": 1}')
+                untouched = session.mode, session.speed, int(session.live.control[DONE]) > 0
+                program.is_driving = False
+                free = await statuses(page, lambda m: m["type"] == "status" and not m["watches"])
+                await page.send('{"type": "command", "word": "pause", "number": 0}')
+                await statuses(page, lambda m: m["type"] == "status" and m["mode"] == "paused")
+                await page.send('{"type": "command", "word": "reset", "number": 0}')
+                while int(session.live.control[DONE]):
+                    await asyncio.wait_for(page.recv(), 30.0)
+                await page.send('{"type": "take", "on": 1}')
+                taken = await statuses(page, lambda m: m["type"] == "note")
+                return status, refused, untouched, free, taken["text"]
+
+        status, refused, untouched, free, taken = asyncio.run(talk())
+        assert session.live.target[:2].tolist() == [0.0, 1.0]
+        assert not session.live.target[2:].any()
+    assert (status["driver"], status["watches"]) == ("program", ONLY_WATCH)
+    assert refused == [ONLY_WATCH] * 8
+    assert untouched == ("running", 1.0, True)
+    assert free["driver"] == "program"
+    assert "come by datagrams" in taken
+
+
+def test_a_page_without_the_token_is_not_let_in(live):
+    session, _ = live
+
+    async def talk(viewing, query):
+        port = viewing.address.port
+        address = f"ws://127.0.0.1:{port}/stream{query}"
+        async with websockets.connect(address, origin=f"http://127.0.0.1:{port}", max_size=None, proxy=None) as page:
+            return await statuses(page, lambda m: m["type"] == "status")
+
+    with served(LiveSource(session), Address("127.0.0.1", 0, "secret")) as viewing:
+        for query in ("", "?token=", "?token=secre"):
+            with pytest.raises(websockets.exceptions.InvalidStatus):
+                asyncio.run(talk(viewing, query))
+        assert asyncio.run(talk(viewing, "?token=secret"))["driver"] == "nobody"
 
 
 def test_datagrams_operate_the_machine_and_bad_ones_are_counted(live):

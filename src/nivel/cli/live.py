@@ -41,7 +41,9 @@ if TYPE_CHECKING:
 @click.option("--record", type=click.Path(dir_okay=False), help="Write the recording to this file, for `nivel replay`.")
 @force_option
 @click.option(
-    "--udp", metavar="HOST:PORT", help="Receive inputs as datagrams at this address. Pages can then only watch."
+    "--udp",
+    metavar="HOST:PORT",
+    help="Receive inputs as datagrams at this address. While they come, pages can only watch.",
 )
 @click.option("--udp-to", metavar="HOST:PORT", help="Send the sensors to this address with every frame.")
 @click.option(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import threading
 import time
-from typing import Any, Final
+from typing import Any, Final, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,18 +22,30 @@ Array = NDArray[np.float64]
 MOST_GAUGES: Final = 16
 PATIENCE: Final = 2.0  # s that an operator may be silent before another one may take over
 SHOWN_FIRST: Final = ("sensor.", "state.")
+ONLY_WATCH: Final = "a program operates the machine by datagrams; this page can only watch"
+NO_INPUTS: Final = "the inputs of this machine come by datagrams, not from a page"
+
+
+class Program(Protocol):
+    """What operates a machine from outside its pages."""
+
+    @property
+    def is_driving(self) -> bool:
+        """Whether it does so now."""
+        ...
 
 
 class LiveSource(Still):
     """A session that pages look at; one of them at a time operates it."""
 
-    def __init__(self, session: Session, operator: object | None = None) -> None:
-        """operator : something other than a page that operates the machine; pages only look then."""
+    def __init__(self, session: Session, program: Program | None = None) -> None:
+        """program : something other than a page that operates the machine; pages cannot move its inputs, and only watch while it drives."""
         super().__init__()
         self.forgiving = True
         self._session = session
         self._lock = threading.Lock()
-        self._driver = self._other = operator
+        self._program = program
+        self._driver: object | None = None
         self._heard = 0.0
         attributes, layout = session.facts["attributes"], session.facts["layout"]
         self._places = _Places(layout)
@@ -94,7 +106,9 @@ class LiveSource(Still):
     def _take(self, page: object, on: bool) -> Note | None:
         with self._lock:
             silent = time.monotonic() - self._heard > PATIENCE
-            if on and (self._other is not None or (self._driver not in (None, page) and not silent)):
+            if on and self._program is not None:
+                return Note("note", self._watches or NO_INPUTS)
+            if on and self._driver not in (None, page) and not silent:
                 return Note("note", "another person operates the machine")
             if on:
                 self._driver, self._heard = page, time.monotonic()
@@ -103,8 +117,15 @@ class LiveSource(Still):
                 self._session.let_go()
         return None
 
+    @property
+    def _watches(self) -> str:
+        """Why no page may do anything to the machine now, or empty."""
+        return ONLY_WATCH if self._program is not None and self._program.is_driving else ""
+
     def _command(self, page: object, word: str, number: float) -> Note | None:
-        if page is not self._driver and self._other is None:
+        if self._watches:
+            return Note("note", self._watches)
+        if page is not self._driver and self._program is None:
             return Note("note", "take the controls first")
         if word == "speed":
             self._session.set_speed(number)
@@ -118,16 +139,21 @@ class LiveSource(Still):
                 self._driver = None
                 self._session.let_go()
 
+    def _driver_for(self, page: object) -> Literal["you", "other", "nobody", "program"]:
+        if self._program is not None:
+            return "program"
+        return "nobody" if self._driver is None else "you" if page is self._driver else "other"
+
     def status(self, page: object, dropped: int) -> Status | None:
         session = self._session
         timing, newest = session.timing, session.newest
-        driver = "nobody" if self._driver is None else "you" if page is self._driver else "other"
         return Status(
             type="status",
             mode=session.mode,
             time=0.0 if newest is None else float(newest[0]),
             speed=session.speed,
-            driver=driver,
+            driver=self._driver_for(page),
+            watches=self._watches,
             operated=session.is_operated,
             computing=1e6 * timing.computing[2],
             late=1e6 * timing.lateness[2],

@@ -485,7 +485,8 @@ class Refused:
 class Status:
     """From the server, some times a second: how a live machine is.
 
-    time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator.
+    time : simulated [s]. speed : simulated over real time. driver : who operates it. watches : why this page can only watch, or empty.
+    operated : its inputs follow an operator.
     computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by
     their own computing. dropped : messages refused.
     """
@@ -494,7 +495,8 @@ class Status:
     mode: str
     time: float
     speed: float
-    driver: Literal["you", "other", "nobody"]
+    driver: Literal["you", "other", "nobody", "program"]
+    watches: str
     operated: bool
     computing: float
     late: float

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import struct
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, Final
 
@@ -22,19 +23,22 @@ REFUSED: Final = 1008  # closing code: policy violation
 
 
 class Allowance:
-    """How much a page may still say: refilled with time."""
+    """How much a sender may still say: refilled with time. What is refused costs nothing, so a flood is forgotten when it ends."""
 
-    def __init__(self, rate: float = RATE, burst: float = BURST) -> None:
-        self._rate, self._burst = rate, burst
-        self._left, self._at = burst, time.monotonic()
+    def __init__(self, rate: float = RATE, burst: float = BURST, clock: Callable[[], float] = time.monotonic) -> None:
+        """rate : messages a second, burst : at once. clock : [s]"""
+        self._rate, self._burst, self._clock = rate, burst, clock
+        self._left, self._at = burst, clock()
 
     def spend(self) -> bool:
         """Whether one more message is allowed."""
-        now = time.monotonic()
+        now = self._clock()
         self._left = min(self._burst, self._left + self._rate * (now - self._at))
         self._at = now
+        if self._left < 1.0:
+            return False
         self._left -= 1.0
-        return self._left >= 0.0
+        return True
 
 
 def within(allowance: Allowance, content: str | bytes) -> Shown | Want | Move | Reset | Drive | Hold | Take | Command:

@@ -319,13 +319,14 @@ export interface Refused {
   problem: string;
 }
 
-/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by their own computing. dropped : messages refused. */
+/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. watches : why this page can only watch, or empty. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by their own computing. dropped : messages refused. */
 export interface Status {
   type: "status";
   mode: string;
   time: number;
   speed: number;
-  driver: "you" | "other" | "nobody";
+  driver: "you" | "other" | "nobody" | "program";
+  watches: string;
   operated: boolean;
   computing: number;
   late: number;

@@ -6,6 +6,7 @@ import { Stick } from "./stick";
 import { Strip } from "./strip";
 
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1] as const;
+const SEATS = { you: "You operate", other: "Somebody operates", program: "A program operates", nobody: "Take the controls" };
 const DRAWN = 100; // ms between two pictures of the strips
 
 interface Row {
@@ -30,6 +31,7 @@ export class Live {
   private readonly load = el("span", { class: "of load" });
   private readonly problem = el("p", { class: "problem", role: "status" });
   private readonly hint: HTMLElement;
+  private readonly commands: (HTMLButtonElement | HTMLSelectElement)[]; // what a page that only watches may not use
   private drawn = 0;
   private resumes = false; // whether this page operated when the connection was lost
 
@@ -50,13 +52,18 @@ export class Live {
       hand.setAttribute("aria-pressed", String(on));
       this.onHand(on);
     });
+    const step = iconButton("forward", "One tick", () => this.say("step"));
+    const reset = iconButton("reset", "Back to the start", () => this.say("reset"));
+    const save = el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state");
+    const restore = el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore");
+    this.commands = [this.run, step, reset, hand, save, restore, this.speed, this.seat];
     this.bar = el(
       "footer",
       { class: "timeline live-bar", role: "group", "aria-label": "Live" },
-      el("div", { class: "transport" }, this.run, iconButton("forward", "One tick", () => this.say("step")), iconButton("reset", "Back to the start", () => this.say("reset"))),
+      el("div", { class: "transport" }, this.run, step, reset),
       el("div", { class: "clock" }, this.clock),
       this.load,
-      el("div", { class: "pace" }, hand, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), this.speed, this.seat),
+      el("div", { class: "pace" }, hand, save, restore, this.speed, this.seat),
     );
     this.hint = el("p", { class: "note" }, hintOf(controls));
     this.rows = controls.map((control, k) => this.row(control, k));
@@ -87,7 +94,8 @@ export class Live {
 
   /** A command; whoever gives one where nobody operates the machine operates it. */
   say(word: string, number = 0): void {
-    if (!this.operator.driving) this.take(true);
+    if (this.status?.watches) return;
+    if (!this.operator.driving && this.status?.driver !== "program") this.take(true);
     this.send({ type: "command", word, number });
   }
 
@@ -111,15 +119,24 @@ export class Live {
     this.resumes = false;
     const running = status.mode === "running";
     renew(this.run, running ? "pause" : "play", running ? "Pause" : "Run", "space");
-    this.seat.textContent = status.driver === "you" ? "You operate" : status.driver === "other" ? "Somebody operates" : "Take the controls";
+    this.seat.textContent = SEATS[status.driver];
     this.seat.setAttribute("aria-pressed", String(status.driver === "you"));
     this.clock.textContent = `${status.time.toFixed(2)} s`;
     const share = (100 * status.computing) / status.tick;
     this.load.textContent = `${running ? "" : `${status.mode} · `}${short(+status.computing.toPrecision(2))} µs a tick, ${share.toPrecision(2)} %${status.overruns ? `, ${status.overruns} late` : ""}`;
     this.load.title = `99 % of the ticks are computed in at most this time, and begin at most ${short(+status.late.toPrecision(2))} µs after their deadlines. ${status.overruns} ended after the next deadline, ${status.own} of them by their own computing.`;
     this.problem.textContent = status.text;
+    this.allow(status);
     if (document.activeElement !== this.speed) this.speed.value = String(status.speed);
-    this.hint.hidden = status.driver === "you";
+    this.hint.hidden = status.driver === "you" || status.driver === "program";
+  }
+
+  /** Disable what this page may not use now; the reason stands in the panel and in the tip of the bar. */
+  private allow(status: Status): void {
+    for (const each of this.commands) each.disabled = !!status.watches || (each === this.seat && status.driver === "program");
+    this.bar.title = status.watches;
+    if (status.watches && !status.text) this.problem.textContent = `${status.watches[0]!.toUpperCase()}${status.watches.slice(1)}.`;
+    this.problem.classList.toggle("watching", !!status.watches && !status.text);
   }
 
   /** Numbers behind a frame: gauges, then the values of the controls. */

@@ -2,20 +2,29 @@
 
 from typing import get_args
 
+import pytest
+
+from nivel.cli.options import METHODS
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop import workspace
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.integrate.variable_order import variable_workspace
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.joint import JOINT_COORDINATES, JointType
-from nivel.machine.settings import CHOOSING, EITHER, SimulationSettings
+from nivel.machine.settings import SimulationSettings
+from nivel.methods import CHOOSING, EITHER, known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.system.forces import FORCES
 from nivel.system.joints import JOINTS
 
 
-def words(field):
-    return set(get_args(SimulationSettings.model_fields[field].annotation))
+def words(setting):
+    return set(known_words(setting))
+
+
+@pytest.mark.parametrize("setting", METHODS)
+def test_help_lists_the_words_that_a_file_may_name(setting):
+    assert known_words(setting) == get_args(SimulationSettings.model_fields[setting].annotation)
 
 
 def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():

@@ -16,7 +16,7 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
-from nivel.machine.settings import known_words
+from nivel.methods import known_words
 from nivel.results import Result
 
 PENDULUM = """\

@@ -8,6 +8,8 @@ from typing import Any, Final
 
 import click
 
+from nivel.methods import known_words
+
 
 def file_argument(name: str) -> Any:
     """A machine or result file; whether it exists is found out by its reader, which knows what to say."""
@@ -75,15 +77,13 @@ def separated(_context: click.Context, _parameter: click.Parameter, values: tupl
 
 
 class MethodOption(click.Option):
-    """An option whose help ends with the words that the simulation setting `setting` knows, looked up when help is shown."""
+    """An option whose help ends with the words that the simulation setting `setting` knows."""
 
     def __init__(self, *declarations: Any, setting: str, **attributes: Any) -> None:
         super().__init__(*declarations, **attributes)
         self.setting = setting
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        from nivel.machine.settings import known_words
-
         record = super().get_help_record(ctx)
         return record and (record[0], f"{record[1]} {', '.join(known_words(self.setting))}.")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
@@ -12,26 +12,18 @@ from nivel.machine.checked import Checked, Problem
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.record import Record
 from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
+from nivel.methods import (
+    CHOOSING,
+    EITHER,
+    Coordinates,
+    Formulation,
+    Integrator,
+    Rotations,
+    Stabilisation,
+    Start,
+    StepControl,
+)
 
-Integrator = Literal[
-    "euler", "heun", "rk4", "rkn4",
-    "ab1", "ab2", "ab3", "ab4", "ab5",
-    "am1", "am2", "am3", "am4", "am5",
-    "abm1", "abm2", "abm3", "abm4", "abm5",
-    "gear1", "gear2", "gear3", "gear4",
-    "dopri5", "dop853", "adams", "gear",
-    "newmark", "hht", "generalised-alpha", "energy-momentum",
-    "bdf", "ros2", "extrapolated-euler", "radau",
-]  # fmt: skip
-# those of them that choose their steps, and those that do so with `step_control: error`
-CHOOSING = ("dopri5", "dop853", "adams", "gear", "bdf", "radau")
-EITHER = ("newmark", "hht", "generalised-alpha")
-StepControl = Literal["own", "fixed", "error"]
-Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
-Coordinates = Literal["auto", "absolute", "relative", "independent"]
-Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
-Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
-Start = Literal["as-given", "equilibrium"]
 Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
 
 
@@ -155,8 +147,3 @@ class SimulationSettings(Checked):
         if self.penalty.factor is not None and self.penalty.alpha is not None:
             messages.append("`penalty` takes `factor` or `alpha`, not both")
         yield from (Problem((), message) for message in messages)
-
-
-def known_words(setting: str) -> tuple[str, ...]:
-    """The words that a setting may be, e.g. of `integrator`."""
-    return get_args(SimulationSettings.model_fields[setting].annotation)

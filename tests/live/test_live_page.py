@@ -18,8 +18,6 @@ from nivel.live.replay import replay
 from nivel.live.source import LiveSource, gauges
 from nivel.live.timing import timing_of
 
-pytest.importorskip("websockets")
-
 
 @pytest.fixture(scope="module")
 def live():

@@ -11,6 +11,7 @@ from contextlib import AsyncExitStack, closing, contextmanager
 
 import numpy as np
 import pytest
+import websockets
 
 import cart
 from browsing import served
@@ -23,8 +24,6 @@ from nivel.system.layout import frame_layout
 from nivel.view.messages import NotUnderstoodError, read_message
 from nivel.view.records import FRAME
 from nivel.view.server import Address
-
-websockets = pytest.importorskip("websockets")
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ import json
 import random
 import socket
 import struct
-import sys
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
+import websockets
 
 import synthetic_run as pendulum
 from browsing import PATIENCE, served
@@ -22,8 +22,6 @@ from nivel.view.package import Block
 from nivel.view.records import COLUMN, FRAME, PACKAGE
 from nivel.view.server import MOST_PAGES, Address, Viewing, start
 from nivel.view.sources import Live, Playback
-
-websockets = pytest.importorskip("websockets")
 
 
 def swinging():
@@ -254,9 +252,3 @@ def test_what_goes_on_when_the_server_has_ended_is_not_disturbed():
         live.show(0.0, *moment(0.0))
     live.show(1.0, *moment(1.0))
     assert live.frame()[0] == 1.0
-
-
-def test_without_websockets_it_is_said_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "websockets.asyncio.server", None)
-    with pytest.raises(ModelError, match=r"pip install 'nivel\[view\]'"):
-        asyncio.run(start(Viewing(Playback([swinging()]), Address())))

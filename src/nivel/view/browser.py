@@ -106,10 +106,8 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
     program = find_browser()
     if program is None:
         raise ModelError(_missing())
-    try:
-        from websockets.sync.client import connect
-    except ModuleNotFoundError:
-        raise ModelError("pictures and films need websockets: pip install 'nivel[view]'") from None
+    from websockets.sync.client import connect
+
     with tempfile.TemporaryDirectory(prefix="nivel-browser-", ignore_cleanup_errors=True) as profile:
         running = _started(program, Path(profile))
         try:

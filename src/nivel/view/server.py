@@ -159,12 +159,10 @@ def _respond(connection: ServerConnection, status: HTTPStatus, text: str, *, pag
 async def start(viewing: Viewing) -> Server:
     """Listen; the address gets the port that was found.
 
-    Raises ModelError where `websockets` is missing or the port is taken.
+    Raises ModelError where the port is taken.
     """
-    try:
-        from websockets.asyncio.server import serve
-    except ModuleNotFoundError:
-        raise ModelError("the viewer needs websockets: pip install 'nivel[view]'") from None
+    from websockets.asyncio.server import serve
+
     loop = asyncio.get_running_loop()
 
     def changed() -> None:

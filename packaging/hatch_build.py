@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
@@ -19,8 +20,13 @@ class LibraryHook(BuildHookInterface):
     PLUGIN_NAME = "custom"
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """`packaging/build_wheel.py` has left it in the package."""
+        """`packaging/build_wheel.py` has left it in the package. Raises FileNotFoundError where it is not there."""
         if PLATFORM:
+            library = Path(self.root) / "src" / "nivel" / "native" / "shipped"
+            if not (library / "manifest.json").exists() or not any(library.glob("*.so")):
+                raise FileNotFoundError(
+                    f"{library} has no library for {PLATFORM}: start packaging/build_wheel.py, which builds it"
+                )
             build_data.update(pure_python=False, tag=f"py3-none-{PLATFORM}")
             build_data["artifacts"].append("src/nivel/native/shipped/*")
 

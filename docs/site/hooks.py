@@ -42,6 +42,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         files.append(File.generated(config, path, content=content))
 
     add("assets/nivel.css", STYLE)
+    add("assets/iframe-worker.js", (ROOT / "docs" / "site" / "iframe-worker.js").read_bytes())
     add("keys.md", key_page())
     add("command-line.md", command_page())
     for source, page in PAGES.items():

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from browsing import chromium, watched
 from checking import check
 from example_files import rigid_example
 from nivel.analysis.plan.plan import plan_run
@@ -120,17 +121,38 @@ def test_every_page_stands_in_the_navigation_or_is_a_guide():
         assert page in MADE or (DOCS / page).exists(), page
 
 
-@pytest.mark.full
-def test_the_site_builds_without_warnings(tmp_path):
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The site without its pictures, built without a warning."""
     pytest.importorskip("mkdocs")
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(tmp_path / "site")]
+    folder = tmp_path_factory.mktemp("pages") / "site"
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
     own = {**os.environ, "NIVEL_SITE_PICTURES": "0"}
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, env=own)
     assert done.returncode == 0, done.stderr
-    for page in ("index.html", "keys.html", "command-line.html", "api.html", "tutorials/pendulum.html"):
-        text = (tmp_path / "site" / page).read_text(encoding="utf-8")
-        assert "https://fonts" not in text
-        assert "cdn" not in text
+    return folder
+
+
+@pytest.mark.full
+def test_no_page_of_the_site_fetches_anything(site):
+    assert (site / "api.html").exists()
+    for page in site.rglob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        assert not re.findall(r'<(?:script|img|iframe|link)\b[^>]*?(?:src|href)="?(?:https?:)?//[^>]*', text), page
+
+
+def test_the_site_is_searched_when_it_is_opened_from_a_disk(site):
+    with chromium() as browser, watched(browser) as seen:
+        page = seen.page
+        seen.context.set_offline(True)
+        for start in ("index.html", "tutorials/pendulum.html"):
+            page.goto((site / start).as_uri())
+            page.get_by_role("textbox", name="Search").fill("Baumgarte")
+            found = page.locator(".md-search-result__link", has_text="Baumgarte").first
+            found.wait_for()
+            found.click()
+            page.wait_for_url(lambda address, start=start: start not in address)
+            assert "baumgarte" in page.locator("article").inner_text().lower()
 
 
 @pytest.mark.full

@@ -5,7 +5,7 @@ import type { Stage } from "../generated/records";
 import { Flight } from "./flight";
 import { Floor } from "./floor";
 import { readLook, type Look } from "./look";
-import { corners, distanceFor, sideOf, vector, type View } from "./views";
+import { corners, framed, sideOf, vector, type View } from "./views";
 
 const FIELD = 26; // degrees, of the shorter side of the picture
 const SLOW = 30; // ms a frame: slower than this is not smooth
@@ -123,14 +123,14 @@ export class World {
     const { towards, up } = sideOf(name, this.stage.viewpoint, this.up);
     this.fitted = true;
     if (this.around) this.see(this.around());
-    this.flyTo(towards, up, this.middle(), this.distance(towards), animate);
+    this.flyTo(towards, up, animate);
   }
 
   fit(animate = true): void {
     this.fitted = true;
     if (this.around) this.see(this.around());
     const towards = this.camera.position.clone().sub(this.controls.target).normalize();
-    this.flyTo(towards, this.up, this.middle(), this.distance(towards), animate);
+    this.flyTo(towards, this.up, animate);
   }
 
   /** What stands there at this moment is in sight, as large as it can be; the standard views have the whole motion in sight. */
@@ -232,14 +232,15 @@ export class World {
     return new THREE.Box3().setFromPoints(this.cloud).getCenter(new THREE.Vector3());
   }
 
-  /** How far away everything is in sight. */
-  private distance(towards: THREE.Vector3): number {
+  /** Where the eye looks, and from how far, to have everything in sight. */
+  private framed(towards: THREE.Vector3, up: THREE.Vector3): { aim: THREE.Vector3; distance: number } {
     const { width, height } = this.size();
-    const room = { width, height, across: width - this.free.left - this.free.right, down: height - this.free.top - this.free.bottom };
-    return distanceFor(this.cloud, this.middle(), towards, this.up, room, this.camera.fov, this.stage.size);
+    const room = { height, across: width - this.free.left - this.free.right, down: height - this.free.top - this.free.bottom };
+    return framed(this.cloud, towards, up, room, this.camera.fov, this.stage.size);
   }
 
-  private flyTo(towards: THREE.Vector3, up: THREE.Vector3, aim: THREE.Vector3, distance: number, animate: boolean): void {
+  private flyTo(towards: THREE.Vector3, up: THREE.Vector3, animate: boolean): void {
+    const { aim, distance } = this.framed(towards, up);
     const offset = towards.clone().normalize();
     // the controls know no direction exactly along the vertical
     if (Math.abs(offset.dot(this.up)) > 0.9999) offset.addScaledVector(up, -1e-3 * Math.sign(offset.dot(this.up))).normalize();

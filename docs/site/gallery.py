@@ -48,28 +48,55 @@ def with_bodies(folder: Path) -> Path:
     return copy
 
 
+# what a visitor sees first: crane, excavator, robot
+FIRST = ("hydraulics/loader-crane.yaml", "hydraulics/excavator.yaml", "control/six-axis-arm.yaml")
+
+
 def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
     """The page, and its pictures (SVG) by their paths in the site."""
     lines = [
         "# Gallery",
         "",
         "Every example of the package, as it is assembled. A click on a name shows the whole machine file.",
-        "",
-        '<div class="grid" markdown>',
     ]
     drawn = _pictures() if pictures else {}
-    for path in examples():
-        place = path.relative_to(ROOT).as_posix()
+    first = [EXAMPLES / name for name in FIRST]
+    lines += _group(first, drawn)
+    rest = [path for path in examples() if path not in first]
+    for folder, subject in _subjects().items():
+        inside = [path for path in rest if path.relative_to(EXAMPLES).parts[0] == folder]
+        if inside:
+            lines += [
+                "",
+                f"## {folder[:1].upper()}{folder[1:].replace('-', ' ')}",
+                "",
+                f"{subject[:1].upper()}{subject[1:]}.",
+            ]
+            lines += _group(inside, drawn)
+    return "\n".join([*lines, ""]), drawn
+
+
+def _subjects() -> dict[str, str]:
+    """The folders of examples with their subjects, in the order of the table in `examples/README.md`."""
+    rows = re.findall(
+        r"^\| \[([\w-]+)\]\([\w-]+\) \| (.+?)(?:: .*)? \|$", (EXAMPLES / "README.md").read_text("utf-8"), re.MULTILINE
+    )
+    return dict(rows)
+
+
+def _group(machines: list[Path], drawn: dict[str, str]) -> list[str]:
+    """Figures of machines, with their names."""
+    lines = ["", '<div class="grid" markdown>']
+    for path in machines:
         name = path.stem
         lines += ["", '<figure markdown style="display:inline-block;width:20em;vertical-align:top">']
         if (picture := _picture_name(path)) in drawn:
             lines.append(f"![{name}]({picture})")
         lines += [
-            f"<figcaption markdown>[{name}](files/{place}) {_first_sentence(path)}{_trust(path)}</figcaption>",
+            f"<figcaption markdown>[{name}](files/{path.relative_to(ROOT).as_posix()}) {_first_sentence(path)}{_trust(path)}</figcaption>",
             "</figure>",
         ]
-    lines += ["", "</div>", ""]
-    return "\n".join(lines), drawn
+    return [*lines, "", "</div>"]
 
 
 def _picture_name(path: Path) -> str:
@@ -124,9 +151,25 @@ def _picture(path: Path) -> str:
     return ""
 
 
-def moving_picture(name: str) -> str:
-    """A page on which the motion of an example plays."""
+# (time [s], position) of the levers of the loader crane of `nivel demo`, which lifts a load and lays it on its truck
+LEVERS = {
+    "lift_lever": ((0.4, 0), (0.8, 0.8), (3.4, 0.8), (3.8, 0), (8.2, 0), (8.8, -0.4), (10, -0.4), (10.6, 0)),
+    "slew_lever": ((2.6, 0), (4.7, 0.48), (6.3, 0.48), (8.4, 0)),
+    "jib_lever": ((6.5, 0), (7.5, -0.6), (10, -0.6), (11, 0)),
+}
+AT_WORK = 14.0  # s
+
+
+def crane_at_work() -> str:
+    """A page on which the loader crane of `nivel demo` works, as its levers move."""
     import nivel
+    from nivel.demos.catalogue import demo_file
+    from nivel.machine import Table
     from nivel.view.export import scene_html
 
-    return scene_html([nivel.load(EXAMPLES / f"{name}.yaml").simulate()])
+    machine = nivel.load(demo_file("loader-crane")).with_settings({"duration": AT_WORK})
+    inputs = {}
+    for name, points in LEVERS.items():
+        times, positions = zip((0.0, 0.0), *points, (AT_WORK, 0.0), strict=True)
+        inputs[name] = Table(times, positions)
+    return scene_html([machine.simulate(inputs=inputs)])

@@ -14,7 +14,7 @@ from mkdocs.structure.pages import Page
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from gallery import gallery, moving_picture
+from gallery import crane_at_work, gallery
 from reference import command_page, key_page
 
 ROOT = Path(__file__).parents[2]
@@ -22,7 +22,6 @@ ROOT = Path(__file__).parents[2]
 PAGES = {"NOTATION.md": "notation.md", "benchmarks/README.md": "benchmarks.md", "README.md": "index.md"}
 OUTSIDE = re.compile(r"\]\(((?:\.\./)+[^)#\s]+)(#[^)\s]*)?\)")
 ANY = re.compile(r"\]\((?!http|#)([^)#\s]+)(#[^)\s]*)?\)")
-MOVING = ("mechanisms/slider-crank", "vehicles/suspension", "mechanisms/four-bar")
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
@@ -58,8 +57,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     add("gallery.md", page)
     for name, text in drawn.items():
         add(name, text)
-    for name in MOVING if pictures else ():
-        add(f"moving/{Path(name).name}.html", moving_picture(name))
+    if pictures:
+        add("moving/crane.html", crane_at_work())
     return files
 
 

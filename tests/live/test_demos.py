@@ -11,7 +11,7 @@ from nivel.live.replay import replay
 from nivel.machine import Table
 
 HYDRAULIC = {
-    "loader-crane": {"lift_lever": "luffing.angle", "extension_lever": "telescope.displacement"},
+    "loader-crane": {"lift_lever": "luffing.angle", "jib_lever": "folding.angle", "extension_lever": "telescope.displacement"},
     "excavator": {"boom_lever": "foot.angle", "stick_lever": "elbow.angle"},
 }
 REST, PUSHED, END = 0.1, 0.35, 0.8  # s
@@ -59,4 +59,4 @@ def test_a_hydraulic_machine_stands_still_until_its_levers_are_moved(name):
     assert np.abs(position[resting] - position[0]).max() < STILL
     for coordinate in moved.values():
         course = result.array(coordinate)
-        assert course[-1] - course[0] > 0.02
+        assert course[-1] - course[0] > 0.005  # rad or m, of levers that are pushed together

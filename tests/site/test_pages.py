@@ -155,6 +155,20 @@ def test_the_site_is_searched_when_it_is_opened_from_a_disk(site):
             assert "baumgarte" in page.locator("article").inner_text().lower()
 
 
+def test_the_gallery_begins_with_crane_excavator_and_robot_and_goes_on_by_folder(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS / "site"))
+    gallery = importlib.import_module("gallery")
+    page, _ = gallery.gallery(False)
+    begin, *groups = page.split("\n## ")
+    assert re.findall(r"\[([\w-]+)\]\(", begin) == ["loader-crane", "excavator", "six-axis-arm"]
+    shown = re.findall(r"\]\(files/([^)]+)\)", page)
+    assert sorted(shown) == sorted(path.relative_to(ROOT).as_posix() for path in gallery.examples())
+    for group in groups:
+        title = group.partition("\n")[0]
+        folders = {place.split("/")[1] for place in re.findall(r"\]\(files/([^)]+)\)", group)}
+        assert folders == {title.lower().replace(" ", "-")}
+
+
 @pytest.mark.full
 def test_every_example_has_a_picture_in_the_gallery(monkeypatch):
     pytest.importorskip("gmsh")

@@ -11,7 +11,11 @@ from nivel.live.replay import replay
 from nivel.machine import Table
 
 HYDRAULIC = {
-    "loader-crane": {"lift_lever": "luffing.angle", "jib_lever": "folding.angle", "extension_lever": "telescope.displacement"},
+    "loader-crane": {
+        "lift_lever": "luffing.angle",
+        "jib_lever": "folding.angle",
+        "extension_lever": "telescope.displacement",
+    },
     "excavator": {"boom_lever": "foot.angle", "stick_lever": "elbow.angle"},
 }
 REST, PUSHED, END = 0.1, 0.35, 0.8  # s

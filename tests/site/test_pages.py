@@ -8,9 +8,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
+import nivel
 from browsing import chromium, watched
 from checking import check
 from example_files import rigid_example
@@ -77,15 +79,84 @@ def merged(base, part):
     return out
 
 
+def whole_of(base, block):
+    """The machine file of the base with a block of an answer."""
+    whole = yaml.safe_dump(merged(yaml.safe_load(base), yaml.load(block, yaml.BaseLoader)), sort_keys=False)
+    return re.sub(r"'(-?[\d.]+(?:e-?\d+)?|true|false)'", r"\1", whole)
+
+
 @pytest.mark.parametrize(("question", "answer"), ANSWERS, ids=[question for question, _ in ANSWERS])
 def test_every_answer_is_a_machine_that_can_be_run(question, answer):
     (base,) = files_of(HOW_TO).values()
     for block in blocks(answer, "yaml"):
-        whole = yaml.safe_dump(merged(yaml.safe_load(base), yaml.load(block, yaml.BaseLoader)), sort_keys=False)
-        whole = re.sub(r"'(-?[\d.]+(?:e-?\d+)?|true|false)'", r"\1", whole)
+        whole = whole_of(base, block)
         machine = parse_machine(whole, question)
         plan_run(machine)
         check(machine)
+
+
+def result_of(question, folder):
+    """The run of the machine of an answer; it is reliable."""
+    (base,), (block,) = files_of(HOW_TO).values(), blocks(dict(ANSWERS)[question], "yaml")
+    file = folder / "machine.yaml"
+    file.write_text(whole_of(base, block), encoding="utf-8")
+    result = nivel.load(file).simulate()
+    assert result.trust.verdict == "green"
+    return result
+
+
+def test_a_part_in_a_gripper_creeps_as_its_friction_says(tmp_path):
+    result = result_of("model a gripper", tmp_path)
+    # two pads, each pressed by half the grip of 60 N: weight = 2 μ N tanh(v/v_t)
+    speed = 1e-3 * np.arctanh(0.5 * 9.81 / (2 * 0.6 * 30.0))
+    assert -result.array("part.velocity")[-1, 2] == pytest.approx(speed, rel=1e-3)
+
+
+def test_a_tyre_rolls_and_is_pressed_by_its_weight(tmp_path):
+    result = result_of("model a tyre", tmp_path)
+    assert result.array("force.tyre.depth")[-1] == pytest.approx(20 * 9.81 / 200e3, rel=1e-3)
+    radius = result.array("wheel.position")[-1, 2]
+    rate = result.array("wheel.angular_velocity")[-1, 1]
+    assert result.array("wheel.velocity")[-1, 0] == pytest.approx(radius * rate, rel=1e-3)
+
+
+def test_a_ball_screw_advances_by_its_pitch(tmp_path):
+    result = result_of("model a ball screw", tmp_path)
+    turned, moved = result.array("bearing.angle"), result.array("rail.displacement")
+    assert np.ptp(moved) > 0.01
+    np.testing.assert_allclose(moved, 5e-3 / (2 * np.pi) * turned, atol=1e-9)
+
+
+def test_an_angle_is_seen_in_degrees(tmp_path):
+    result = result_of("get results in degrees", tmp_path)
+    assert result.units("sensor.swing") == "deg"
+    np.testing.assert_allclose(result.array("sensor.swing"), np.degrees(result.array("hinge.angle")), rtol=1e-12)
+
+
+@pytest.mark.parametrize("question", [question for question, answer in ANSWERS if blocks(answer, "python")])
+def test_python_of_an_answer_runs(question, tmp_path, monkeypatch):
+    for name, block in files_of(HOW_TO).items():
+        (tmp_path / name).write_text(block, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    (code,) = blocks(dict(ANSWERS)[question], "python")
+    names = {"__name__": "page"}
+    exec(compile(code, question, "exec"), names)
+    assert names["result"].trust.verdict == "green"
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="no Bash on this machine")
+@pytest.mark.parametrize(
+    ("typed", "offered"), [("de", "demo"), ("demo ex", "excavator"), ("run --inte", "--integrator")]
+)
+def test_bash_completes_what_is_typed(typed, offered):
+    (line,) = blocks(dict(ANSWERS)["complete commands in the shell"], "bash")
+    words = ["nivel", *typed.split()]
+    ask = f"{line}\nCOMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _nivel_completion nivel; echo ${{COMPREPLY[*]}}"
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    done = subprocess.run(
+        ["bash", "-c", ask], capture_output=True, text=True, check=True, env={**os.environ, "PATH": path}
+    )
+    assert offered in done.stdout.split()
 
 
 def test_there_are_thirty_answers():

@@ -74,7 +74,9 @@ def test_the_mouse_turns_shifts_and_zooms(browser, scene):
         room = np.array([right - left, lower - upper])
         assert np.all(low >= (left, upper))
         assert np.all(high <= (right, lower))
-        np.testing.assert_allclose(0.5 * (low + high), (0.5 * (left + right), 0.5 * (upper + lower)), atol=0.05 * room.max())
+        np.testing.assert_allclose(
+            0.5 * (low + high), (0.5 * (left + right), 0.5 * (upper + lower)), atol=0.05 * room.max()
+        )
         assert np.max((high - low) / room) > 0.7
         assert np.linalg.norm(fitted - again) < np.linalg.norm(eye - aim)
 

@@ -38,7 +38,7 @@ def machine():
 def running(**given):
     """A session of the cart, paused at its start."""
     with TemporaryDirectory() as folder:
-        opened = session_of(machine(), {}, urgent=False, recorded_in=Path(folder), **given)
+        opened = session_of(machine(), {}, urgent=False, record=Path(folder) / "cart.live.npz", **given)
         with opened as session:
             yield session
 

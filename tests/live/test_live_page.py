@@ -119,7 +119,10 @@ def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
 def test_a_crane_is_driven_with_keys_and_a_gamepad_and_its_recording_is_repeated(browser, tmp_path):
     """The loader crane of `nivel demo`: W raises the boom, a gamepad slews, gauges follow, and the replay is equal to the last bit."""
     crane = nivel.load(demo_file("loader-crane"))
-    with session_of(crane, {}, urgent=False, recorded_in=tmp_path) as session, served(LiveSource(session)) as viewing:
+    with (
+        session_of(crane, {}, urgent=False, record=tmp_path / "crane.live.npz") as session,
+        served(LiveSource(session)) as viewing,
+    ):
         session.command("run")
         layout = session.facts["layout"]
         gauge = {name: variable.columns.start for name, variable in gauges(layout)}

@@ -272,7 +272,10 @@ def test_a_run_that_fails_says_why_and_its_replay_fails_as_it_did():
     text = cart.CART.replace("effort: 20.0*lever.value", "effort: 20.0*lever.value + 0*sqrt(0.2 - rail.displacement)")
     assert "sqrt" in text
     fragile = Machine.from_record(parse_machine(text))
-    with TemporaryDirectory() as folder, session_of(fragile, {}, urgent=False, recorded_in=Path(folder)) as session:
+    with (
+        TemporaryDirectory() as folder,
+        session_of(fragile, {}, urgent=False, record=Path(folder) / "x.live.npz") as session,
+    ):
         session.command("run")
         while session.mode == "running":
             operate(session, [1.0, 1.0], 0.05)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import FrameType
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
@@ -21,6 +24,10 @@ from nivel.cli.options import (
 
 if TYPE_CHECKING:
     from nivel.live.session import Session
+    from nivel.view.opening import Stop
+
+SIGNALLED: Final = 128  # and the number of the signal: the exit code
+TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 
 
 @click.command(short_help="Operate a machine in real time in the browser.")
@@ -38,7 +45,11 @@ if TYPE_CHECKING:
 @method_option("formulation")
 @method_option("coordinates")
 @method_option("stabilisation")
-@click.option("--record", type=click.Path(dir_okay=False), help="Write the recording to this file, for `nivel replay`.")
+@click.option(
+    "--record",
+    type=click.Path(dir_okay=False),
+    help="Record into this file, for `nivel replay`. FILE.part until the run ends.",
+)
 @force_option
 @click.option(
     "--udp",
@@ -78,55 +89,117 @@ def command(
     """
     from nivel.api import load
     from nivel.cli.progress import progress_listener
+    from nivel.errors import ModelError
     from nivel.live.datagrams import Datagrams, place_of
+    from nivel.live.journal import check_journal, journal_of
     from nivel.live.opening import session_of
-    from nivel.live.recording import write_recording
     from nivel.live.source import LiveSource
-    from nivel.live.timing import in_a_sentence, in_words
     from nivel.results.frames.target import check_target
-    from nivel.view.opening import serve
+    from nivel.view.opening import Stop, serve
 
     def say(text: str) -> None:
         if not quiet:
-            click.echo(text, err=True)
+            tell(text)
 
-    if record is not None:
-        check_target(Path(record), "recording", force=force, sources=[Path(machine)])
+    target = None if record is None else Path(record)
+    if target is not None:
+        check_target(target, "recording", force=force, sources=[Path(machine)])
+        check_journal(journal_of(target), force=force)
     settings = {name: value for name, value in methods.items() if value is not None}
     listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")
     loaded = load(machine, overrides, allow_code=allow_code)
-    with ExitStack() as stack:
+    stop = Stop()
+    with orderly_end(stop), ExitStack() as stack:
         with progress_listener(quiet) as listener:
             listener.say("preparing")
-            folder = None if record is None else Path(record).absolute().parent
             opened = session_of(
-                loaded, settings, tick=tick, urgent=not no_priority, recorded_in=folder, listener=listener
+                loaded, settings, tick=tick, urgent=not no_priority, record=target, force=force, listener=listener
             )
             session = stack.enter_context(opened)
+            if target is not None:
+                stack.callback(keep, session, target)
             outside = Datagrams(session, listen or None, send or None)
             stack.callback(outside.close)
             source = LiveSource(session, outside if listen else None)
             session.on_frame = both(session.on_frame, outside.send)
+            session.on_gone = lambda: threading.Timer(TOLD, stop.ask).start()
         for line in introduction(session):
             say(line)
+        if target is not None:
+            say(f"recording: {journal_of(target)}, which becomes {target} when the run ends")
         session.command("run")
-        serve(source, host=host, port=port, browser=not no_browser, say=say)
-        timing, problem = session.timing, session.problem if session.mode == "failed" else ""
-    for line in in_words(timing):
-        say(line)
+        try:
+            serve(source, host=host, port=port, browser=not no_browser, say=say, stop=stop)
+        except ModelError:  # of the address
+            session.recorder.discard()
+            raise
+        problem = session.problem if session.mode in ("failed", "gone") else ""
+        stack.close()
+        for line in conclusion(session):
+            say(line)
+        if listen:
+            say(f"datagrams: {outside.counts}")
+        if target is not None:
+            say(f"recording: {target}{session.recorder.problem and f' ({session.recorder.problem})'}")
+        if problem:
+            tell(problem)
+            raise SystemExit(COMPUTATION_FAILED)
+
+
+def tell(text: str) -> None:
+    """Say something on standard error, where somebody still reads it: the terminal may be closed."""
+    with suppress(OSError):
+        click.echo(text, err=True)
+
+
+def keep(session: Session, target: Path) -> None:
+    """End the session and let its recording take its place. Where that is interrupted, say what there is."""
+    from nivel.live.journal import journal_of
+
+    try:
+        session.close()
+        session.recorder.complete(target)
+    except KeyboardInterrupt:
+        journal = journal_of(target)
+        tell(f"the recording was not completed; what was recorded is in {journal}: `nivel replay {journal}` plays it")
+        raise
+
+
+@contextmanager
+def orderly_end(stop: Stop) -> Iterator[None]:
+    """SIGTERM and SIGHUP, which a terminal sends when it is closed, end the run as Ctrl-C does, with the exit code that shells expect.
+
+    What the program was told to ignore it ignores.
+    """
+    came: list[int] = []
+
+    def end(number: int, _frame: FrameType | None) -> None:
+        came.append(number)
+        if stop.can_be_asked:
+            stop.ask()
+        elif not stop.has_ended and len(came) == 1:
+            raise SystemExit(SIGNALLED + number)
+
+    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {each: signal.signal(each, end) for each in numbers if signal.getsignal(each) is not signal.SIG_IGN}
+    try:
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)
+    if came:
+        raise SystemExit(SIGNALLED + came[0])
+
+
+def conclusion(session: Session) -> Iterator[str]:
+    """How the run went."""
+    from nivel.live.timing import in_a_sentence, in_words
+
+    timing = session.timing
+    yield from in_words(timing)
     if timing.ticks:
         integrator = session.plan.settings.integrator
-        say(f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}")
-    if listen:
-        say(f"datagrams: {outside.counts}")
-    if record is not None:
-        write_recording(
-            record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.parts
-        )
-        say(f"recording: {record}{session.recorder.problem and f' ({session.recorder.problem})'}")
-    if problem:
-        click.echo(problem, err=True)
-        raise SystemExit(COMPUTATION_FAILED)
+        yield f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}"
 
 
 def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:

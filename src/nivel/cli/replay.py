@@ -76,7 +76,9 @@ def command(
         done = replay(stored, chosen, out=target, force=force, listener=listener)
     say(f"{stored.machine.name}: {length}; {_comparison(done)}; {_trust(done.result)}")
     if not chosen.whole:
-        say("this take went on after its last tick here: the recorder could not follow, or its disk was full")
+        say(
+            "this take went on after its last tick here: the run was killed, the recorder could not follow, or its disk was full"
+        )
     say(f"result: {target}")
     if not done.is_identical:
         raise SystemExit(COMPUTATION_FAILED)

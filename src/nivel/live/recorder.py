@@ -1,91 +1,58 @@
-"""Keeps a live run while it goes on: the inputs of all its ticks and its frames, on the disk."""
+"""The recorder of a live run: the inputs of all its ticks and its frames go to the disk while it goes on."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryFile
-from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.errors import SolveError
 from nivel.integrate.loop.paced import DONE, SHOWN, Live
+from nivel.live.journal import FRAMES, GAP, PART, TICKS, Journal
 from nivel.live.preparation import Pace
-from nivel.live.recording import Part, Take
+from nivel.live.recording import Part, complete, parts_in
 
 Array = NDArray[np.float64]
-
-
-@dataclass
-class _Piece:
-    """A part: rows of the files of ticks and of frames."""
-
-    before: int
-    ticks: int
-    rows: slice
-    shown: slice
-    whole: bool = True
-
-
-class Rows:
-    """Rows of numbers in a file that goes with the program: an hour of them takes disk, no memory."""
-
-    def __init__(self, folder: Path, width: int) -> None:
-        self._file = TemporaryFile(dir=folder)  # noqa: SIM115, it lives as long as these rows
-        finalize(self, self._file.close)
-        self._width = width
-        self.count = 0
-
-    def append(self, rows: Array) -> None:
-        """Raises OSError where the disk is full."""
-        self._file.write(rows.tobytes())
-        self.count += len(rows)
-
-    def __getitem__(self, rows: slice) -> Array:
-        self._file.flush()
-        shape = rows.stop - rows.start, self._width
-        if not shape[0]:
-            return np.zeros(shape)
-        return np.memmap(self._file, np.float64, "r", rows.start * self._width * 8, shape)
+MARGIN = 1024  # rows of the ring that the loop may write while they are read
 
 
 class Recorder:
-    """Takes ticks and frames out of the shared memory as long as they are there; keeps them in a folder, if there is one.
+    """Takes ticks and frames out of the shared memory as long as they are there; keeps them in a journal, if there is one.
 
     problem : why no more is kept, or empty.
     """
 
-    def __init__(self, live: Live, pace: Pace, folder: Path | None) -> None:
-        self._live, self._pace = live, pace
+    def __init__(self, live: Live, pace: Pace, journal: Journal | None) -> None:
+        self._live, self._pace, self._journal = live, pace, journal
         self._ticks, self._shown = 0, int(live.control[SHOWN])
         self._time = -1.0  # of the last frame that was kept
-        self._keeps = folder is not None
-        self.problem = ""
-        if folder is not None:
-            self._tape, self._frames = Rows(folder, live.tape.shape[1]), Rows(folder, live.frames.shape[1])
-        self._pieces = [_Piece(-1, 0, slice(0, 0), slice(0, 0))]
+        self._part, self._whole = 0, True  # number of the part that goes on, and whether all its ticks are kept
         self._saved: tuple[int, int] | None = None
+        self.problem = ""
+        self._append(PART, np.array([[-1.0, 0.0]]))
+
+    def _append(self, kind: int, rows: Array) -> None:
+        """To the journal, as long as its disk has room."""
+        if self._journal is None or self.problem:
+            return
+        try:
+            self._journal.append(kind, rows)
+        except OSError as error:
+            self._whole = False
+            self.problem = f"nothing is recorded any more: {(error.strerror or str(error)).lower()}"
 
     def gather(self) -> Array:
         """New ticks and frames; returns these frames (n, width)."""
-        live, part = self._live, self._pieces[-1]
+        live = self._live
         frames = self._new_frames()  # before the ticks, which are counted after them
         done, rows = int(live.control[DONE]), len(live.tape)
-        if self._keeps and part.whole:
-            try:
-                if done - self._ticks > rows - 1024:
-                    part.whole = False
-                elif done > self._ticks:
-                    self._tape.append(live.tape[np.arange(self._ticks, done) % rows])
-                    self._keep_frames(frames, done)
-            except OSError as error:
-                part.whole, self._keeps = False, False
-                self.problem = f"nothing is recorded any more: {(error.strerror or str(error)).lower()}"
-            part.rows, part.shown = (
-                slice(part.rows.start, self._tape.count),
-                slice(part.shown.start, self._frames.count),
-            )
+        if self._whole and done - self._ticks > rows - MARGIN:
+            self._append(GAP, np.zeros((0, 1)))
+            self._whole = False
+        elif self._whole and done > self._ticks:
+            self._append(TICKS, live.tape[np.arange(self._ticks, done) % rows])
+            self._keep_frames(frames, done)
         self._ticks = max(done, self._ticks)
         return frames
 
@@ -104,32 +71,47 @@ class Recorder:
         last = np.append(at[1:] != at[:-1], True)[: len(at)]
         kept = frames[regular & last & (at > self._time)]
         if len(kept):
-            self._frames.append(kept)
+            self._append(FRAMES, kept)
             self._time = float(kept[-1, 0])
+
+    def save(self, ticks: int) -> None:
+        """The state after so many ticks may be returned to."""
+        self._saved = self._part, ticks
 
     def detach(self, live: Live) -> None:
         """Look at a copy of the memory, which goes."""
         self._live = live
 
-    def save(self, ticks: int) -> None:
-        """The state after so many ticks may be returned to."""
-        self._saved = len(self._pieces) - 1, ticks
-
     def begin_again(self, *, at_start: bool) -> None:
         """The machine is back at its start, or at what was saved."""
         before, ticks = (-1, 0) if at_start or self._saved is None else self._saved
-        if self._keeps:
-            rows, shown = self._tape.count, self._frames.count
-            self._pieces.append(_Piece(before, ticks, slice(rows, rows), slice(shown, shown)))
+        self._append(PART, np.array([[before, ticks]], float))
+        self._part, self._whole = self._part + 1, not self.problem
         self._ticks, self._shown = ticks, int(self._live.control[SHOWN]) - 1
         self._time = ticks * self._pace.tick * (1.0 + 1e-12) if ticks else -1.0
 
     @property
     def parts(self) -> list[Part]:
         """What was kept until now."""
-        if not self._keeps and not self.problem:
-            return []
-        return [
-            Part(each.before, each.ticks, Take(self._tape[each.rows], self._frames[each.shown], each.whole))
-            for each in self._pieces
-        ]
+        return [] if self._journal is None else parts_in(self._journal.file, last_whole=self._whole)
+
+    def discard(self) -> None:
+        """Keep nothing of what was recorded, nor of what follows."""
+        if self._journal is not None:
+            self._journal.discard()
+            self._journal = None
+
+    def complete(self, target: Path) -> None:
+        """Write the recording `target`, in the place of the journal. Raises SolveError; then the journal stays, and can be replayed."""
+        journal = self._journal
+        if journal is None:
+            return
+        try:
+            complete(journal, target, last_whole=self._whole)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise SolveError(
+                f"the recording {target} cannot be written: {reason}",
+                time=self._ticks * self._pace.tick,
+                advice=f"What was recorded is in {journal.path}: `nivel replay {journal.path}` plays it.",
+            ) from None

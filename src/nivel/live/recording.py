@@ -4,16 +4,29 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from os import PathLike, fspath
+from dataclasses import dataclass, field
+from os import PathLike, fspath, getpid
 from pathlib import Path
-from typing import Any, Final
-from zipfile import BadZipFile
+from typing import IO, Any, Final
+from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.live.journal import (
+    FRAMES,
+    GAP,
+    PART,
+    TICKS,
+    Block,
+    Journal,
+    about_in,
+    blocks_in,
+    is_journal,
+    journal_of,
+    rows_of,
+)
 from nivel.live.preparation import Pace
 from nivel.machine import MachineRecord, Table
 
@@ -96,6 +109,17 @@ class Recording:
         return out
 
 
+def about_run(machine: MachineRecord, source: str, settings: Mapping[str, Any], pace: Pace) -> dict[str, Any]:
+    """What stands in a recording besides its numbers, as JSON has it."""
+    return {
+        "format": FORMAT,
+        "machine": machine.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "source": source,
+        "settings": dict(settings),
+        "pace": [pace.step, pace.substeps, pace.every],
+    }
+
+
 def write_recording(
     path: str | PathLike[str],
     machine: MachineRecord,
@@ -106,11 +130,7 @@ def write_recording(
 ) -> None:
     """Write a run. Raises ModelError where the file cannot be written."""
     about = {
-        "format": FORMAT,
-        "machine": machine.model_dump(mode="json", by_alias=True, exclude_none=True),
-        "source": source,
-        "settings": dict(settings),
-        "pace": [pace.step, pace.substeps, pace.every],
+        **about_run(machine, source, settings, pace),
         "parts": [[each.before, each.ticks, each.own.whole] for each in parts],
     }
     arrays: dict[str, Any] = {"about": np.array(json.dumps(about))}
@@ -125,20 +145,102 @@ def write_recording(
         ) from None
 
 
-def read_recording(path: str | PathLike[str]) -> Recording:
-    """Read a recording. Raises ModelError where the file is none."""
+@dataclass
+class _Kept:
+    """A part in a journal: where its ticks and frames stand."""
+
+    before: int
+    ticks: int
+    tape: list[Block] = field(default_factory=list)
+    frames: list[Block] = field(default_factory=list)
+    whole: bool = True
+
+
+def _kept_in(file: IO[bytes], start: int) -> list[_Kept]:
+    """The parts of a journal whose blocks begin at `start`."""
+    out: list[_Kept] = []
+    for block in blocks_in(file, start):
+        if block.kind == PART:
+            before, ticks = rows_of(file, [block], block.columns)[0]
+            out.append(_Kept(int(before), int(ticks)))
+        elif block.kind == TICKS:
+            out[-1].tape.append(block)
+        elif block.kind == FRAMES:
+            out[-1].frames.append(block)
+        elif block.kind == GAP:
+            out[-1].whole = False
+    return out
+
+
+def _columns(blocks: Sequence[Block]) -> int:
+    return blocks[0].columns if blocks else 1
+
+
+def parts_in(file: IO[bytes], *, last_whole: bool) -> list[Part]:
+    """The parts of a journal. last_whole : whether the last one ends where its motion did. Raises ValueError."""
+    _, start = about_in(file)
+    kept = _kept_in(file, start)
+    if kept and not last_whole:
+        kept[-1].whole = False
+    # a part without a tick has the columns of the others
+    inputs = max((_columns(each.tape) for each in kept), default=1)
+    width = max((_columns(each.frames) for each in kept), default=1)
+    return [
+        Part(
+            each.before,
+            each.ticks,
+            Take(rows_of(file, each.tape, inputs), rows_of(file, each.frames, width), each.whole),
+        )
+        for each in kept
+    ]
+
+
+def complete(journal: Journal, target: Path, *, last_whole: bool) -> None:
+    """Write what a journal has into the recording `target`, in one atomic step, and remove the journal.
+
+    It goes from file to file, so a long run need not fit in memory. Raises OSError; then the journal stays.
+    """
+    file = journal.file
+    about, start = about_in(file)
+    kept = _kept_in(file, start)
+    if kept and not last_whole:
+        kept[-1].whole = False
+    about["parts"] = [[each.before, each.ticks, each.whole] for each in kept]
+    begin = target.name.encode()[:100].decode(errors="ignore")  # the name of a file has 255 bytes at most
+    temporary = target.with_name(f".{begin}.{getpid()}.part")
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            about = json.loads(str(stored["about"]))
-            if about["format"] != FORMAT:
-                raise ModelError(
-                    f"{fspath(path)} was written by another version of nivel (format {about['format']}, this one reads {FORMAT})"
-                )
-            parts = [
-                Part(before, ticks, Take(stored[f"tape_{k}"], stored[f"frames_{k}"], whole))
-                for k, (before, ticks, whole) in enumerate(about["parts"])
-            ]
+        with ZipFile(temporary, "w", ZIP_DEFLATED) as archive:
+            with archive.open("about.npy", "w") as out:
+                np.lib.format.write_array(out, np.array(json.dumps(about)))
+            for k, each in enumerate(kept):
+                _copy(file, each.tape, archive, f"tape_{k}.npy")
+                _copy(file, each.frames, archive, f"frames_{k}.npy")
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
+    journal.discard()
+
+
+def _copy(file: IO[bytes], blocks: Sequence[Block], archive: ZipFile, name: str) -> None:
+    """The numbers of blocks as an array of an archive of NumPy."""
+    shape = sum(each.rows for each in blocks), _columns(blocks)
+    with archive.open(name, "w", force_zip64=True) as out:
+        np.lib.format.write_array_header_1_0(out, {"descr": "<f8", "fortran_order": False, "shape": shape})
+        for each in blocks:
+            file.seek(each.start)
+            out.write(file.read(each.size))
+
+
+def read_recording(path: str | PathLike[str]) -> Recording:
+    """Read a recording, or the journal of a run that was killed or goes on. Raises ModelError where the file is none."""
+    try:
+        about, parts = _from_journal(Path(path)) if is_journal(Path(path)) else _from_archive(path)
     except FileNotFoundError:
+        left = journal_of(Path(path))
+        if left.exists():
+            raise ModelError(
+                f"there is no file {fspath(path)}, but {left}, which a run wrote that was killed or goes on: `nivel replay {left}`"
+            ) from None
         raise ModelError(f"there is no file {fspath(path)}") from None
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         raise ModelError(
@@ -150,6 +252,30 @@ def read_recording(path: str | PathLike[str]) -> Recording:
     return Recording(
         machine, about["source"], about["settings"], pace, tuple(takes_of(parts, pace)), _has_code(about["machine"])
     )
+
+
+def _from_archive(path: str | PathLike[str]) -> tuple[dict[str, Any], list[Part]]:
+    with np.load(path, allow_pickle=False) as stored:
+        about = json.loads(str(stored["about"]))
+        _refuse_other_format(path, about)
+        return about, [
+            Part(before, ticks, Take(stored[f"tape_{k}"], stored[f"frames_{k}"], whole))
+            for k, (before, ticks, whole) in enumerate(about["parts"])
+        ]
+
+
+def _from_journal(path: Path) -> tuple[dict[str, Any], list[Part]]:
+    with path.open("rb") as file:
+        about, _ = about_in(file)
+        _refuse_other_format(path, about)
+        return about, parts_in(file, last_whole=False)
+
+
+def _refuse_other_format(path: str | PathLike[str], about: dict[str, Any]) -> None:
+    if about["format"] != FORMAT:
+        raise ModelError(
+            f"{fspath(path)} was written by another version of nivel (format {about['format']}, this one reads {FORMAT})"
+        )
 
 
 def _has_code(written: Any) -> bool:

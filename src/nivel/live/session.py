@@ -7,7 +7,6 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.shared_memory import SharedMemory
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -17,6 +16,7 @@ from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import hand, shared
+from nivel.live.journal import Journal
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
 from nivel.live.recording import Take, takes_of
@@ -37,6 +37,7 @@ COMMANDS: Final = {
     "save": shared.SAVE,
     "restore": shared.RESTORE,
 }
+LEFT: Final = "nivel live was killed; what it recorded is in {path}: `nivel replay {path}` plays it"
 GOING_ON: Final = ("run", "step", "save")  # what only a run that is not over can do
 MODES: Final = {
     shared.STARTING: "starting",
@@ -49,41 +50,44 @@ MODES: Final = {
 
 
 class Session:
-    """A solver that runs in its own process. `on_frame` is called, from a thread, when there is a new frame; `on_word` with sentences."""
+    """A solver that runs in its own process. `on_frame` is called, from a thread, when there is a new frame; `on_gone` when the
+    process has ended by itself."""
 
-    def __init__(self, plan: Plan, pace: Pace, *, urgent: bool = True, recorded_in: Path | None = None) -> None:
-        """recorded_in : a folder with room for what is recorded while the session lasts; None: nothing is."""
+    def __init__(self, plan: Plan, pace: Pace, *, urgent: bool = True, journal: Journal | None = None) -> None:
+        """journal : of what is recorded; None: nothing is."""
         self.plan, self.pace = plan, pace
         self.on_frame: Callable[[], None] = lambda: None
+        self.on_gone: Callable[[], None] = lambda: None
         self.said: list[str] = []
         self.parts: Mapping[str, float] = {}  # share of the computing time by part, once it has ended
         self.problem = ""
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
-        self._process = context.Process(target=main, args=(theirs, plan, pace, urgent), daemon=True)
+        left = "" if journal is None else LEFT.format(path=journal.path)
+        self._process = context.Process(target=main, args=(theirs, plan, pace, urgent, left), daemon=True)
         self._process.start()
         theirs.close()
+        self._lock = threading.Lock()
+        self._has_saved = False
+        self._newest: Array | None = None
+        self._ending = self._closing = False
         try:
             self.facts = self._first_word().facts
             sizes = Sizes(*self.facts["sizes"])
             self._memory = SharedMemory(create=True, size=bytes_of(sizes))
+            try:
+                self.live: Live = live_in(self._memory.buf, sizes)
+                for array in self.live:
+                    array[...] = 0
+                self._pipe.send(self._memory.name)
+                self.recorder = Recorder(self.live, pace, journal)
+                self._await_start()
+                self._hear()
+            finally:
+                self._memory.unlink()  # both have it now, and it goes with them, however they end
         except BaseException:
             self._process.kill()
             raise
-        self.live: Live = live_in(self._memory.buf, sizes)
-        for array in self.live:
-            array[...] = 0
-        self._pipe.send(self._memory.name)
-        self._lock = threading.Lock()
-        self._has_saved = False
-        self._newest: Array | None = None
-        self._closing = False
-        self.recorder = Recorder(self.live, pace, recorded_in)
-        try:
-            self._await_start()
-            self._hear()
-        finally:
-            self._memory.unlink()  # both have it now, and it goes with them, however they end
         self._thread = threading.Thread(target=self._watch, daemon=True)
         self._thread.start()
 
@@ -140,8 +144,10 @@ class Session:
             try:
                 self._hear()
             except (EOFError, OSError):
-                self.problem = self.problem or "the solver's process has ended"
-                self.on_frame()
+                if not self._ending:
+                    self.problem = self.problem or "the solver's process was ended from outside"
+                    self.on_frame()
+                    self.on_gone()
                 return
             time.sleep(POLL)
 
@@ -224,10 +230,12 @@ class Session:
         """End the process; the recording stays."""
         if self._closing:
             return
+        self._ending = True
         self.live.control[COMMAND] = shared.QUIT
         self._process.join(OBEYED)
         if self._process.is_alive():
             self._process.kill()
+            self._process.join()
         self._closing = True
         self._thread.join(OBEYED)
         self.recorder.gather()

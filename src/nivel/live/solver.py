@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import os
 import signal
+import threading
 import time
 from dataclasses import asdict, dataclass, field
 from multiprocessing.connection import Connection
@@ -41,7 +43,8 @@ from nivel.live.snapshot import Snapshot, arrays_of, put_back, taken
 from nivel.live.system_clock import become_urgent, clock_addresses
 from nivel.native import library
 
-ROUND: Final = 0.5  # s that the compiled loop goes on before it is looked whether the server is still there
+ROUND: Final = 0.5  # s that the compiled loop goes on before Python has a turn
+ENDING: Final = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
 FIRST: Final = 20  # ticks that are done for nothing
 REST: Final = 0.004  # s between two looks at the commands while nothing moves
 
@@ -55,9 +58,15 @@ class Told:
     facts: dict[str, Any] = field(default_factory=dict)
 
 
-def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
-    """The life of the process: prepare, say what is needed, get the memory, tick. Ctrl-C is for the server, which then ends it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool, left: str) -> None:
+    """The life of the process: prepare, say what is needed, get the memory, tick.
+
+    Signals that end a program, which all processes of a terminal get, are for the server, which then ends this one. left : what is said
+    where the server ends without a word.
+    """
+    for number in ENDING:
+        signal.signal(number, signal.SIG_IGN)
+    threading.Thread(target=_end_with_the_server, args=(left,), daemon=True).start()
     try:
         live_run = prepared_run(plan, pace)
     except NivelError as error:
@@ -73,6 +82,18 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
         Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
     # the arrays still look at the memory, which goes with the process
     os._exit(0)
+
+
+def _end_with_the_server(left: str) -> None:
+    """Wait until the server is gone, however it went, and end this process."""
+    server = multiprocessing.parent_process()
+    if server is None:
+        return
+    server.join()
+    if left:
+        with contextlib.suppress(OSError):
+            os.write(2, f"{left}\n".encode())
+    os._exit(1)
 
 
 def _facts(live_run: LiveRun) -> dict[str, Any]:
@@ -95,10 +116,9 @@ class Solver:
         self._arrays = arrays_of([*live_run.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         self._saved: Snapshot | None = None
-        self._parent = os.getppid()
 
     def live(self, urgent: bool) -> None:
-        """Tick and obey until told to end, or until the server is gone."""
+        """Tick and obey until told to end."""
         control = self._live.control
         for sentence in become_urgent() if urgent else ["no real-time priority was asked for"]:
             self._pipe.send(Told("said", sentence))
@@ -106,7 +126,7 @@ class Solver:
         self._show()
         control[MODE] = shared.PAUSED
         control[PACED] = 1
-        while os.getppid() == self._parent:
+        while True:
             command = int(control[COMMAND])
             if command == shared.QUIT:
                 break

@@ -203,7 +203,8 @@ def test_solid_interfaces():
 @pytest.mark.parametrize("missing", ["gmsh", "skfem", "meshio"])
 def test_missing_extras_say_what_to_install(monkeypatch, missing):
     monkeypatch.setitem(__import__("sys").modules, missing, None)
-    assert f"needs {missing}: pip install nivel[flex]" in message_of(block())
+    package = {"skfem": "scikit-fem"}.get(missing, missing)
+    assert f"needs {package}: pip install 'nivel[flex]'" in message_of(block())
 
 
 def test_step_file_that_does_not_exist_or_is_none(tmp_path):

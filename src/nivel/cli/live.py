@@ -87,6 +87,9 @@ def command(
     The section `inputs` of the machine file defines the inputs. The solver has fixed steps and runs in a process of its own. Ctrl-C ends
     the run and prints a report of the timing.
     """
+    from nivel.extras import require
+
+    require("the page needs", "websockets")
     from nivel.api import load
     from nivel.cli.progress import progress_listener
     from nivel.errors import ModelError

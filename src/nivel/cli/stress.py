@@ -74,6 +74,10 @@ def command(
     _refuse_without_nodes(nodes, {"--rainflow": cycles, "--plot": picture, "--strain": strains})
     if strains and table is None:
         raise click.UsageError("--strain needs --csv: the table in which the strains stand")
+    from nivel.extras import require
+
+    if picture is not None:
+        require("plots need", "matplotlib")
     from nivel.results import Result
     from nivel.results.stress.stress_facts import facts
 

@@ -99,7 +99,8 @@ def command(
     needs no network. With --export or --still files are written and no browser is opened.
     """
     from nivel.errors import ModelError
-    from nivel.view.capture import Look
+    from nivel.extras import require
+    from nivel.view.capture import Look, require_parts
     from nivel.view.opening import serve
 
     if not host.strip():
@@ -107,6 +108,11 @@ def command(
     look = Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark, colours=colours)
     written = [*exports, *([still] if still else [])]
     _refuse_targets(written, [file, *ghosts], force)
+    for target in written:
+        if Path(target).suffix.lower() != ".html":
+            require_parts(Path(target))
+    if not written:
+        require("the page needs", "websockets")
     if Path(file).suffix.lower() in MACHINES:
         if vibration is not None:
             raise ModelError("--mode is for results of `nivel statics --modes`; a machine file has none yet")

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.flexible.extras import needed
+from nivel.extras import needed
 from nivel.flexible.model import Array, Whole
 from nivel.flexible.solid_records import BoxPart, ConePart, CylinderPart, Part, Solid, SpherePart
 
@@ -32,7 +32,7 @@ class SolidMesh:
 
 @contextmanager
 def _session() -> Iterator[Any]:
-    gmsh = needed("gmsh", "a `solid`")
+    gmsh = needed("gmsh", "a `solid` needs")
     started = not gmsh.isInitialized()
     if started:
         gmsh.initialize(interruptible=False)

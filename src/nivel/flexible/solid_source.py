@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from scipy.spatial import KDTree
 
 from nivel.errors import ModelError
-from nivel.flexible.extras import needed
+from nivel.extras import needed, require
 from nivel.flexible.mass import PointMass, at_nodes
 from nivel.flexible.mesher import SolidMesh, meshed
 from nivel.flexible.model import Array, FiniteElementModel, Whole
@@ -22,6 +22,7 @@ from nivel.machine.beams.section import Material
 
 # degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
 MASS_DEGREE, STIFFNESS_DEGREE = 4, 2
+NEEDS, SOLID_LIBRARIES = "a `solid` needs", ("gmsh", "skfem", "meshio")
 
 
 def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[FiniteElementModel, NodeSets]:
@@ -31,8 +32,9 @@ def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[Fi
     """
     solid = located.record.solid
     assert solid is not None
-    for library in ("gmsh", "skfem", "meshio"):
-        needed(library, "a `solid`")
+    require(NEEDS, *SOLID_LIBRARIES)
+    for library in SOLID_LIBRARIES:
+        needed(library, NEEDS)
     say("meshing the solid", 0.0)
     try:
         mesh = meshed(solid, None if solid.file is None else located.beside(solid.file))

@@ -103,9 +103,7 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
 
     Raises ModelError where no browser is found or it does not start.
     """
-    program = find_browser()
-    if program is None:
-        raise ModelError(_missing())
+    program = require_browser()
     from websockets.sync.client import connect
 
     with tempfile.TemporaryDirectory(prefix="nivel-browser-", ignore_cleanup_errors=True) as profile:
@@ -137,6 +135,14 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
             except subprocess.TimeoutExpired:
                 running.kill()
                 running.wait()
+
+
+def require_browser() -> str:
+    """The program of a browser. Raises ModelError where there is none."""
+    program = find_browser()
+    if program is None:
+        raise ModelError(_missing())
+    return program
 
 
 def _missing() -> str:

@@ -17,7 +17,8 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.view.browser import Tab, tab
+from nivel.extras import is_installed, require
+from nivel.view.browser import Tab, require_browser, tab
 from nivel.view.export import page_of
 from nivel.view.sources import Source
 
@@ -27,7 +28,6 @@ SMALLEST: Final = 64  # pixels
 LARGEST: Final = 4096
 MOST_FRAMES: Final = 5000
 NO_FFMPEG: Final = "an .mp4 film needs ffmpeg: install it, or pip install 'nivel[film]'; a .gif or a page (--export scene.html) needs none"
-NO_PILLOW: Final = "a .gif film needs pillow: pip install 'nivel[film]'"
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,19 @@ class Look:
         return cls(width, height, side, rate, speed, dark, colours)
 
 
+def require_parts(path: Path) -> None:
+    """Refuse a picture or film `path` where a part is missing that draws or codes it. Raises ModelError."""
+    require("pictures and films need", "websockets")
+    require_browser()
+    if path.suffix.lower() == ".gif":
+        require("a .gif film needs", "PIL")
+    elif path.suffix.lower() in FILMS:
+        _ffmpeg()
+
+
 def still(source: Source, path: Path, look: Look, moment: float | None = None) -> None:
     """Write a picture (PNG) of the moment [s], default the start."""
+    require_parts(path)
     with _opened(source, look, fine=True) as page:
         start, end = _span(page)
         if moment is not None and not start <= moment <= end:
@@ -75,6 +86,7 @@ def film(source: Source, path: Path, look: Look, progress: Callable[[int, int], 
 
     Raises ModelError before the first frame where what it needs is missing.
     """
+    require_parts(path)
     coder = _gif if path.suffix.lower() == ".gif" else _mp4
     with _opened(source, look) as page:
         start, end = _span(page)
@@ -121,10 +133,8 @@ Take = Callable[[bytes], Any]
 
 @contextmanager
 def _gif(path: Path, look: Look) -> Iterator[Take]:
-    try:
-        from PIL import Image
-    except ModuleNotFoundError:
-        raise ModelError(NO_PILLOW) from None
+    from PIL import Image
+
     pictures: list[Any] = []
 
     def take(content: bytes) -> None:
@@ -182,10 +192,10 @@ def _ffmpeg() -> str:
     program = shutil.which("ffmpeg")
     if program is not None:
         return program
-    try:
-        from imageio_ffmpeg import get_ffmpeg_exe
-    except ModuleNotFoundError:
-        raise ModelError(NO_FFMPEG) from None
+    if not is_installed("imageio_ffmpeg"):
+        raise ModelError(NO_FFMPEG)
+    from imageio_ffmpeg import get_ffmpeg_exe
+
     try:
         return get_ffmpeg_exe()
     except RuntimeError:

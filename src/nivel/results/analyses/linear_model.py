@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.extras import needed
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.dataset_file import write_dataset
 
@@ -150,11 +151,8 @@ class LinearModel:
 
     def control(self) -> Any:
         """`control.StateSpace` with names, whose dots are underscores there: `rail_displacement`. Needs the package python-control."""
+        control = needed("control", "a model of python-control needs")
         self._need_ports()
-        try:
-            import control  # type: ignore[import-not-found]
-        except ImportError:
-            raise ModelError("python-control is not installed: pip install 'nivel[control]'") from None
         names = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
         plain = {kind: [name.replace(".", "_") for name in each] for kind, each in names.items()}
         return control.ss(self.A, self.B, self.C, self.D, **plain)

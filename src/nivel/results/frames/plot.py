@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from nivel.errors import ModelError
+from nivel.extras import require
 from nivel.results.frames.csv_table import columns
 
 if TYPE_CHECKING:
@@ -20,10 +20,9 @@ def plot(result: Result, names: tuple[str, ...], band: bool = False) -> Figure:
 
     band : from each curve less its estimated error to the curve and that, as far as the run was verified.
     """
-    try:
-        from matplotlib import pyplot
-    except ModuleNotFoundError:
-        raise ModelError("plots need matplotlib: pip install nivel[plot]") from None
+    require("plots need", "matplotlib")
+    from matplotlib import pyplot
+
     default = "joint_coordinate" if "joint_coordinate" in result.variables else "*energy"
     by_unit: dict[str, list[str]] = {}
     for name in columns(result, names or (default,)):

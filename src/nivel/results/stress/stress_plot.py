@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nivel.errors import ModelError
+from nivel.extras import require
 from nivel.results.stress.recovered import RecoveredBody
 
 if TYPE_CHECKING:
@@ -17,10 +18,9 @@ if TYPE_CHECKING:
 
 def plot_stress(body: RecoveredBody, nodes: Sequence[int | str]) -> Figure:
     """A pair of axes per node: signed principal and von Mises stress at the station where the latter is largest."""
-    try:
-        from matplotlib.figure import Figure
-    except ModuleNotFoundError:
-        raise ModelError("plots need matplotlib: pip install nivel[plot]") from None
+    require("plots need", "matplotlib")
+    from matplotlib.figure import Figure
+
     figure = Figure(layout="constrained", figsize=(8, 1.2 + 2.4 * len(nodes)))
     axes = figure.subplots(len(nodes), 1, sharex=True, squeeze=False)
     for axis, node in zip(axes[:, 0], nodes, strict=True):

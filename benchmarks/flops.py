@@ -28,7 +28,8 @@ from numba.core.registry import CPUDispatcher
 import nivel
 from chain import chain
 from nivel.analysis.plan.plan import methods_of
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.run.preparation import prepare
 from part import measure
 
 SIZE, ROUNDS = 1000, 15

@@ -1,4 +1,4 @@
-"""What users of the package call: load a machine, check it, run it."""
+"""Python interface: load a machine, check it, run it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What to write for words of other programs that no single word of ours stands for."""
+"""Lines to write for words of other programs that no single word of ours stands for."""
 
 from __future__ import annotations
 

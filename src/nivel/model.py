@@ -1,4 +1,4 @@
-"""What a machine consists of: its elements by name, and copies with other values or elements."""
+"""Elements of a machine: its elements by name, and copies with other values or elements."""
 
 from __future__ import annotations
 

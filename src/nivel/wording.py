@@ -1,4 +1,4 @@
-"""How messages show what stood there, and what would be right."""
+"""Wording of messages: what stood there, and what would be right."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What can be asked of a machine: assembly, motion in time."""
+"""Analyses of a machine: assembly, statics, kinematics, motion in time, linearisation, inverse dynamics."""

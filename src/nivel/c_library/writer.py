@@ -11,9 +11,10 @@ from typing import Any
 
 from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.c_library.image import WORD, Image, UnknownAddressError
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.errors import Fault, ModelError

@@ -1,4 +1,4 @@
-"""What commands print when a computation has ended: how far it came, what it cost, and what its checks say."""
+"""Ending of a command: how far it came, what it cost, and what its checks say."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a failed command says, and the exit code it ends with. Nothing else in the command line decides about either.
+"""Messages and exit codes of failed commands. Nothing else in the command line decides about either.
 
 0 done, also where nobody reads the output to its end; 2 the input is at fault (also wrong options, by click); 3 the computation failed;
 130 interrupted.

@@ -1,4 +1,4 @@
-"""What long computations tell on standard error while they go on: a bar in a terminal, plain lines in a file or a pipe."""
+"""Progress of long computations on standard error: a bar in a terminal, plain lines in a file or a pipe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a machine comes from, so that a fault found later in its record is told with the place where the user wrote it."""
+"""Origin of a machine, so that a fault found later in its record is told with the place where the user wrote it."""
 
 from __future__ import annotations
 

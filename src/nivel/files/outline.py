@@ -1,4 +1,4 @@
-"""What a machine file is on the outside: `format`, sections of named elements, and words for the whole machine."""
+"""Outline of a machine file: `format`, sections of named elements, and words for the whole machine."""
 
 from __future__ import annotations
 

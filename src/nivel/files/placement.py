@@ -1,4 +1,4 @@
-"""Where an assembly puts a part: mirrored in the part's own axes, turned, moved.
+"""Placement of a part in an assembly: mirrored in the part's own axes, turned, moved.
 
 x' = t + R P x for points of the part, P = diag(±1) the reflection (1 where nothing is mirrored), R the rotation.
 Directions, velocities and forces follow R P; angular velocities, torques and axes that something turns about are

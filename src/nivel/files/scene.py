@@ -1,4 +1,4 @@
-"""What the elements of a part have to know of each other while the part is placed."""
+"""Scene of a part while it is placed: what its elements have to know of each other."""
 
 from __future__ import annotations
 

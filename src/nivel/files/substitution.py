@@ -1,4 +1,4 @@
-"""What varies, seen from another place: signals renamed or turned, values of three components mixed.
+"""Substitution in functions of a placed part: signals renamed or turned, values of three components mixed.
 
 A signal of the part is a linear combination of signals of the placed part. Expressions can hold any of them; tables
 those of one signal; arguments of Python functions only a signal as it is.

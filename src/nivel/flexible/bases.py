@@ -1,4 +1,4 @@
-"""What a flexible body can do: the displacements that span its reduced model, each method a function.
+"""Bases of reduced bodies: the displacements that span its reduced model, each method a function.
 
 Every basis also spans the rigid motions or is combined with them by the reduction, which takes them out.
 """

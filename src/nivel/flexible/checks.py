@@ -1,4 +1,4 @@
-"""What is wrong with a finite-element model, found before it is solved, and said with what to do."""
+"""Faults of a finite-element model, found before it is solved, and said with what to do."""
 
 from __future__ import annotations
 

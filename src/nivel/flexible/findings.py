@@ -1,4 +1,4 @@
-"""What a reduction is worth: frequencies against the whole model, shapes, masses, and what each neglect would cost."""
+"""Findings about a reduction: frequencies against the whole model, shapes, masses, and what each neglect would cost."""
 
 from __future__ import annotations
 

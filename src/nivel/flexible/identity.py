@@ -1,4 +1,4 @@
-"""Whether a body is the one that a run was made with: histories of modal coordinates belong to one set of modes only."""
+"""Identity of a flexible body, against the one that a run was made with: histories of modal coordinates belong to one set of modes only."""
 
 from __future__ import annotations
 

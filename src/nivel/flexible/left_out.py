@@ -1,4 +1,4 @@
-"""What a reduced body leaves out: the next modes of a finer basis, and how the body's motion loads them.
+"""Truncated modes of a reduced body: the next modes of a finer basis, and how the body's motion loads them.
 
 Along with the modes Φ that are kept, the body could also move by Z q. The equations of Z, with kept modes alone in motion, are
 

@@ -1,4 +1,4 @@
-"""How far the mesh of a finite-element model is from its limit: the error of the energy of each mode, estimated at reduction.
+"""Discretisation error of a finite-element model: the error of the energy of each mode, estimated at reduction.
 
 Solids by the strain that is left when strains are smoothed over the nodes (Zienkiewicz, Zhu 1987): the share of its strain energy that
 a mode lacks, so by how much its eigenvalue is too high. Of bent bars of one to four quadratic tetrahedra over their height it was half

@@ -1,4 +1,4 @@
-"""How a flexible body looks: a surface whose vertices its modes move."""
+"""Picture of a flexible body: a surface whose vertices its modes move."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a flexible body answers, written in NumPy from its invariants: the reference that compiled kernels are held against.
+"""Equations of motion of a flexible body, written in NumPy from its invariants: the reference that compiled kernels are held against.
 
 Floating frame of reference, Rantalainen 2007. A point with undeformed position x in the body frame is at
 r = R + A (x + Φ q). Velocities v = (Ṙ global, ω̄ in body axes, q̇), forces of the same length; `with_euler_parameters`

@@ -1,4 +1,4 @@
-"""What a machine costs in real time, found without operating it: ticks as fast as they go, by method and by part."""
+"""Budget of a machine in real time, found without operating it: ticks as fast as they go, by method and by part."""
 
 from __future__ import annotations
 

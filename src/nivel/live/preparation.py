@@ -11,8 +11,9 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.analysis.plan.plan import Plan, plan_run
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive

@@ -1,4 +1,4 @@
-"""What a live run was, as it is kept in a file: its parts, and the motions from the start on that they make up."""
+"""Recording of a live run, as it is kept in a file: its parts, and the motions from the start on that they make up."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.attributes import run_attributes
 from nivel.analysis.run.dynamics import RunOutcome, counts_of
 from nivel.analysis.run.held_friction import resting_frictions
 from nivel.analysis.run.outcome import failure

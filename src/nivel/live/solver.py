@@ -98,7 +98,7 @@ def _end_with_the_server(left: str) -> None:
 
 def _facts(live_run: LiveRun) -> dict[str, Any]:
     """What the server has to know of the machine as it was assembled."""
-    from nivel.analysis.run.attributes import run_attributes
+    from nivel.analysis.preparation.attributes import run_attributes
 
     system = live_run.prepared.motion.system
     attributes = run_attributes(live_run.plan.machine, "", live_run.prepared, live_run.plan.settings)

@@ -1,4 +1,4 @@
-"""What the operating system gives for real time: clocks by address, priority, locked memory."""
+"""Services of the operating system for real time: clocks by address, priority, locked memory."""
 
 from __future__ import annotations
 

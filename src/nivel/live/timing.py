@@ -1,4 +1,4 @@
-"""How long ticks take and how late they begin: percentiles of the histograms that the loop fills."""
+"""Timing of ticks, their length and delay: percentiles of the histograms that the loop fills."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""How a machine looks, from the scene of its result: solids, automatic links, colours, where to look from. Report and viewer share it."""
+"""Looks of a machine, from the scene of its result: solids, automatic links, colours, where to look from. Report and viewer share it."""

@@ -1,4 +1,4 @@
-"""How joints look: where their signs stand, which are links, and their axes in space, which say what is planar."""
+"""Looks of joints: where their signs stand, which are links, and their axes in space, which say what is planar."""
 
 from __future__ import annotations
 

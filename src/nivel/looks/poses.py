@@ -1,4 +1,4 @@
-"""Where points of bodies are in space."""
+"""Positions of points of bodies in space."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where to look at a machine from."""
+"""Viewpoint from which a machine is seen."""
 
 from __future__ import annotations
 

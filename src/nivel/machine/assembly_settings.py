@@ -1,4 +1,4 @@
-"""How a machine is assembled, in words."""
+"""Settings of the assembly of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a machine mentions a joint coordinate: `hinge.angle`, or `hinge` where only one can be meant."""
+"""References to joint coordinates: `hinge.angle`, or `hinge` where only one can be meant."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether couplings, drivers, forces and sensors mention joint coordinates that exist, and drive none of them twice."""
+"""Uses of joint coordinates by couplings, drivers, forces and sensors: each exists, and none is driven twice."""
 
 from __future__ import annotations
 

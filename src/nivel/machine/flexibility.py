@@ -1,4 +1,4 @@
-"""What makes a body flexible, in words: its file of modes."""
+"""Flexibility of a body: its file of modes."""
 
 from __future__ import annotations
 

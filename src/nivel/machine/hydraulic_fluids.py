@@ -1,4 +1,4 @@
-"""Whether the components of circuits fit the fluids that flow in them: one fluid for each, and gases where gas may flow."""
+"""Fluids of circuits and the components in which they flow: one fluid for each, and gases where gas may flow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the connections of hydraulic circuits lead somewhere. Reads raw data too: one fault hides no other."""
+"""Connections of hydraulic circuits: each leads somewhere. Reads raw data too: one fault hides no other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a frame is turned: Euler angles, axis and angle, matrix or Euler parameters, and their common numbers.
+"""Orientation of a frame: Euler angles, axis and angle, matrix or Euler parameters, and their common numbers.
 
 A rotation matrix A has the axes of the turned frame as columns, given in the parent frame: v = A v_b.
 Euler parameters are (cos φ/2, n sin φ/2), scalar first, for a turn by φ about the unit axis n.

@@ -1,4 +1,4 @@
-"""What is wrong between those fields of a record that are right by themselves, where others are not: all faults come at once."""
+"""Faults between those fields of a record that are right by themselves, where others are not: all faults come at once."""
 
 from __future__ import annotations
 

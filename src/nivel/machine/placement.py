@@ -1,4 +1,4 @@
-"""Where frames are at the start: body frames, also those laid between two points, and frames given by axes."""
+"""Placement of frames at the start: body frames, also those laid between two points, and frames given by axes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a point mass can be used for: it has a place but no turn, so only what acts at its origin makes sense."""
+"""Uses of a point mass: it has a place but no turn, so only what acts at its origin makes sense."""
 
 from __future__ import annotations
 

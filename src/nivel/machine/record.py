@@ -1,4 +1,4 @@
-"""What all records of a machine share: frozen, nothing unknown accepted, faults in plain words and all at once."""
+"""Base of all records of a machine: frozen, nothing unknown accepted, faults in plain words and all at once."""
 
 from __future__ import annotations
 

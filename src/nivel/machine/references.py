@@ -1,4 +1,4 @@
-"""Whether everything that a machine mentions exists. Reads raw data too: one fault hides no other."""
+"""References of a machine: everything that it mentions exists. Reads raw data too: one fault hides no other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a machine is simulated, in words."""
+"""Settings of the simulation of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
+"""Symbols of the machine in expressions: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
 the quantity is meant: of joints, inputs, states, blocks of the control, forces, hydraulics, sensors, markers and bodies, in this order.

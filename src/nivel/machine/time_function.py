@@ -1,4 +1,4 @@
-"""What may vary: a number, a table, an expression of `time` and signals, or a law in Python.
+"""Functions of time and signals: a number, a table, an expression of `time` and signals, or a law in Python.
 
 Components of forces and motions of drivers are of this type. Once in a record, everything is SI: numbers, tables, the
 numbers in the text of an expression and those that a law is called with.

@@ -1,4 +1,4 @@
-"""What helps to read the picture: the global axes and a scale, in corners that are free."""
+"""Reading aids of the picture: the global axes and a scale, in corners that are free."""
 
 from __future__ import annotations
 

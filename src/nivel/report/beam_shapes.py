@@ -1,4 +1,4 @@
-"""How beams bend: their lines at some times of a run in one picture, with the paths of their named stations."""
+"""Shapes of bent beams: their lines at some times of a run in one picture, with the paths of their named stations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a picture of a machine consists of, and where its points are in space."""
+"""Drawing of a machine: its parts, and the places of its points in space."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What acts between points, in the picture: springs, other forces between two bodies, and the planes of contacts."""
+"""Pictures of what acts between points: springs, other forces between two bodies, and the planes of contacts."""
 
 from __future__ import annotations
 

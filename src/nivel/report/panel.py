@@ -1,4 +1,4 @@
-"""What a plot of the report consists of: a panel has groups of curves of one unit, of which the reader chooses one."""
+"""Panel of plots in the report: a panel has groups of curves of one unit, of which the reader chooses one."""
 
 from __future__ import annotations
 

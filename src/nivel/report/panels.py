@@ -1,4 +1,4 @@
-"""What the report plots, in the order of the story: motion, energy, what acts, what the joints carry, what is left open."""
+"""Plots of the report, in the order of the story: motion, energy, what acts, what the joints carry, what is left open."""
 
 from __future__ import annotations
 

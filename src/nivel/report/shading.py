@@ -1,4 +1,4 @@
-"""How light falls on colours."""
+"""Shading of colours by light."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What happened: sinks that keep the frames of a run, the result made of them, and how far to trust it."""
+"""Results: sinks that keep the frames of a run, the result made of them, and how far to trust it."""
 
 from nivel.results.memory import Memory
 from nivel.results.result import Result

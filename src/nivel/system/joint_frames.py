@@ -1,4 +1,4 @@
-"""Where a joint's two markers are on their bodies."""
+"""Frames of a joint: its two markers on their bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where each number of an output frame stands, and what it is called; `nivel.kernels.output.observe` fills it."""
+"""Layout of an output frame: place and name of each number; `nivel.kernels.output.observe` fills it."""
 
 from __future__ import annotations
 

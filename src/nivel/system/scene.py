@@ -1,4 +1,4 @@
-"""What a picture of a machine needs: shapes, joints, and what acts between points, each point in its own body's frame.
+"""Scene of a machine for pictures: shapes, joints, and what acts between points, each point in its own body's frame.
 
 The scene is stored as JSON in the result; the report and the viewer read it. Lengths in metres; a point or direction that belongs to
 a body (`ground` among them) is in that body's frame, which `position` and `orientation` of the result place in space.

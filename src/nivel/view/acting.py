@@ -1,4 +1,4 @@
-"""What acts on a machine, as the page draws it: forces between bodies, loads on one, and what works on joints, drivers among it."""
+"""Forces on a machine, as the page draws them: forces between bodies, loads on one, and what works on joints, drivers among it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which variables of a result can be plotted, to which element each belongs, and which of them a package carries."""
+"""Variables of a result that can be plotted, to which element each belongs, and which of them a package carries."""
 
 from __future__ import annotations
 

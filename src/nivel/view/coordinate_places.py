@@ -1,4 +1,4 @@
-"""Where a joint coordinate is in the picture: its joint, the bodies and points there, and the axis along or about which it counts."""
+"""Places of joint coordinates in the picture: their joint, the bodies and points there, and the axis along or about which it counts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is shown, as one HTML file with everything inside."""
+"""Export of a view as one HTML file with everything inside."""
 
 from __future__ import annotations
 

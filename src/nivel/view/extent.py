@@ -1,4 +1,4 @@
-"""Where a machine is during its motion, how large it is, and from where it is seen at first."""
+"""Extent of a machine during its motion, and the first viewpoint."""
 
 from __future__ import annotations
 

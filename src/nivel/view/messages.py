@@ -1,4 +1,4 @@
-"""What a page says, read strictly: a message is one of the records of `records.FROM_PAGE`, whole and within bounds, or it is refused."""
+"""Messages of a page, read strictly: a message is one of the records of `records.FROM_PAGE`, whole and within bounds, or it is refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What server and page say to each other. `typescript.py` writes these records for the page, name by name.
+"""Records of the messages between server and page. `typescript.py` writes these records for the page, name by name.
 
 Lengths in metres, angles in radians, vectors in global axes unless the record says otherwise. A body is a number: its place in
 `Stage.bodies`, -1 the ground.

@@ -1,4 +1,4 @@
-"""What the sections of beams feel, for the colours of the page."""
+"""Stresses in the sections of beams, for the colours of the page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a server shows: something with a package, and perhaps with frames that come while it is looked at."""
+"""Sources of a server: something with a package, and perhaps with frames that come while it is looked at."""
 
 from __future__ import annotations
 

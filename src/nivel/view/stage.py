@@ -1,4 +1,4 @@
-"""What is drawn of a machine, from the scene of its result and the machine's record."""
+"""Stage: what is drawn of a machine, from the scene of its result and the machine's record."""
 
 from __future__ import annotations
 

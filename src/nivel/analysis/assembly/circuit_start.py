@@ -1,4 +1,4 @@
-"""Where hydraulic circuits start: the pressures that carry the loads of the machine as assembled, and a steady circuit around them.
+"""Start of hydraulic circuits: the pressures that carry the loads of the machine as assembled, and a steady circuit around them.
 
 1. The effort of every actuator at rest follows from accelerations, which are linear in the pressures: those that vanish are asked for.
    The chamber that cannot carry its load has the pressure of the lowest tank, the other one what the load asks for. A piston without load

@@ -1,4 +1,4 @@
-"""Which joints of a machine with redundant constraints can be freer, so that nothing is redundant and the same motions stay.
+"""Joints of a machine with redundant constraints that can be freer, so that nothing is redundant and the same motions stay.
 
 Let the columns of N span the multipliers without effect, C_qᵀ u = 0, and those of R what a change of joints gives up of the multipliers.
 The rows that stay are independent where no u of that span is without a part in R: where Rᵀ N is regular. As many rows are given up as are

@@ -1,4 +1,4 @@
-"""What can move in a machine's present position, and which of the numbers that describe it may be chosen apart from each other."""
+"""Degrees of freedom in the present position, and the numbers of the state that may be chosen independently."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a machine is joined to the ground, or flies freely."""
+"""Connection of a machine to the ground: joined, or flying freely."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one unit of a multiplier moves its own row by: the diagonal of S = C_q M⁻¹ C_qᵀ in a given state."""
+"""Effective mass of each constraint row: the diagonal of S = C_q M⁻¹ C_qᵀ in a given state."""
 
 from __future__ import annotations
 

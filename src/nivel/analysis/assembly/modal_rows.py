@@ -1,4 +1,4 @@
-"""What modes of flexible bodies add to the Jacobian of the constraints, at the undeformed machine."""
+"""Modes of flexible bodies in the Jacobian of the constraints, at the undeformed machine."""
 
 from __future__ import annotations
 

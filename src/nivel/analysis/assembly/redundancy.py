@@ -1,4 +1,4 @@
-"""Which constraint rows depend on the others, which reactions are therefore not unique, and how many freedoms are left."""
+"""Redundancy: constraint rows that depend on others, reactions that are therefore not unique, and the number of degrees of freedom."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which joints of a spanning tree move a body: those on its way to the ground, and where it slides along a beam those of nodes."""
+"""Joints of a spanning tree that move a body: those on its way to the ground, and where it slides along a beam those of nodes."""
 
 from __future__ import annotations
 

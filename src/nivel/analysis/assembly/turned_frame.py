@@ -1,4 +1,4 @@
-"""How the frame of one body is turned and placed with respect to that of another, as numbers that can be wished for one by one.
+"""Relative pose of two body frames, as numbers that can be wished for one by one.
 
 The turn from the first to the second frame is R = R_x(a) R_y(b) R_z(c): angles a, b, c about x, y, z, each about the axis that the turns
 before it have left (Cardan angles; Haug 1989, section 9.3 has the same for z, x, z). A turn has two such triples, (a, b, c) and

@@ -1,4 +1,4 @@
-"""Which components of reactions follow from the equations where constraints repeat each other, and which do not.
+"""Unique reactions of a machine with redundant constraints: components that follow from the equations, and those that do not.
 
 Any u with C_qᵀ u = 0 may be added to the multipliers. A component of a joint's reaction is unique where none of these changes it
 (Wojtyra 2005). How far the others may differ without any preload in the machine: as many rows as are too many may be left out in several

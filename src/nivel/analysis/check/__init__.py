@@ -1,1 +1,1 @@
-"""What `nivel check` says."""
+"""Check of a machine before any run, as `nivel check` prints it."""

@@ -1,4 +1,4 @@
-"""What a machine is, before any run: freedoms, redundancy, assembly, conventions."""
+"""Description of a machine before any run: degrees of freedom, redundancy, assembly, conventions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ from nivel.analysis.check.elements import (
 from nivel.analysis.plan.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.machine.joint import JOINT_KINDS, Joint

@@ -1,4 +1,4 @@
-"""What a machine is moved by: joint coordinates, angles of spherical joints, and places and angles of bodies that nothing else moves."""
+"""Handles of a machine: joint coordinates, angles of spherical joints, and places and angles of bodies that nothing else moves."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What has no inverse dynamics here: bodies that bend, wheels that roll."""
+"""Machines without inverse dynamics: bodies that bend, wheels that roll."""
 
 from __future__ import annotations
 

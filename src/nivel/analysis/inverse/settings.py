@@ -1,4 +1,4 @@
-"""What `nivel inverse` is asked for, checked."""
+"""Settings of `nivel inverse`, checked."""
 
 from __future__ import annotations
 

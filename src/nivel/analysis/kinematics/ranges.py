@@ -1,4 +1,4 @@
-"""How far a joint coordinate can go, both ways, until the joints cannot be closed any further."""
+"""Ranges of motion: how far a joint coordinate can go, both ways, until the joints cannot be closed any further."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What has no kinematic analysis: machines with motions that nothing drives, with bodies that bend, with states beside the motion."""
+"""Machines without kinematic analysis: those with motions that nothing drives, with bodies that bend, with states beside the motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import equations
 from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.plan.rolling import refuse_rolling
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes

@@ -16,14 +16,15 @@ from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.attributes import run_attributes
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.lockup import find_jam
 from nivel.analysis.run.outcome import failure
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.integrate.catalogue import IntegratorFacts
 from nivel.integrate.loop.positions import follow_positions

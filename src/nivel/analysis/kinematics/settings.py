@@ -1,4 +1,4 @@
-"""What `nivel kinematics` is asked for, checked."""
+"""Settings of `nivel kinematics`, checked."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from scipy.linalg import qr
 
 from nivel.analysis.assembly.redundancy import scaled_jacobian
 from nivel.analysis.kinematics.states import moving_states
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.results.result import Result
 from nivel.system.system import Array
 

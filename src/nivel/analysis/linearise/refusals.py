@@ -1,4 +1,4 @@
-"""What has no linear equations: friction that may stick, states that change in jumps."""
+"""Machines without linear equations: friction that may stick, states that change in jumps."""
 
 from __future__ import annotations
 

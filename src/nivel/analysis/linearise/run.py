@@ -20,8 +20,8 @@ from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.settings import LineariseSettings
 from nivel.analysis.linearise.steady import is_at_rest
 from nivel.analysis.plan.plan import Methods
+from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.attributes import run_attributes
 from nivel.analysis.run.moment import Moment, Posture, at_posture, at_start
 from nivel.analysis.statics.linear import symmetric, symmetric_modes
 from nivel.errors import Fault, ModelError

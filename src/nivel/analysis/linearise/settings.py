@@ -1,4 +1,4 @@
-"""What `nivel linearise` is asked for, checked."""
+"""Settings of `nivel linearise`, checked."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the linear equations of a machine stay the same while it moves: only then their eigenvalues describe the motion.
+"""Steadiness of the linear equations while the machine moves: only then their eigenvalues describe the motion.
 
 A machine in equilibrium stays; one in steady motion passes other positions with the same A; anything else has an A(t), as has a body that
 spins where its turns are measured about its own axes.

@@ -1,4 +1,4 @@
-"""How long steps may be at which time, where they are chosen: what a function of time alone does in between would not be seen."""
+"""Limits of chosen steps over time: what a function of time alone does in between would not be seen."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run passed through: its steps, and the signals of its functions along them."""
+"""Path of a run: its steps, and the signals of its functions along them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much of the impulse of every function the steps of a run have missed.
+"""Impulse of every function that the steps of a run have missed.
 
 Over each step the integral of the function, and that of its magnitude, are compared with those of what the method takes it for
 (`nivel.analysis.loads.sight`). What is missed is summed over a twentieth of the run, where errors of both signs cancel as they do in the

@@ -1,4 +1,4 @@
-"""What a method takes a function for within a step: a curve through the places where it looks.
+"""Interpolation of a function by a method within a step: a curve through the places where it looks.
 
 Runge–Kutta methods look inside a step: here at places evenly spaced, as many as have the integral of the order of the method. Methods
 of several steps look at the ends of steps, and their curve passes through those of earlier steps too: a cubic spline has about the same

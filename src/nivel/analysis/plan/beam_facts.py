@@ -1,4 +1,4 @@
-"""What a beam is in figures: its mass, and between which frequencies it and its elements vibrate."""
+"""Facts of a beam: its mass, and the range of frequencies of the beam and of its elements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `coordinates: auto` means for a machine: the ones in which an evaluation of its equations costs least.
+"""Choice of coordinates for `coordinates: auto`: the ones in which an evaluation of its equations costs least.
 
 Joints named in `cut` are a wish about relative coordinates: where these are possible, they are taken.
 

@@ -1,4 +1,4 @@
-"""Whether a beam vibrates too fast for the fixed step of an explicit method, in a sentence."""
+"""Beams that vibrate too fast for the fixed step of an explicit method."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run will be, decided before anything is built or computed: the methods, where they are, and all settings."""
+"""Plan of a run, decided before anything is built or computed: the methods, where they are, and all settings."""
 
 from __future__ import annotations
 

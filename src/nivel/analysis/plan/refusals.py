@@ -1,4 +1,4 @@
-"""What is refused before a run because its numbers would mean nothing, though the machine can be assembled."""
+"""Refusals before a run whose numbers would mean nothing, though the machine can be assembled."""
 
 from __future__ import annotations
 

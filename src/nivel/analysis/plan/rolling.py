@@ -1,4 +1,4 @@
-"""What has no use for wheels that roll without slip: they tie velocities, so positions alone do not say how they may move."""
+"""Refusals of wheels that roll without slip: they tie velocities, so positions alone do not say how they may move."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""How far a computation is, and how it is interrupted."""
+"""Progress of a computation, and its interruption."""

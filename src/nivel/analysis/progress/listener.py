@@ -1,4 +1,4 @@
-"""Who wants to know how a long computation goes."""
+"""Listeners to the progress of a long computation."""
 
 from __future__ import annotations
 

@@ -1,22 +1,16 @@
-"""Functions of the motion that jump, and runs whose steps shrink to nothing there."""
+"""Runs whose steps shrink to nothing where a function of the motion jumps."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
 from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, Run
-from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import COMPARISONS, Call, Lookup, Negative, Node, Operation, signals
-from nivel.machine.units.expression import Expression
-from nivel.wording import shown
 
 # A status of a run beside those of kernels.
 CRAWLS: Final = -1
 # A run is looked at after so many steps. It crawls where they were this much shorter than its longest one, and so many are left at least.
 LOOKED_AT, SHORT, LEFT = 10_000, 1e-5, 1e7
-JUMPING: Final = ("sign", "floor", "mod", "if", "not")
 
 
 @dataclass
@@ -35,32 +29,6 @@ class Crawl:
         mean = (time - self.time) / (steps - self.steps)
         self.steps, self.time = steps, time
         return mean < SHORT * float(run.pace[TAKEN].max()) and self.duration - time > LEFT * mean
-
-
-def jumping_functions(machine: MachineRecord) -> tuple[str, ...]:
-    """Names and texts of the functions that jump where something of the motion passes a value; those of samples jump anyway."""
-    return tuple(
-        f"{shown(each.function.text)} of {each.section}.{each.part}"
-        for each in machine.functions
-        if each.sampling is None and isinstance(each.function, Expression) and any(_jumps(each.function.tree))
-    )
-
-
-def _jumps(node: Node) -> Iterator[bool]:
-    """Of each part of an expression whether it jumps with a signal."""
-    match node:
-        case Negative(operand):
-            yield from _jumps(operand)
-        case Operation(symbol, left, right):
-            yield symbol in COMPARISONS and bool(signals(node))
-            yield from _jumps(left)
-            yield from _jumps(right)
-        case Lookup(argument):
-            yield from _jumps(argument)
-        case Call(function, arguments):
-            yield function in JUMPING and bool(signals(arguments[0]))
-            for argument in arguments:
-                yield from _jumps(argument)
 
 
 def crawling(time: float, step: float, jumping: tuple[str, ...]) -> tuple[str, str]:

@@ -15,6 +15,8 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback
 from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.preparation.broken_function import NO_NUMBER
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.progress.pacing import Pacing
@@ -23,8 +25,7 @@ from nivel.analysis.run.divergence import GROWN, UNBOUND
 from nivel.analysis.run.fastest import fastest_beyond, held_step
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.lockup import Jam, can_be_asked, find_jam
-from nivel.analysis.run.outcome import NO_NUMBER, failure
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.run.outcome import failure
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
     ACCEPTED,

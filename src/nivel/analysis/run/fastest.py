@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.plan.settings import RunSettings
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
 from nivel.results.trust.findings import Fast

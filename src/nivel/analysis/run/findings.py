@@ -1,4 +1,4 @@
-"""What is looked at after a run beside the balance of energy: whether its steps saw its loads, and what a second run tells of its parts."""
+"""Findings after a run beside the balance of energy: loads that its steps have missed, and what a second run tells of its parts."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from nivel.analysis.loads.path import steps_of
 from nivel.analysis.loads.sampled import between_samples
 from nivel.analysis.loads.seen import unseen_loads
 from nivel.analysis.plan.plan import Plan
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.flexible_facts import modal_bases, modal_bodies
 from nivel.analysis.run.passages import passages
-from nivel.analysis.run.preparation import Prepared
 from nivel.analysis.run.second_run import Verified
 from nivel.analysis.run.separate_parts import separate_parts
 from nivel.integrate.loop.run import TURNED

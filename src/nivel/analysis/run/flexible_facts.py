@@ -1,4 +1,4 @@
-"""What checks after a run have to know of the flexible bodies of a machine: their modes, those left out, and what holds them where."""
+"""Facts of flexible bodies for the checks after a run: their modes, those left out, and what holds them where."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.flexible.body import Interface
 from nivel.results.trust.basis import Basis, Held
 from nivel.results.trust.bending import ModalBody

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.lockup import can_be_asked
-from nivel.analysis.run.preparation import Prepared
 from nivel.integrate.catalogue import IntegratorFacts
 from nivel.integrate.loop.run import (
     ALL_STEPS,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from nivel.analysis.plan.plan import Plan
+from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Progress
-from nivel.analysis.run.attributes import run_attributes
 from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.preparation import prepare
 from nivel.integrate.loop.sink import Header

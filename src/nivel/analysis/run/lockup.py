@@ -15,7 +15,7 @@ import numpy as np
 
 from nivel.analysis.assembly.closing import close_positions
 from nivel.analysis.assembly.redundancy import scaled_jacobian
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import ModelError
 from nivel.kernels.output.observe import observe
 from nivel.system.system import Array, System

@@ -10,9 +10,10 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
 from nivel.analysis.plan.plan import Methods, Plan
+from nivel.analysis.preparation.preparation import Prepared, arranged
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import Prepared, arranged, prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.results.frames.rotations import rotation_matrices

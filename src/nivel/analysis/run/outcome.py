@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknowns import unknown_name
 from nivel.analysis.plan.fast_beams import too_fast
+from nivel.analysis.preparation.broken_function import broken_function, owner_of
 from nivel.analysis.run.divergence import grown_motion
 from nivel.analysis.run.lockup import named_row, unit_of
 from nivel.kernels.core.status import (
@@ -41,10 +42,6 @@ FOR_STIFF = ("radau", "bdf")
 TINY = 1e-9
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2
-# What is said of a function that has no value
-NO_NUMBER = "is not a number at t ="
-# Where a step became too small, it is asked how forces are so far ahead along the motion, as shares of the time.
-AHEAD = (1e-9, 1e-7, 1e-5, 1e-3)
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
@@ -147,7 +144,7 @@ def _met(motion: MotionEquations, number: int, time: float, step: float) -> tupl
     )
     advice = (
         f"Steps pass it, but nothing can be stored in it: another `output_interval` does, when no frame falls there. Or move a joint by a "
-        f"small amount so that the machine does not pass through it exactly: look at {_owner(row)}."
+        f"small amount so that the machine does not pass through it exactly: look at {owner_of(row)}."
     )
     return message, advice
 
@@ -162,12 +159,12 @@ def _singular(motion: MotionEquations, number: int, time: float, step: float, y:
         )
         advice = (
             f"The step is too large for this motion, or a force too stiff for it: try --step {step / 10:.3g}. If it stops near this "
-            f"time again, the machine comes to a singular position there: look at {_owner(row)}."
+            f"time again, the machine comes to a singular position there: look at {owner_of(row)}."
         )
         return message, advice
     message = f"the constraint {row} depends on the others here, the machine is in a singular position"
     advice = (
-        f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
+        f"Look at {owner_of(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
         f"or move a joint by a small amount so that the machine does not pass through it exactly. "
         f"A body whose inertia is many orders too small for its mass looks the same."
     )
@@ -310,37 +307,6 @@ def _off_rail(motion: MotionEquations, coordinate: int) -> tuple[str, str]:
     )
 
 
-def broken_function(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
-    """The first force or driver that is not a finite number at a time that the step from `time` looks at, in the state y or where it
-    is going."""
-    system, record = motion.system, motion.system.record
-    outputs, constraints = record.outputs.value, record.constraints
-    names = [variable.name for variable in reported(system.layout, len(outputs))]
-    magnitudes = [(k, name.split(".")[1]) for k, name in enumerate(names) if name.endswith(".magnitude")]
-    rows = constraints.combination[:, 0].astype(int)
-    rate = motion.evaluate(time, y)[1]
-    ahead = [0.5 * step, step, *(share * max(time, step) for share in AHEAD if share * time > step)]
-    for by, moves in [(0.0, False), *((by, moves) for by in ahead for moves in (False, True))]:
-        at, aside = time + by, y + by * rate if moves else y
-        if not np.isfinite(aside).all():
-            continue
-        motion.evaluate(at, aside)
-        broken = [f"the force {name}" for k, name in magnitudes if not np.isfinite(outputs[k])]
-        known = (
-            np.isfinite(constraints.C[rows])
-            & np.isfinite(constraints.Cdot[rows])
-            & np.isfinite(constraints.gamma[rows])
-        )
-        broken += [f"the motion of {_owner(system.rows[row])}" for row in rows[~known]]
-        if broken:
-            advice = "a division by zero, or a root or logarithm of a negative number, or their derivatives?"
-            return (
-                f"{broken[0]} {NO_NUMBER} {at:.6g} s",
-                f"Look at the law of {broken[0].split()[-1]}: {advice}",
-            )
-    return None
-
-
 def _no_solution(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:
     """Where Newton's iteration for accelerations and multipliers finds nothing."""
     stalled = unknown_name(motion.system, number)
@@ -413,10 +379,6 @@ def _far_from_singular(motion: MotionEquations) -> bool:
         return True
     diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
     return bool(np.all(saddle.Dinv * diagonal < 1.0 / NEAR_SINGULAR))
-
-
-def _owner(row: str) -> str:
-    return row.split(".", maxsplit=1)[0]
 
 
 def _worst(motion: MotionEquations) -> str:

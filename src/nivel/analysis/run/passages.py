@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.redundancy import scaled_jacobian
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.results.result import Result
 from nivel.results.trust.findings import Passage
 from nivel.system.system import Array

@@ -9,15 +9,16 @@ from os import PathLike
 
 from nivel.analysis.loads.ahead import rounding_of_times
 from nivel.analysis.plan.plan import Plan
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.attributes import run_attributes
 from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.fastest import too_long
 from nivel.analysis.run.findings import find
 from nivel.analysis.run.held_friction import resting_frictions
 from nivel.analysis.run.history import SECANT
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.saturation import saturated_blocks
 from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.errors import SolveError

@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, failure_of, jam_of, start_loop, taken_events
-from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.arguments import plain
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.writer import write_machine

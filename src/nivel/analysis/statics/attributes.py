@@ -1,12 +1,12 @@
-"""What is known about a statics run before its first state."""
+"""Attributes of a statics run that are known before its first state."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
 
-from nivel.analysis.run.attributes import run_attributes
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.machine.machine_record import MachineRecord
 

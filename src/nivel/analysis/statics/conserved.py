@@ -1,4 +1,4 @@
-"""What an equilibrium keeps of the states from which it is asked: fluid that is shut in.
+"""Conserved combinations of states in an equilibrium: fluid that is shut in.
 
 Rates ẋ = g(q, v, x) of states whose equations depend on each other do not fix these. With u from the left null space of the derivatives
 of g at rest, uᵀ ẋ depends on velocities alone, so

@@ -1,4 +1,4 @@
-"""Why no equilibrium was found, or no further one, in words, and what to try."""
+"""Reasons why no equilibrium was found, or no further one, and advice."""
 
 from __future__ import annotations
 

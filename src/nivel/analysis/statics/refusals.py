@@ -1,4 +1,4 @@
-"""What of a machine has a part in statics: what is refused, what makes no force at rest, and with which coordinates it is solved."""
+"""Elements of a machine in statics: what is refused, what makes no force at rest, and with which coordinates it is solved."""
 
 from __future__ import annotations
 

@@ -13,10 +13,10 @@ import numpy as np
 from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.refusals import refuse_rough_motions
+from nivel.analysis.preparation.broken_function import broken_function
+from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
 from nivel.analysis.progress.interrupt import interruptible, terminable
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.outcome import broken_function
-from nivel.analysis.run.preparation import Assembled, Prepared, prepare
 from nivel.analysis.statics.attributes import statics_attributes
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness

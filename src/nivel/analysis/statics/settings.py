@@ -1,4 +1,4 @@
-"""What `nivel statics` is asked for, checked."""
+"""Settings of `nivel statics`, checked."""
 
 from __future__ import annotations
 

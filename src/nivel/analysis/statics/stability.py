@@ -1,4 +1,4 @@
-"""Whether a machine has stiffness at all, and what a path that ends does there."""
+"""Stability of equilibria: whether a machine has stiffness at all, and how a path ends."""
 
 from __future__ import annotations
 

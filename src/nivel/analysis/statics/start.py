@@ -9,7 +9,7 @@ import numpy as np
 from nivel.analysis.assembly.assemble import Assembly
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.plan.plan import Methods, methods_of
-from nivel.analysis.run.preparation import Assembled
+from nivel.analysis.preparation.preparation import Assembled
 from nivel.analysis.statics.ends import no_start, without_stiffness
 from nivel.analysis.statics.equations import StateError
 from nivel.analysis.statics.free import refuse_moving

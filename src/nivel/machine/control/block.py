@@ -1,4 +1,4 @@
-"""What all blocks of a control share."""
+"""Base of all blocks of a control."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What blocks are made of: parts, each one number with a function that gives it, its rate, or its value after a sample."""
+"""Parts of blocks: parts, each one number with a function that gives it, its rate, or its value after a sample."""
 
 from __future__ import annotations
 

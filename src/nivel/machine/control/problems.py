@@ -1,4 +1,4 @@
-"""What is wrong between the blocks of a control: algebraic loops, names that are taken."""
+"""Faults between the blocks of a control: algebraic loops, names that are taken."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What acts between two bodies: at two markers, or at two points that are global as placed."""
+"""Forces between two bodies: at two markers, or at two points that are global as placed."""
 
 from __future__ import annotations
 

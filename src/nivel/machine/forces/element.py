@@ -1,4 +1,4 @@
-"""What all forces share."""
+"""Base of all forces."""
 
 from __future__ import annotations
 

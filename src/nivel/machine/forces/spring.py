@@ -1,4 +1,4 @@
-"""What all springs are checked for: stiffness, table and law stand in place of each other."""
+"""Checks of all springs: stiffness, table and law stand in place of each other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all components of a hydraulic circuit share: a name, and ports that are connected to nodes."""
+"""Base of all components of a hydraulic circuit: a name, and ports that are connected to nodes."""
 
 from __future__ import annotations
 

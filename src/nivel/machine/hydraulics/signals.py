@@ -1,4 +1,4 @@
-"""What expressions, sensors and results can read of a component."""
+"""Signals of a component that expressions, sensors and results can read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How expressions are read: from text to the tree of arithmetic.py. Nothing is handed to Python's `eval`.
+"""Grammar of expressions: from text to the tree of arithmetic.py. Nothing is handed to Python's `eval`.
 
     whole   = both { or both }                a condition holds where it is greater than zero
     both    = compared { and compared }

@@ -1,4 +1,4 @@
-"""What a unit is worth in SI. Common units stand in a table; pint, slow to load, is asked only about the others."""
+"""Units and their values in SI. Common units stand in a table; pint, slow to load, is asked only about the others."""
 
 from __future__ import annotations
 

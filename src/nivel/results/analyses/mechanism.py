@@ -1,4 +1,4 @@
-"""What designers of mechanisms ask of a result: coupler curves, transmission angles, ranges of motion."""
+"""Analyses of mechanisms in a result: coupler curves, transmission angles, ranges of motion."""
 
 from __future__ import annotations
 

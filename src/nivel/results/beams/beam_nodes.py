@@ -1,4 +1,4 @@
-"""Which bodies of a result are nodes of beams."""
+"""Bodies of a result that are nodes of beams."""
 
 from __future__ import annotations
 

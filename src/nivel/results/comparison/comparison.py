@@ -1,4 +1,4 @@
-"""What came out of running one machine with many methods."""
+"""Comparison of runs of one machine with many methods."""
 
 from __future__ import annotations
 

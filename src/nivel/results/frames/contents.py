@@ -1,4 +1,4 @@
-"""What a result is made of, whether it lies in memory or in a file."""
+"""Contents of a result, in memory or in a file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the JSON texts of a result file have to look like, so that whatever reads them finds what it asks for.
+"""Forms of the JSON texts of a result file, so that whatever reads them finds what it asks for.
 
 A form is a type (`float` is any number), `[form]` a list, `(form, form)` a list of just these, `{"key": form}` a mapping, where `key?`
 may be missing, `*` is every key and other keys may be there; a set is one of its words, `Either` one of several forms. The scene is

@@ -1,4 +1,4 @@
-"""What may not be written over, even where the user asks to replace files."""
+"""Targets of output: what may not be written over, even where the user asks to replace files."""
 
 from __future__ import annotations
 

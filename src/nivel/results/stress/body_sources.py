@@ -1,4 +1,4 @@
-"""Where the flexible bodies of a run came from, kept in its result so that they are found again."""
+"""Sources of the flexible bodies of a run, kept in its result so that they are found again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is worth telling about the stress of a flexible body, as data: pascals, seconds and metres."""
+"""Facts of the stress of a flexible body, as data: pascals, seconds and metres."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What the trust report looks at, and its words."""
+"""Trust report: its checks and its sentences."""

@@ -1,4 +1,4 @@
-"""How exact a run is, estimated from a second one whose error is a known share of that of the first."""
+"""Accuracy of a run, estimated from a second one whose error is a known share of that of the first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a flexible body has enough modes for its run: how far modes that it leaves out would bend it, under the loads that it bore.
+"""Sufficiency of the modes of a flexible body for its run: how far modes that it leaves out would bend it, under the loads that it bore.
 
 The loads on the modes that are left out are the residual of a finer basis, see `nivel.flexible.left_out`: from the accelerations of the
 body, and from the forces at its interfaces. Those of joints are known; the others follow from the equations of the body itself.

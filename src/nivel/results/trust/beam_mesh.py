@@ -1,4 +1,4 @@
-"""What the elements of beams are too long for: curvatures that change within an element, which linear elements take for constant, and
+"""Elements of beams that are too long: curvatures that change within an element, which linear elements take for constant, and
 quadratic ones for linear.
 
 What they miss is estimated by neighbours, as by a mesh of half the elements (Zienkiewicz, Zhu 1987): within an element of the length L a

@@ -1,4 +1,4 @@
-"""Where flexible bodies leave what their modes are made for: fast turns without geometric stiffness, bending that is not small."""
+"""Limits of modes in a run: fast turns without geometric stiffness, bending that is not small."""
 
 from __future__ import annotations
 

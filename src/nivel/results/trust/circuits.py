@@ -1,4 +1,4 @@
-"""What the trust report says of hydraulic circuits: their balances of energy and mass, cavitation, valves that are always open."""
+"""Hydraulic circuits in the trust report: their balances of energy and mass, cavitation, valves that are always open."""
 
 from __future__ import annotations
 

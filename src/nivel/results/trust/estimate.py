@@ -1,4 +1,4 @@
-"""What a second, finer run says of the error of every result variable."""
+"""Estimate of the error of every result variable from a second, finer run."""
 
 from __future__ import annotations
 

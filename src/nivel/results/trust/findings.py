@@ -1,4 +1,4 @@
-"""What checks beyond the balance of energy have found, as lines of the trust report; what is in order is not told."""
+"""Findings of checks beyond the balance of energy, as lines of the trust report; what is in order is not told."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When frictions rest together with each other, or with what prescribes the motion that they rub against: no law says how they share the
+"""Indeterminate friction: frictions at rest together, or with what prescribes the motion they rub against. No law says how they share the
 load."""
 
 from __future__ import annotations

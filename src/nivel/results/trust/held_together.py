@@ -1,4 +1,4 @@
-"""When several frictions hold one motion at rest: what they hold it with together is known, their shares are not."""
+"""Indeterminate friction: several frictions hold one motion at rest; what they hold it with together is known, their shares are not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a kinematic result can be trusted: closed joints, fitting velocities, uniqueness of reactions."""
+"""Trust in a kinematic result: closed joints, fitting velocities, uniqueness of reactions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the runs of a comparison are measured by: how far joints are open and how far the energy is off."""
+"""Measures of the runs of a comparison: how far joints are open and how far the energy is off."""
 
 from __future__ import annotations
 

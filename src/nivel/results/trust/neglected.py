@@ -1,4 +1,4 @@
-"""What it costs that flexible bodies move without some of their inertia invariants, told by how far they bend in a run."""
+"""Cost of inertia invariants that flexible bodies move without, told by how far they bend in a run."""
 
 from __future__ import annotations
 

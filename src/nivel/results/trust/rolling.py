@@ -1,4 +1,4 @@
-"""What a run says of its wheels: whether the plane would have to pull, and how much friction rolling without slip takes."""
+"""Wheels of a run: whether the plane would have to pull, and how much friction rolling without slip takes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a second, finer run tells beside how far it is apart: parts that are wrong against their own motion, vibrations that the method
+"""Facts from a second, finer run beside its distance: parts that are wrong against their own motion, vibrations that the method
 damped away, and motions that part from their neighbours."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How far a statics result can be trusted: equilibrium, closed joints, and how stable what was found is."""
+"""Trust in a statics result: equilibrium, closed joints, and how stable what was found is."""
 
 from __future__ import annotations
 

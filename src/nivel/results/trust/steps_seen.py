@@ -1,4 +1,4 @@
-"""What the steps of a run are too long or too small for, seen without a second run: bodies that turn too far in one, places that are
+"""Steps of a run that are too long or too small, seen without a second run: bodies that turn too far in one, places that are
 rounded to more than a step moves them."""
 
 from __future__ import annotations

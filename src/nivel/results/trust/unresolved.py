@@ -1,4 +1,4 @@
-"""Which force does so much work in a step of fixed size that what it does decays, or vibrates, within the step and is not followed.
+"""Unresolved forces: those that work so much in a step of fixed size that their effect decays, or vibrates, within the step.
 
 A damper takes from what it stops with a rate r = c/m the share 2 r h of its kinetic energy in a step h, as far as its power at the begin of
 the step says; a spring with the frequency ω takes up to ω h. Where that is of the order of one no formula on steps h has its work right.

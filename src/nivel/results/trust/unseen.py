@@ -1,4 +1,4 @@
-"""What the steps of a run have not seen of a load."""
+"""Impulse of loads that the steps of a run have missed, as a line of the report."""
 
 from __future__ import annotations
 

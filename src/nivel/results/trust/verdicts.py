@@ -1,4 +1,4 @@
-"""How far a result can be trusted: the numbers, the thresholds they are held against, and the verdict in words."""
+"""Verdicts of a result: the numbers, the thresholds they are held against, and the verdict in words."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Which rows and unknowns are eliminated, and in which order the rest is factorised."""
+"""Elimination of rows and unknowns, and the order in which the rest is factorised."""

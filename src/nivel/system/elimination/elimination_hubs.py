@@ -1,4 +1,4 @@
-"""Which bodies the rows of a joint wait for when the tangent is eliminated, so that a hub with many joints makes no fill.
+"""Bodies that the rows of a joint wait for when the tangent is eliminated, so that a hub with many joints makes no fill.
 
 The pivots of the rows of some joints are regular when these rows, restricted to the bodies eliminated so far, are independent. A row that
 is a matter of its bodies alone does not change when they move together, so G_a = -G_p X: the rows of one joint are as independent on one of

@@ -1,4 +1,4 @@
-"""Which derivatives Newton's iteration of a machine needs, and which of them are found in one evaluation: done once, in Python.
+"""Derivatives that Newton's iteration of a machine needs, grouped by evaluation: done once, in Python.
 
 Unknowns come in groups that depend on each other as a whole: velocities of a body, states of a force, rows of a joint. Groups that meet no
 group in common are moved together (Curtis, Powell, Reid 1974, "On the estimation of sparse Jacobian matrices"), so the number of

@@ -1,4 +1,4 @@
-"""What makes a kind of force."""
+"""Description of a kind of force."""
 
 from __future__ import annotations
 

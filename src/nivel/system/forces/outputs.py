@@ -1,4 +1,4 @@
-"""What forces report."""
+"""Outputs of forces."""
 
 from __future__ import annotations
 

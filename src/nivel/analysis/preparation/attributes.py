@@ -1,4 +1,4 @@
-"""What is known about a run before its first frame."""
+"""Attributes of a run that are known before its first frame."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Protocol
 
 import nivel
-from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.flexible.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.stress.body_sources import ATTRIBUTE, BodySource, as_attribute

@@ -1,0 +1,248 @@
+"""A machine made ready to run: built, assembled, refused where no method could follow it, and put into the coordinates of the run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from importlib import import_module
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from nivel.analysis.assembly.assemble import Assembly, assemble
+from nivel.analysis.assembly.circuit_start import circuit_start
+from nivel.analysis.assembly.equations import MotionEquations, equations
+from nivel.analysis.assembly.exact_joints import exact_joints
+from nivel.analysis.assembly.ground import touches_ground
+from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
+from nivel.analysis.assembly.left_out import leave_out, rows_everywhere
+from nivel.analysis.assembly.mobility import bound_pivots
+from nivel.analysis.assembly.modal_rows import modal_rows
+from nivel.analysis.assembly.penalties import penalise
+from nivel.analysis.assembly.redundancy import Redundancy, analyse
+from nivel.analysis.loads.ahead import allowed_steps
+from nivel.analysis.loads.corners import corners
+from nivel.analysis.loads.jumping import jumping_functions
+from nivel.analysis.plan.plan import Methods
+from nivel.analysis.plan.refusals import (
+    refuse_deep_starts,
+    refuse_moved_nodes,
+    refuse_struck_nodes,
+    refuse_uncertain_loads,
+    refuse_unsettled_multipliers,
+)
+from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import IntegratorFacts
+from nivel.kernels.core.arrays import copied
+from nivel.machine.beams.beam import Beam
+from nivel.machine.machine_record import MachineRecord
+from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
+from nivel.system.hydraulics.tangent import with_circuit_tangent
+from nivel.system.system import Array, System
+
+
+class Assembled(NamedTuple):
+    """The equations of a machine in absolute coordinates, and its state as assembled."""
+
+    motion: MotionEquations
+    assembly: Assembly
+
+
+class Rest(Protocol):
+    """An equilibrium from which a run starts: positions q of bodies and modes, in absolute coordinates, and states of elements."""
+
+    @property
+    def q(self) -> Array: ...
+
+    @property
+    def states(self) -> Array: ...
+
+    def assembled(self, motion: MotionEquations, assembly: Assembly) -> Assembly:
+        """The assembly with the bodies there, at rest."""
+        ...
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
+    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
+    of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s];
+    its functions that jump with the motion, in words."""
+
+    path: PathFacts
+    motion: MotionEquations
+    start: Array
+    absolute: MotionEquations
+    assembly: Assembly
+    redundancy: Redundancy
+    drivers: int
+    integrator: IntegratorFacts
+    beams: tuple[Beam, ...] = ()
+    corners: tuple[float, ...] = ()
+    allowed: Array | None = None
+    jumping: tuple[str, ...] = ()
+
+
+def prepare(
+    methods: Methods,
+    given: Assembled | None = None,
+    residual: ResidualOptions | None = None,
+    equilibrium: Callable[[MachineRecord, Assembled], Rest] | None = None,
+) -> Prepared:
+    """Build and assemble the machine of these methods; given : the machine is built and assembled already.
+
+    residual : what is asked of the residual of an implicit integrator, in place of what that asks. equilibrium : finds the one from
+    which the machine starts, with a record that it may change; None : it starts as given.
+
+    Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
+    """
+    machine, path, integrator = methods.machine, methods.path, methods.integrator
+    motion, assembly = given or _assembled(machine)
+    jumping = jumping_functions(machine)  # before an equilibrium is looked for: the machine at rest has the same
+    rest = None
+    if equilibrium is not None:
+        system = replace(motion.system, record=copied(motion.system.record))
+        rest = equilibrium(machine, Assembled(replace(motion, system=system), assembly))
+        assembly = rest.assembled(motion, assembly)
+    redundancy, absolute = _independent_rows(machine, motion, assembly.y)
+    refuse_uncertain_loads(machine, redundancy, partial(_exactly_constrained, machine, motion, assembly.y, redundancy))
+    refuse_deep_starts(machine, absolute, assembly.y)
+    motion.system.record.coordinates.reference[:] = assembly.reference
+    system, y = circuit_start(machine, absolute, assembly.y)
+    assembly = replace(assembly, y=y)
+    motion = replace(motion, system=replace(motion.system, states=system.states))
+    absolute = replace(absolute, system=system)
+    rank = motion.system.machine_rows - len(redundancy.redundant_rows)
+    system, y = arranged(motion.system, assembly.y, rest, rank, methods)
+    if len(system.record.saddle.dense):
+        _leave_out_repeated(system, motion, assembly.y, methods)
+    prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
+    if integrator.circuit_tangent:
+        prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
+    if integrator.residual:
+        prepared = with_residual(prepared, y, methods.coordinates, residual or _wanted(prepared, methods), path)
+    return Prepared(
+        path,
+        prepared,
+        y,
+        absolute,
+        assembly,
+        redundancy,
+        sum(driver.row_count for driver in machine.drivers),
+        integrator,
+        machine.beams,
+        corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),
+        allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
+        jumping,
+    )
+
+
+def _exactly_constrained(
+    machine: MachineRecord, motion: MotionEquations, y: Array, redundancy: Redundancy
+) -> tuple[str, ...]:
+    """Changes of joints after which no constraint repeats another."""
+    motion.evaluate(0.0, y)
+    return exact_joints(machine, motion, redundancy.non_unique_joints)
+
+
+def _assembled(machine: MachineRecord) -> Assembled:
+    """The equations of the machine in absolute coordinates, and its state as assembled."""
+    motion = equations(machine)
+    assembly = assemble(machine, motion)
+    refuse_moved_nodes(machine, assembly.moved, motion.system.size)
+    refuse_struck_nodes(machine, assembly.velocity_change, *_speeds(motion.system, assembly.y))
+    return Assembled(motion, assembly)
+
+
+def _speeds(system: System, y: Array) -> tuple[float, float]:
+    """The largest speed [m/s] and angular speed [rad/s] of a body, in absolute coordinates."""
+    velocities = y[system.positions :][: 6 * system.body_count].reshape(-1, 2, 3)
+    largest = np.linalg.norm(velocities, axis=2).max(axis=0, initial=0.0)
+    return float(largest[0]), float(largest[1])
+
+
+def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array) -> tuple[Redundancy, MotionEquations]:
+    """What rows of the constraints repeat at the start, and the equations that know how many do.
+
+    Raises ModelError in a singular position.
+    """
+    rigid = analyse(motion, 0.0, y)
+    redundancy = analyse(motion, 0.0, y, modal_rows(machine, motion.system)) if machine.is_flexible else rigid
+    if redundancy.singular_rows:
+        rows = ", ".join(redundancy.singular_rows)
+        message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
+        raise ModelError(Fault("", 0, 0, "machine", message))
+    known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
+    return redundancy, MotionEquations(known, motion.kernels)
+
+
+def _leave_out_repeated(system: System, absolute: MotionEquations, assembled: Array, methods: Methods) -> None:
+    """Leave the rows that repeat others everywhere out of the factor of S. Rows of joints that carry bodies are there already.
+
+    absolute : the equations in absolute coordinates, which know of no redundancy; assembled : their state.
+    """
+    if methods.machine.is_flexible or methods.solves_residual or methods.penalised:
+        return
+    left = set(system.record.saddle.row.tolist())
+    carrying = [row for row in range(system.machine_rows) if row not in left]
+    leave_out(system, rows_everywhere(absolute, assembled, methods.machine.simulation.duration, carrying))
+
+
+def arranged(absolute: System, y: Array, rest: Rest | None, rank: int, methods: Methods) -> tuple[System, Array]:
+    """The system and its state y, given in absolute coordinates, in those of the path; with the modes bent by the loads of the equilibrium
+    `rest` from which the run starts."""
+    arrangement: Any = import_module(methods.path.arrangement)
+    machine = methods.machine
+    system, start = arrangement.arrange(machine, absolute, y, rank, methods.cut)
+    if rest is None:
+        return system, start
+    if machine.is_flexible and methods.coordinates == "relative":
+        system, start = arrangement.arrange_deformed(machine, absolute, rest.q, rank, methods.cut)
+    elif machine.is_flexible:
+        # the bodies are there already
+        start[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]
+    start[len(start) - len(system.start_of_states) :][: len(rest.states)] = rest.states
+    return system, start
+
+
+def _formulated(motion: MotionEquations, y: Array, methods: Methods) -> MotionEquations:
+    """The equations, with constraints as the formulation has them enter, or mass as bodies have it in common."""
+    if methods.solves_residual:
+        return _balanced(motion, y, methods)
+    if methods.penalised:
+        return penalise(motion, y, methods.machine.simulation, FORMULATIONS[methods.formulation])
+    bound_pivots(motion, y)
+    return motion
+
+
+def _balanced(motion: MotionEquations, y: Array, methods: Methods) -> MotionEquations:
+    """The equations of a machine whose bodies have mass in common, or are carried by beams along which they slide. Pivots, which the latter
+    have none of, are judged by the masses lumped at the bodies."""
+    machine, coordinates = methods.machine, methods.coordinates
+    if not len(motion.system.record.tree.slider):
+        lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
+        assert lumped is not None
+        bound_pivots(MotionEquations(motion.system, import_module(lumped.module)), y)
+    if methods.integrator.residual:
+        return motion
+    return with_residual(motion, y, coordinates, ResidualOptions(balance=True))
+
+
+def _wanted(motion: MotionEquations, methods: Methods) -> ResidualOptions:
+    """What the integrator asks of the residual. Raises ModelError where multipliers would never settle."""
+    machine, saddle, integrator = methods.machine, motion.system.record.saddle, methods.integrator
+    simulation = machine.simulation
+    if constraint_index(methods.formulation, simulation.stabilisation, methods.path) == 3:
+        refuse_unsettled_multipliers(machine, len(saddle.row))
+    return ResidualOptions(
+        whole=integrator.over_step(machine.is_flexible),
+        corners=corners(machine),
+        shifted=integrator.complex_shift,
+        balance=methods.solves_residual,
+        along=integrator.directional_tangent,
+        free=not touches_ground(machine, motion.system) if integrator.step_residual else None,
+        filtered=integrator.optional_control and methods.chooses_steps,
+        accelerations=integrator.accelerations,
+        compliance=saddle.shift if methods.penalised else None,
+    )

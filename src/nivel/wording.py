@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from typing import Final
@@ -37,6 +38,12 @@ def set_in_motion(names: Sequence[str]) -> str:
     return (
         f"velocities that are not given follow from the joints and the masses (least kinetic energy): {', '.join(few)}"
     )
+
+
+def label_of(name: str) -> str:
+    """A name as a label for people: `lift_lever` is "Lift lever"."""
+    words = " ".join(re.split(r"[\s_-]+", name)).strip()
+    return words[:1].upper() + words[1:]
 
 
 def seconds(value: float) -> str:

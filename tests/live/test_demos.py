@@ -8,7 +8,7 @@ from nivel.demos.catalogue import DEMOS, FOLDER, demo_file
 from nivel.live.preparation import live_plan
 from nivel.live.recording import Recording, Take
 from nivel.live.replay import replay
-from nivel.machine import Table
+from nivel.machine import Table, mass_properties
 
 HYDRAULIC = {
     "loader-crane": {
@@ -64,3 +64,17 @@ def test_a_hydraulic_machine_stands_still_until_its_levers_are_moved(name):
     for coordinate in moved.values():
         course = result.array(coordinate)
         assert course[-1] - course[0] > 0.005  # rad or m, of levers that are pushed together
+
+
+@pytest.mark.parametrize("name", DEMOS)
+def test_a_demo_is_painted_and_its_masses_follow_from_what_is_written_alone(name):
+    """Every solid has a colour of its role; without looks and surroundings the numbers of all bodies are the same."""
+    machine = nivel.load(demo_file(name)).record
+    plain = machine.replace(surroundings=(), bodies=tuple(body.replace(looks=()) for body in machine.bodies))
+    for body, bare in zip(machine.bodies, plain.bodies, strict=True):
+        assert all(shape.colour for shape in (body.shape, *body.looks) if shape is not None)
+        assert mass_properties(body).mass == mass_properties(bare).mass
+        np.testing.assert_array_equal(mass_properties(body).inertia, mass_properties(bare).inertia)
+    assert all(shape.colour for shape in machine.surroundings)
+    for sensor in machine.sensors:
+        assert sensor.range is None or sensor.limit is None or sensor.limit <= max(map(abs, sensor.range))

@@ -194,3 +194,24 @@ def test_a_body_is_pulled_by_the_mouse(live, browser):
         page.keyboard.up("Shift")
         until(page, lambda: session.live.value[-8] == 0.0)
         assert page.evaluate(turned) == pytest.approx(before, abs=1e-6)
+
+
+def test_gauges_and_paths_are_the_same_on_a_page_that_shows_few_frames(live, browser):
+    """The page acknowledges a frame after 0.2 s: its curve has all regular moments, and numbers stand at round-off of zero as 0."""
+    session, viewing = live
+    session.command("reset")
+    session.command("run")
+    spacing = session.pace.every * session.pace.tick
+    with watched(browser, width=500, height=400) as seen:
+        page = seen.open(viewing.address.url)
+        page.evaluate(
+            "(() => { const { connection } = nivel.app, send = connection.send.bind(connection);"
+            "connection.send = (said) => said.type === 'shown' ? setTimeout(send, 200, said) : send(said); })()"
+        )
+        until(page, "nivel.app.live.strips[0].times.at(-1) > 2")
+        times = np.array(page.evaluate("nivel.app.live.strips[0].times"))
+        assert times[0] == 0.0
+        np.testing.assert_allclose(np.diff(times), spacing, rtol=1e-6)
+        assert page.locator(".strip .name").inner_text() == "Speed"
+        assert page.locator(".strip output").inner_text() == "0 m/s"
+    session.command("reset")

@@ -22,7 +22,7 @@ from nivel.live.preparation import SILENCE
 from nivel.live.source import ONLY_WATCH, LiveSource
 from nivel.system.layout import frame_layout
 from nivel.view.messages import NotUnderstoodError, read_message
-from nivel.view.records import FRAME
+from nivel.view.records import FRAME, SAMPLES
 from nivel.view.server import Address
 
 
@@ -75,6 +75,44 @@ def test_inputs_come_back_in_frames_many_times_a_second(live):
     assert frames > 30
     assert delay is not None
     assert delay < 1.0
+
+
+def test_pages_of_different_pace_get_the_same_samples(live):
+    """One acknowledges every frame at once, the other late: both have every moment of the same regular times, with the same numbers."""
+    session, viewing = live
+    session.command("reset")
+    session.command("run")
+    cart.until(lambda: session.mode == "running")
+
+    async def watch(delay):
+        rows, frames, end = [], 0, time.monotonic() + 2.0
+        async with connected(viewing) as page:
+            while time.monotonic() < end:
+                content = await asyncio.wait_for(page.recv(), 30.0)
+                kind = struct.unpack_from("<I", content)[0] if isinstance(content, bytes) else 0
+                if kind == SAMPLES:
+                    width = struct.unpack_from("<I", content, 4)[0]
+                    rows.append(np.frombuffer(content, "<f8", offset=8).reshape(-1, width))
+                elif kind == FRAME:
+                    frames += 1
+                    await asyncio.sleep(delay)
+                    await page.send(json.dumps({"type": "shown", "frame": struct.unpack_from("<I", content, 4)[0]}))
+        return np.concatenate(rows), frames
+
+    async def both():
+        return await asyncio.gather(watch(0.0), watch(0.25))
+
+    session.operate([1.0, 1.0])
+    (quick, many), (slow, few) = asyncio.run(both())
+    assert few < 12 < many
+    spacing = session.pace.every * session.pace.tick
+    for rows in (quick, slow):
+        np.testing.assert_allclose(np.diff(rows[:, 0]), spacing, rtol=1e-6)
+    last = min(quick[-1, 0], slow[-1, 0])
+    assert last > 1.0
+    assert slow[0, 0] == quick[0, 0]
+    np.testing.assert_array_equal(quick[quick[:, 0] <= last], slow[slow[:, 0] <= last])
+    assert np.ptp(quick[:, 1]) > 0.0  # the gauge of its speed
 
 
 def test_one_page_operates_and_another_may_not(live):

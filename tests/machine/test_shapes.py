@@ -6,7 +6,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nivel.errors import ModelError
-from nivel.machine import Body, Box, Capsule, Cylinder, Extrusion, Mesh, Orientation, Sphere, mass_properties
+from nivel.machine import (
+    Body,
+    Box,
+    Capsule,
+    Cylinder,
+    Extrusion,
+    MachineRecord,
+    Mesh,
+    Orientation,
+    Sphere,
+    mass_properties,
+)
 from nivel.machine.orientation import rotation_matrix
 from nivel.machine.solids import centroid, squared_gyration, volume
 from nivel.machine.surface import enclosed, surface_arrays, surface_text, why_open
@@ -173,3 +184,15 @@ def test_looks_are_solids_of_the_body_frame_without_mass():
         plain.replace(looks=[mesh(*box_mesh(1, 1, 1))])
     with pytest.raises(ModelError, match="a colour was expected, one of yellow"):
         plain.replace(looks=[{**looks[0], "colour": "pink"}])
+
+
+def test_surroundings_are_solids_at_global_places_and_change_no_number():
+    alone = MachineRecord(name="m", bodies=[Body(name="a", mass=2, shape={"type": "sphere", "radius": 0.1})])
+    wall = {"type": "box", "size": (1, 2, 3), "centre": (5, 0, 0), "colour": "grey"}
+    beside = alone.replace(surroundings=[wall])
+    assert beside.surroundings[0].centre == (5, 0, 0)
+    assert beside.bodies == alone.bodies
+    with pytest.raises(ModelError, match="stands along the axes, at its `centre`"):
+        alone.replace(surroundings=[{"type": "capsule", "radius": 0.1, "from": (0, 0, 0), "to": (1, 0, 0)}])
+    with pytest.raises(ModelError, match="a mesh belongs to a body"):
+        alone.replace(surroundings=[mesh(*box_mesh(1, 1, 1))])

@@ -10,7 +10,10 @@ import nivel
 import synthetic_run as pendulum
 from browsing import chromium, drawn, served, until, watched
 from many_bodies import ARC, NODES, RADIUS, arc, beam
+from nivel.api import Machine
+from nivel.files.reader import parse_machine
 from nivel.looks import sweeps
+from nivel.looks.colours import colour_of
 from nivel.looks.poses import rotation
 from nivel.report.picture import machine_picture
 from nivel.results import Memory
@@ -345,3 +348,27 @@ def test_a_beam_is_drawn_with_its_section(section, area, height, tmp_path):
     # of round ones a polygon of 24 corners: its area is 24/(2π) sin(2π/24) of the circle's
     assert found == pytest.approx(area, rel=0.012)
     assert np.ptp(np.array(sweep["section"])[:, 1]) == pytest.approx(height)
+
+
+def test_links_have_the_colour_of_what_is_painted_and_surroundings_stand_on_the_ground():
+    """A body that is painted shows no colour of its number; nothing of the surroundings is a body, and none is in the first view."""
+    text = """
+format: 1
+name: painted
+surroundings:
+  - {type: box, size: [9, 9, 1], centre: [40, 0, -2], colour: silver}
+bodies:
+  post: {mass: 1, shape: {type: box, size: [1, 1, 1], colour: red}}
+  arm: {mass: 1, inertia: [1, 1, 1], position: [2, 0, 0], looks: [{type: sphere, radius: 0.1, colour: blue}]}
+  bare: {mass: 1, inertia: [1, 1, 1], position: [3, 0, 0]}
+joints:
+  hinge: {type: revolute, bodies: [post, arm], point: [1, 0, 0], axis: [0, 0, 1]}
+"""
+    source = Machine.from_record(parse_machine(text)).viewer_source()
+    content, _ = from_bytes(source.package())
+    shown = content["stages"][0]
+    assert [each["colour"] for each in shown["bodies"]] == ["#b8473c", "#3f6ea6", colour_of(2)]
+    (solid,) = shown["surroundings"]
+    assert (solid["kind"], solid["centre"], solid["colour"]) == ("box", [40.0, 0.0, -2.0], "#b7bec6")
+    assert len(shown["bodies"]) == 3
+    assert shown["high"][0] < 10

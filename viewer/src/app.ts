@@ -1,6 +1,6 @@
 // The page: one machine in the picture, perhaps ghosts of it, and what controls them.
 import { Columns } from "./columns";
-import type { Connection, Frame } from "./connection";
+import type { Connection, Frame, Samples } from "./connection";
 import type { FromServer, Stage } from "./generated/records";
 import { Motion } from "./motion";
 import type { Opened } from "./package";
@@ -17,6 +17,7 @@ import { Hand } from "./stage/hand";
 import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
+import { surroundings } from "./stage/surroundings";
 import { Trails } from "./stage/trails";
 import { Violations } from "./stage/violations";
 import type { View } from "./stage/views";
@@ -64,7 +65,6 @@ export class App {
   readonly live: Live | null = null;
   private trails: Trails | null = null;
   private hand: Hand | null = null;
-  private shownTime = 0;
   private readonly panels: Panels;
   private readonly dialog: HTMLDialogElement;
   private readonly status = el("p", { class: "status", role: "status" });
@@ -107,6 +107,7 @@ export class App {
     this.labels.shown.body = stage.bodies.length <= FEW_NAMES && content.mode !== "live";
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor);
+    if (stage.surroundings.length) this.world.scene.add(surroundings(stage, arrays));
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
     this.compass = new Compass(this.world);
     holder.append(names, this.compass.element, this.legend.element);
@@ -139,7 +140,7 @@ export class App {
       );
     }
     if (content.mode === "live" && connection) {
-      this.trails = new Trails(this.actor);
+      this.trails = new Trails(this.actor, content.traced, content.gauges.length);
       this.world.scene.add(this.trails.root);
       this.actor.show("signs", false);
       const live = new Live(content.controls, content.gauges, (message) => connection.send(message));
@@ -215,6 +216,12 @@ export class App {
     this.world.invalidate();
   }
 
+  /** Samples from the server: curves and paths are the same on every page, however many frames it shows. */
+  sample(samples: Samples): void {
+    this.live?.sample(samples);
+    this.trails?.add(samples);
+  }
+
   message(message: FromServer): void {
     if (message.type === "note") this.note(message.text);
     if (message.type === "status") this.live?.update(message);
@@ -240,12 +247,9 @@ export class App {
       this.live?.show(this.latest.time, this.latest.values.subarray(this.actor.frame.length));
       // the next one may travel while this one is drawn
       this.connection?.send({ type: "shown", frame: this.latest.number });
-      if (this.latest.time < this.shownTime) this.trails?.clear();
-      this.shownTime = this.latest.time;
       this.latest = null;
       this.refreshFrame();
       if (this.live) this.colours.spread();
-      this.trails?.add();
       this.hand?.update();
       this.handled.keepInSight();
     }

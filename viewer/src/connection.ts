@@ -1,6 +1,6 @@
 // The connection to the server that the page came from. Frames are acknowledged once they are on the screen, so that the server
 // never has more than one on its way.
-import { COLUMN, FRAME, PACKAGE, type FromPage, type FromServer } from "./generated/records";
+import { COLUMN, FRAME, PACKAGE, SAMPLES, type FromPage, type FromServer } from "./generated/records";
 
 const PATIENCE = [500, 1000, 2000, 4000]; // ms before the next attempt
 
@@ -10,9 +10,16 @@ export interface Frame {
   values: Float32Array;
 }
 
+/** Samples of a live machine one after the other, each so wide: see `Package.traced`. */
+export interface Samples {
+  width: number;
+  values: Float64Array;
+}
+
 export interface Listener {
   onPackage(bytes: Uint8Array): void;
   onFrame(frame: Frame): void;
+  onSamples(samples: Samples): void;
   onMessage(message: FromServer): void;
   /** The program answers again, but shows something else than before. */
   onOther(): void;
@@ -83,6 +90,8 @@ export class Connection {
     } else if (kind === FRAME) {
       const values = new Float32Array(data, 16);
       this.listener.onFrame({ number: view.getUint32(4, true), time: view.getFloat64(8, true), values });
+    } else if (kind === SAMPLES) {
+      this.listener.onSamples({ width: view.getUint32(4, true), values: new Float64Array(data, 8) });
     } else if (kind === COLUMN) {
       this.answer(view.getUint32(4, true), new Float32Array(data, 12));
     }

@@ -66,6 +66,7 @@ function connect(): void {
       }
     },
     onFrame: (frame) => app?.take(frame),
+    onSamples: (samples) => app?.sample(samples),
     onMessage: (message) => app?.message(message),
     onOther: () => location.reload(),
     onState: (connected, failures) => {

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import SolveError
 from nivel.integrate.loop.paced import DONE, SHOWN, Live
+from nivel.live.history import is_regular
 from nivel.live.journal import FRAMES, GAP, PART, TICKS, Journal
 from nivel.live.preparation import Pace
 from nivel.live.recording import Part, complete, parts_in
@@ -63,10 +64,9 @@ class Recorder:
         return self._live.frames[np.arange(first, shown) % ring]
 
     def _keep_frames(self, frames: Array, done: int) -> None:
-        """Keep those that the run made by itself, until the last tick: others were asked for, to be seen while nothing moves."""
+        """Keep those that the run made by itself, until the last tick."""
         at = frames[:, 0]
-        number = at / (self._pace.every * self._pace.tick)
-        regular = (np.abs(number - np.round(number)) < 1e-6) & (at <= done * self._pace.tick * (1.0 + 1e-9))
+        regular = is_regular(at, self._pace) & (at <= done * self._pace.tick * (1.0 + 1e-9))
         # of several at the same time the last one
         last = np.append(at[1:] != at[:-1], True)[: len(at)]
         kept = frames[regular & last & (at > self._time)]

@@ -16,6 +16,7 @@ from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import hand, shared
+from nivel.live.history import History
 from nivel.live.journal import Journal
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
@@ -70,6 +71,7 @@ class Session:
         self._lock = threading.Lock()
         self._has_saved = False
         self._newest: Array | None = None
+        self.history = History(pace)
         self._ending = self._closing = False
         try:
             self.facts = self._first_word().facts
@@ -139,6 +141,7 @@ class Session:
             with self._lock:
                 frames = self.recorder.gather()
             if len(frames):
+                self.history.add(frames)
                 self._newest = frames[-1]
                 self.on_frame()
             try:
@@ -203,12 +206,12 @@ class Session:
         if word in GOING_ON and self.mode in ("ended", "failed"):
             return "the run is over: go back to the start, or restore a state"
         with self._lock:
-            self.recorder.gather()
+            self.history.add(self.recorder.gather())
             if not self._do(COMMANDS[word]):
                 return "the solver does not answer"
             if word == "save":
                 self._has_saved = True
-                self.recorder.gather()
+                self.history.add(self.recorder.gather())
                 self.recorder.save(int(self.live.control[SAVED]))
             if word in ("reset", "restore"):
                 self.problem = ""

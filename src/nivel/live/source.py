@@ -5,21 +5,24 @@ from __future__ import annotations
 import json
 import threading
 import time
+from collections.abc import Mapping, Sequence
 from typing import Any, Final, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.live.session import COMMANDS, Session
-from nivel.machine import Input
+from nivel.machine import Input, Sensor
 from nivel.system.layout import FrameLayout, Variable
 from nivel.view import frames
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Command, Control, Drive, Gauge, Hold, Note, Package, Status, Take
 from nivel.view.sources import Still, machine_stage
+from nivel.wording import label_of
 
 Array = NDArray[np.float64]
 MOST_GAUGES: Final = 16
+MOST_TRACED: Final = 3  # markers that leave their paths in the picture
 PATIENCE: Final = 2.0  # s that an operator may be silent before another one may take over
 SHOWN_FIRST: Final = ("sensor.", "state.")
 ONLY_WATCH: Final = "a program operates the machine by datagrams; this page can only watch"
@@ -63,8 +66,10 @@ class LiveSource(Still):
         )
         self._origin = np.array(stage.origin)
         controls = [control(each) for each in self._session.inputs]
-        shown = [Gauge(name, variable.units) for name, variable in self._gauges]
-        return to_bytes(Package(PROTOCOL, "live", [stage], controls, shown), block)
+        sensors = {each.name: each for each in self._session.plan.machine.sensors}
+        shown = [gauge(name, variable.units, sensors) for name, variable in self._gauges]
+        self._traced = traced([each.body for each in stage.markers])
+        return to_bytes(Package(PROTOCOL, "live", [stage], controls, shown, self._traced), block)
 
     def _tell(self) -> None:
         """There is a new frame, for whoever shows this source now."""
@@ -81,6 +86,16 @@ class LiveSource(Still):
         return float(newest[0]), np.concatenate(
             [row, newest[self._columns], self._session.live.value[: len(self._session.inputs)]]
         )
+
+    def samples(self, after: int) -> tuple[int, Array]:
+        last, found = self._session.history.after(after)
+        return last, np.array([self._sample(frame) for frame in found])
+
+    def _sample(self, frame: Array) -> Array:
+        """Time, gauges, poses of the bodies that are traced, modal coordinates."""
+        row = self._places.row(frame, self._origin)
+        poses = [row[7 * body : 7 * body + 7] for body in self._traced]
+        return np.concatenate([frame[:1], frame[self._columns], *poses, row[self._places.pose_width :]])
 
     # --- operators ---
 
@@ -172,6 +187,7 @@ class _Places:
         columns = {variable.name: variable.columns for variable in layout.variables}
         self._position, self._orientation = columns["position"], columns["orientation"]
         self._modal = columns.get("modal_coordinate", slice(0, 0))
+        self.pose_width = 7 * (self._position.stop - self._position.start) // 3  # numbers of all poses in a frame
 
     def pose(self, frame: Array) -> tuple[Array, Array]:
         """Position (B, 3) and Euler parameters (B, 4) of all bodies."""
@@ -220,11 +236,30 @@ def gauges(layout: FrameLayout) -> list[tuple[str, Variable]]:
     ][:MOST_GAUGES]
 
 
+def gauge(name: str, unit: str, sensors: Mapping[str, Sensor]) -> Gauge:
+    """A number as the page shows it; a sensor's with what its machine file says of it."""
+    its, _, part = name.partition(".")
+    sensor = sensors.get(its)
+    if sensor is None:
+        return Gauge(name, label_of(name), unit, None, None, None)
+    label = sensor.label or label_of(its)
+    if part and part != sensor.form:  # the scale is not of the rate of a distance, nor of a component
+        return Gauge(name, f"{label}, {part}", unit, None, None, None)
+    low, high = sensor.range or (None, None)
+    return Gauge(name, label, unit, low, high, sensor.limit)
+
+
+def traced(bodies: Sequence[int]) -> list[int]:
+    """The bodies of few markers; of many none."""
+    return sorted(set(bodies)) if len(bodies) <= MOST_TRACED else []
+
+
 def control(given: Input) -> Control:
     """An input as the page shows it."""
     keys, pad = given.keys, given.gamepad
     return Control(
         name=given.name,
+        label=given.label or label_of(given.name),
         unit=given.units,
         description=given.description,
         low=given.range[0],

@@ -75,6 +75,7 @@ class Input(Checked):
         default=None, description="greatest change per second; absent, no limit"
     )
     units: str = Field(default="", description="SI unit of the value, for people")
+    label: str = Field(default="", description="what the page calls it; default follows from the name")
     description: str = Field(default="", description="what it moves, for the operator")
     signal: Annotated[TimeFunction, varying(ANY)] | None = Field(
         default=None, description="value in runs without an operator: a number, or a table of time"

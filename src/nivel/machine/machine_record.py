@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import (
     BeforeValidator,
+    Field,
     ModelWrapValidatorHandler,
     ValidationError,
     ValidationInfo,
@@ -43,8 +44,9 @@ from nivel.machine.record import entry, restated
 from nivel.machine.references import reference_faults
 from nivel.machine.sensor import Sensor
 from nivel.machine.settings import SimulationSettings
+from nivel.machine.shape import Mesh, Shape, Sphere
 from nivel.machine.state import State
-from nivel.machine.units.quantity import AccelerationVector, fault, parameters_of, shown
+from nivel.machine.units.quantity import AccelerationVector, fault, listed, parameters_of, shown
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 
@@ -73,10 +75,13 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything that describes a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2, "surroundings": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
+    surroundings: Annotated[tuple[Shape, ...], BeforeValidator(listed)] = Field(
+        default=(), description="solids that are drawn on the ground, at global places; nothing touches them"
+    )
     gravity: AccelerationVector = (0.0, 0.0, 0.0)
     bodies: tuple[Body, ...] = ()
     beams: tuple[Beam, ...] = ()
@@ -160,6 +165,14 @@ class MachineRecord(Checked):
         return any(beam.shares_mass for beam in self.beams)
 
     def problems(self) -> Iterator[Problem]:
+        yield from self._problems_of_surroundings()
         yield from problems_of_points(self)
         yield from problems_of_interfaces(self)
         yield from problems_of_control(self)
+
+    def _problems_of_surroundings(self) -> Iterator[Problem]:
+        for k, each in enumerate(self.surroundings):
+            if isinstance(each, Mesh):
+                yield Problem(("surroundings", k), "a mesh belongs to a body; surroundings are solids of a few numbers")
+            elif not isinstance(each, Sphere) and each.from_ is not None:
+                yield Problem(("surroundings", k), "a solid of the surroundings stands along the axes, at its `centre`")

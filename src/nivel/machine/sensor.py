@@ -12,8 +12,9 @@ from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.orientation import AxisSequence
 from nivel.machine.record import Name, unknown_word
+from nivel.machine.shown_number import ShownNumber
 from nivel.machine.time_function import Measured
-from nivel.machine.units.quantity import fault, shown
+from nivel.machine.units.quantity import fault, listed, shown
 
 MARKER_QUANTITIES: Final = (
     "position",
@@ -61,6 +62,13 @@ class Sensor(Checked):
         default=None, description="of `euler_angles`: the axes of the three turns, each about an axis as turned so far"
     )
     units: str = Field(default="", description="of a `value`, for people")
+    label: str = Field(default="", description="what a gauge of the page calls it; default follows from the name")
+    range: Annotated[tuple[ShownNumber, ShownNumber], BeforeValidator(listed)] | None = Field(
+        default=None, description="ends of the scale of its gauge"
+    )
+    limit: ShownNumber | None = Field(
+        default=None, description="magnitude beyond which its gauge warns, greater than zero"
+    )
 
     @property
     def form(self) -> str:
@@ -92,6 +100,20 @@ class Sensor(Checked):
             yield superfluous("sequence", "belongs to the quantity `euler_angles` of a marker")
         if self.units and form != "value":
             yield superfluous("units", "belongs to a `value`; all else is in SI")
+        yield from self._problems_of_gauge()
         pair = self.distance or self.angle
         if pair is not None and pair[0] == pair[1]:
             yield Problem((form,), f"{form} is measured between two different markers")
+
+    def _problems_of_gauge(self) -> Iterator[Problem]:
+        if self.range is not None and not self.range[0] < self.range[1]:
+            low, high = self.range
+            yield Problem(
+                ("range",), f"the least value comes first and is below the greatest; got {low:g} and {high:g}"
+            )
+        if self.limit is not None and self.limit <= 0.0:
+            yield Problem(("limit",), f"a magnitude greater than zero was expected, got {self.limit:g}")
+        if self.marker is not None:
+            for name in ("range", "limit"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "belongs to a sensor of one number; a marker gives three")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.looks.colours import colour_of
+from nivel.looks.colours import colour_of, colour_of_body
 from nivel.looks.joints import ON_RAIL, sliding_axes, turning_axes
 from nivel.looks.links import held_points
 from nivel.looks.poses import Array, Pose, body_poses, in_space
@@ -82,7 +82,7 @@ def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touche
     for k, body in enumerate(scene["bodies"]):
         if body["name"] in swept:
             continue
-        draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of(k), facets)
+        draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of_body(body, k), facets)
     for joint in sorted(scene["joints"], key=lambda joint: joint["type"] not in ON_RAIL):
         draw_joint(drawing, frame, joint, poses)
     for force in scene.get("forces", []):

@@ -19,6 +19,7 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
                    ``bodies`` (names, two or more), ``section`` (corners (y, z), counter-clockwise), and if they are not these:
                    ``hollow`` (corners of a hole; none), ``points`` (of the line, in each body; their origins), ``axes`` (of the line;
                    x), ``across`` (y of the section; y), ``smooth`` (curved between the frames; true)
+``surroundings``   of machines that have any; shapes as those of ``looks``, at global places
 =================  ====================================================================================================
 
 Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, contacts, and ropes, which
@@ -95,13 +96,14 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
         for _, position, axes in [marker_place(machine, m)]
     ]
     sweeps = [_sweep(beam) for beam in machine.beams]
+    around = [_shape(each) for each in machine.surroundings]
     return {
         "bodies": bodies,
         "ground_points": held["ground"],
         "joints": joints,
         "forces": list(_forces(machine)),
         "markers": markers,
-    } | ({"sweeps": sweeps} if sweeps else {})
+    } | {name: drawn for name, drawn in (("sweeps", sweeps), ("surroundings", around)) if drawn}
 
 
 def _gyration(body: Body, system: System, k: int) -> float:

@@ -8,10 +8,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.view.records import FRAME, Layout
+from nivel.view.records import FRAME, SAMPLES, Layout
 
 Array = NDArray[np.float64]
 HEAD: Final = struct.Struct("<IId")  # what follows, number of the frame, its time
+SAMPLES_HEAD: Final = struct.Struct("<II")  # what follows, floats of a sample
 
 
 def layout(bodies: int, modes: int = 0, vectors: int = 0) -> Layout:
@@ -32,3 +33,8 @@ def message(number: int, time: float, frame: Array) -> bytes:
     """The binary message of a frame (width,)."""
     with np.errstate(over="ignore"):  # beyond 32 bits: not drawn
         return HEAD.pack(FRAME, number & 0xFFFFFFFF, time) + frame.astype("<f4").tobytes()
+
+
+def samples_message(samples: Array) -> bytes:
+    """The binary message of samples (n, width)."""
+    return SAMPLES_HEAD.pack(SAMPLES, samples.shape[1]) + samples.astype("<f8").tobytes()

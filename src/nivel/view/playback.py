@@ -111,6 +111,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         arrows=drawn.arrows,
         drivers=players.drivers,
         sweeps=players.sweeps,
+        surroundings=players.surroundings,
         couplings=couplings(players, position, orientation),
         columns=columns(result, frames, block, budget.columns)
         if budget.plots and (number == 0 or budget.columns)

@@ -32,6 +32,7 @@ ForceLook = Literal[
 PROTOCOL: Final = 1  # version of all that stands here
 PACKAGE: Final = 1  # binary message: a package (package.py)
 FRAME: Final = 2  # binary message: number of the frame (32 bits), its time (64-bit float), then its floats (frames.py)
+SAMPLES: Final = 4  # binary message: floats of a sample (32 bits), then samples of 64-bit floats (frames.py)
 COLUMN: Final = 3  # binary message: number of the request (32 bits), 4 bytes unused, then a column of 32-bit floats
 
 
@@ -376,6 +377,7 @@ class Stage:
     """Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted.
 
     up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by.
+    surroundings : solids that stand on the ground, of which the machine knows nothing.
     notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why.
     circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows.
     """
@@ -397,6 +399,7 @@ class Stage:
     drivers: list[Force] = field(default_factory=list)
     couplings: list[Coupling] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)
+    surroundings: list[Part] = field(default_factory=list)
     flexible: list[Flexible] = field(default_factory=list)
     sections: Sections | None = None
     colourless: list[str] = field(default_factory=list)
@@ -412,10 +415,12 @@ class Stage:
 class Control:
     """An input of a live machine, and what moves it. stick, raises, lowers : empty where there is none. axis, button : -1 likewise.
 
-    hold : it stays where it is left, and does not go back to rest. dead_zone, exponent, reverse : of the axis of a gamepad.
+    label : its name for people. hold : it stays where it is left, and does not go back to rest.
+    dead_zone, exponent, reverse : of the axis of a gamepad.
     """
 
     name: str
+    label: str
     unit: str
     description: str
     low: float
@@ -435,10 +440,17 @@ class Control:
 
 @dataclass(frozen=True)
 class Gauge:
-    """A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls."""
+    """A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls.
+
+    label : its name for people. low, high : ends of its scale, where they are known. limit : magnitude beyond which it warns.
+    """
 
     name: str
+    label: str
     unit: str
+    low: float | None
+    high: float | None
+    limit: float | None
 
 
 @dataclass(frozen=True)
@@ -446,6 +458,10 @@ class Package:
     """All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come.
 
     stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine.
+
+    traced : numbers of the bodies whose markers leave their paths in the picture of a live machine. Such a one is sampled at equal times,
+    however many frames a page shows. A sample is its time, the gauges, 7 numbers of each of these bodies as in a frame, and the modal
+    coordinates.
     """
 
     protocol: int
@@ -453,6 +469,7 @@ class Package:
     stages: list[Stage]
     controls: list[Control] = field(default_factory=list)
     gauges: list[Gauge] = field(default_factory=list)
+    traced: list[int] = field(default_factory=list)
 
 
 @dataclass(frozen=True)

@@ -52,6 +52,10 @@ class Source(Protocol):
         """The newest frame with its time; None where the package has the whole motion."""
         ...
 
+    def samples(self, after: int) -> tuple[int, Array]:
+        """Of a live machine the samples (n, width) that follow number `after`, and the number of the last: see `Package.traced`."""
+        ...
+
     def column(self, stage: int, name: str) -> Array:
         """A column of a stage, one number a frame. Raises ModelError."""
         ...
@@ -86,6 +90,9 @@ class Still:
 
     def frame(self) -> tuple[float, Array] | None:
         return None
+
+    def samples(self, after: int) -> tuple[int, Array]:
+        return after, np.empty((0, 0))
 
     def column(self, stage: int, name: str) -> Array:
         raise ModelError(f"there is no variable `{name}`")
@@ -220,6 +227,7 @@ def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Bl
         arrows=[],
         drivers=players.drivers,
         sweeps=players.sweeps,
+        surroundings=players.surroundings,
         couplings=couplings(players, position[None], orientation[None]),
         coordinates=[
             Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free)

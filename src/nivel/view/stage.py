@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.colours import colour_of
+from nivel.looks.colours import colour_of, colour_of_body
 from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, SLIDING_ON_BEAMS
 from nivel.looks.links import held_points, link_ends
 from nivel.looks.solids import shapes_of
@@ -37,6 +37,7 @@ class Cast:
     drivers: list[Force]
     markers: list[Marker]
     sweeps: list[Sweep]
+    surroundings: list[Part]
     places: dict[str, int] = field(default_factory=dict)
 
 
@@ -48,7 +49,7 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
     drawn = [
         _part_of(chains[body["name"]], scene, body, places, block)
         if body["name"] in chains
-        else _body(scene, body, colour_of(k), block, automatic=not body.get("flexible"))
+        else _body(scene, body, colour_of_body(body, k), block, automatic=not body.get("flexible"))
         for k, body in enumerate(bodies)
     ]
     joints = [_joint(joint, places) for joint in scene.get("joints", [])]
@@ -71,6 +72,7 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
             if m["body"] != "ground"
         ],
         sweeps(scene, places),
+        [part(each, block) for each in scene.get("surroundings", [])],
         places,
     )
 

@@ -10,7 +10,7 @@ from contextlib import suppress
 from typing import Any, Final
 
 from nivel.errors import ModelError
-from nivel.view.frames import message
+from nivel.view.frames import message, samples_message
 from nivel.view.messages import NotUnderstoodError, read_message, said
 from nivel.view.records import COLUMN, PACKAGE, Command, Drive, Hold, Move, Refused, Reset, Shown, Take, Want
 from nivel.view.sources import Source
@@ -61,6 +61,7 @@ class Stream:
         self._seen = asyncio.Event()  # no frame is on its way
         self._seen.set()
         self._number = 0
+        self._sampled = 0  # number of the last sample that was sent
         self._wish: Move | Reset | None = (
             None  # the newest only: a slider that is dragged says more than can be computed
         )
@@ -93,6 +94,9 @@ class Stream:
             with suppress(TimeoutError):  # a page in the background shows nothing and says nothing
                 await asyncio.wait_for(self._seen.wait(), PATIENCE)
             self._fresh.clear()
+            self._sampled, samples = self._source.samples(self._sampled)
+            if len(samples):
+                await self._connection.send(samples_message(samples))
             begin = time.thread_time()  # of this thread alone, however busy the machine is
             newest = self._source.frame()
             if newest is None:

@@ -11,7 +11,7 @@ from typing import Any, Final, Literal, Union, get_args, get_origin, get_type_hi
 from nivel.view import records
 
 PLAIN: Final = {str: "string", int: "number", float: "number", bool: "boolean", NoneType: "null"}
-NUMBERS: Final = ("PROTOCOL", "PACKAGE", "FRAME", "COLUMN")
+NUMBERS: Final = ("PROTOCOL", "PACKAGE", "FRAME", "SAMPLES", "COLUMN")
 
 
 def typescript() -> str:

@@ -3,6 +3,7 @@
 export const PROTOCOL = 1;
 export const PACKAGE = 1;
 export const FRAME = 2;
+export const SAMPLES = 4;
 export const COLUMN = 3;
 
 /** An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
@@ -234,7 +235,7 @@ export interface Motion {
   load: Packed | null;
 }
 
-/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows. */
+/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. surroundings : solids that stand on the ground, of which the machine knows nothing. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows. */
 export interface Stage {
   name: string;
   title: string;
@@ -253,6 +254,7 @@ export interface Stage {
   drivers: Force[];
   couplings: Coupling[];
   sweeps: Sweep[];
+  surroundings: Part[];
   flexible: Flexible[];
   sections: Sections | null;
   colourless: string[];
@@ -264,9 +266,10 @@ export interface Stage {
   motion: Motion | null;
 }
 
-/** An input of a live machine, and what moves it. stick, raises, lowers : empty where there is none. axis, button : -1 likewise. hold : it stays where it is left, and does not go back to rest. dead_zone, exponent, reverse : of the axis of a gamepad. */
+/** An input of a live machine, and what moves it. stick, raises, lowers : empty where there is none. axis, button : -1 likewise. label : its name for people. hold : it stays where it is left, and does not go back to rest. dead_zone, exponent, reverse : of the axis of a gamepad. */
 export interface Control {
   name: string;
+  label: string;
   unit: string;
   description: string;
   low: number;
@@ -284,19 +287,24 @@ export interface Control {
   exponent: number;
 }
 
-/** A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls. */
+/** A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls. label : its name for people. low, high : ends of its scale, where they are known. limit : magnitude beyond which it warns. */
 export interface Gauge {
   name: string;
+  label: string;
   unit: string;
+  low: number | null;
+  high: number | null;
+  limit: number | null;
 }
 
-/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine. */
+/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine. traced : numbers of the bodies whose markers leave their paths in the picture of a live machine. Such a one is sampled at equal times, however many frames a page shows. A sample is its time, the gauges, 7 numbers of each of these bodies as in a frame, and the modal coordinates. */
 export interface Package {
   protocol: number;
   mode: "playback" | "machine" | "live";
   stages: Stage[];
   controls: Control[];
   gauges: Gauge[];
+  traced: number[];
 }
 
 /** From the server: a sentence for the user. */

@@ -28,6 +28,7 @@ const NEAR = 6; // pixels of a link's radius from which on it is drawn finely
 const FAR = 0.75; // and below which it is a line
 
 const POINT = new THREE.Vector3();
+const TURN = new THREE.Quaternion();
 
 export type Kind = "body" | "joint" | "force" | "driver" | "coupling";
 export interface Picked {
@@ -115,6 +116,14 @@ export class Actor {
     const group = this.holder(body);
     this.bent(body, point, this.frame, out, this.bending.get(body)?.exaggeration);
     return out.applyQuaternion(group.quaternion).add(group.position);
+  }
+
+  /** The same in another frame than the one that is shown. */
+  placeIn(frame: Float32Array, body: number, point: readonly [number, number, number], out: THREE.Vector3): THREE.Vector3 {
+    const [x, y, z, e0, e1, e2, e3] = frame.subarray(7 * body, 7 * body + 7) as unknown as [number, number, number, number, number, number, number];
+    this.bent(body, point, frame, out, this.bending.get(body)?.exaggeration);
+    out.applyQuaternion(TURN.set(e1, e2, e3, e0).normalize());
+    return out.set(out.x + x, out.y + y, out.z + z);
   }
 
   /** A point of a body in its frame, carried by the modes of that in a frame, into `out`. */

@@ -1,6 +1,6 @@
 // A slider for every number that a machine is moved by: joint coordinates, angles of balls, places of bodies that nothing holds.
 import type { Coordinate } from "../generated/records";
-import { breakable, el, iconButton, short } from "./dom";
+import { breakable, el, iconButton, scaleOf, short } from "./dom";
 
 export class Coordinates {
   readonly element: HTMLElement;
@@ -29,13 +29,13 @@ export class Coordinates {
       const value = place.get(row.record.name);
       if (value === undefined) continue;
       if (document.activeElement !== row.slider || problem) row.slider.value = String(value);
-      row.value.textContent = inWords(value, row.record.unit);
+      row.value.textContent = inWords(value, row.record);
     }
     this.problem.textContent = problem;
   }
 
   private row(record: Coordinate): HTMLElement {
-    const value = el("output", {}, inWords(record.value, record.unit));
+    const value = el("output", {}, inWords(record.value, record));
     const slider = el("input", { type: "range", min: record.low, max: record.high, step: "any", value: record.value, "aria-label": record.name });
     slider.addEventListener("input", () => this.move(record.name, Number(slider.value)));
     this.rows.push({ record, slider, value });
@@ -43,6 +43,6 @@ export class Coordinates {
   }
 }
 
-function inWords(value: number, unit: string): string {
-  return unit === "rad" ? `${((value * 180) / Math.PI).toFixed(1)}°`.replace(/^-0\.0°/, "0.0°").replace("-", "−") : `${short(value)} ${unit}`;
+function inWords(value: number, { unit, low, high }: Coordinate): string {
+  return unit === "rad" ? `${((value * 180) / Math.PI).toFixed(1)}°`.replace(/^-0\.0°/, "0.0°").replace("-", "−") : `${short(value, scaleOf([low, high], unit))} ${unit}`;
 }

@@ -70,11 +70,22 @@ export function breakable(name: string): (Node | string)[] {
   return name.split(/(?<=[._-])/).flatMap((piece, k) => (k ? [document.createElement("wbr"), piece] : [piece]));
 }
 
-/** A number as people read it: five digits. */
-export function short(value: number): string {
+const ROUND_OFF = 1e-9; // share of its scale below which a number is zero
+const SMALLEST = 1e-3; // scale of a quantity that is round-off throughout, in its SI unit or degrees
+const COMMON = ["m", "rad", "deg", "m/s", "rad/s", "m/s^2", "rad/s^2", "N", "N m"]; // units of such quantities
+
+/** The scale of numbers of a unit: the largest of them, or what is usual in the unit. */
+export function scaleOf(values: Iterable<number | null>, unit: string): number {
+  let scale = COMMON.includes(unit) ? SMALLEST : 0;
+  for (const value of values) if (value !== null && Math.abs(value) > scale) scale = Math.abs(value); // passes over NaN
+  return Number.isFinite(scale) ? scale : 0;
+}
+
+/** A number as people read it: five digits; round-off of its scale is 0. */
+export function short(value: number, scale = 0): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (size === 0) return "0";
+  if (size <= ROUND_OFF * scale) return "0";
   const text = size >= 1e-3 && size < 1e6 ? String(+value.toPrecision(5)) : value.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
   return text.replace(/^-/, "−").replace("e-", "e−");
 }
@@ -82,9 +93,9 @@ export function short(value: number): string {
 const PREFIXED = ["N", "N m", "Pa", "J", "W"]; // units that take prefixes
 const PREFIXES: readonly [number, string][] = [[1e9, "G"], [1e6, "M"], [1e3, "k"]];
 
-/** Numbers with one unit for all of them, whose prefix suits the largest. */
-export function measured(values: readonly number[], unit: string): { texts: string[]; unit: string } {
+/** Numbers with one unit for all of them, whose prefix suits the largest. scale : of more than these. */
+export function measured(values: readonly number[], unit: string, scale = scaleOf(values, unit)): { texts: string[]; unit: string } {
   const size = Math.max(...values.map(Math.abs));
   const [factor, prefix] = (PREFIXED.includes(unit) && PREFIXES.find(([each]) => size >= each)) || [1, ""];
-  return { texts: values.map((value) => short(+(value / factor).toPrecision(4))), unit: unit === "1" ? "" : prefix + unit };
+  return { texts: values.map((value) => short(+(value / factor).toPrecision(4), scale / factor)), unit: unit === "1" ? "" : prefix + unit };
 }

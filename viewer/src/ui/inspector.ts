@@ -3,7 +3,7 @@ import type { Columns } from "../columns";
 import type { Column, Stage } from "../generated/records";
 import type { Picked } from "../stage/actor";
 import type { Traceable, Traces } from "../stage/traces";
-import { breakable, el, icon, short } from "./dom";
+import { breakable, el, icon, scaleOf, short } from "./dom";
 import type { Plots } from "./plots";
 
 const MOST_FOUND = 60; // variables that a search shows
@@ -17,7 +17,7 @@ interface Actions {
 
 export class Inspector {
   readonly element = el("div", { class: "inspector" });
-  private readonly numbers: { name: string; element: HTMLElement; values: Float32Array | null }[] = [];
+  private readonly numbers: { element: HTMLElement; values: Float32Array | null; scale: number }[] = [];
   private picked: Picked | null = null;
   private frame = 0;
   private readonly head = el("div", { class: "chosen" });
@@ -56,7 +56,7 @@ export class Inspector {
 
   moveTo(frame: number): void {
     this.frame = frame;
-    for (const { element, values } of this.numbers) if (values) element.textContent = short(values[frame] ?? NaN);
+    for (const { element, values, scale } of this.numbers) if (values) element.textContent = short(values[frame] ?? NaN, scale);
   }
 
   private describe(): void {
@@ -106,12 +106,13 @@ export class Inspector {
 
   private row(column: Column): HTMLElement {
     const number = el("output", {});
-    const entry: { name: string; element: HTMLElement; values: Float32Array | null } = { name: column.name, element: number, values: null };
+    const entry: (typeof this.numbers)[number] = { element: number, values: null, scale: 0 };
     this.numbers.push(entry);
     void this.columns.get(0, column.name).then((values) => {
       if (typeof values === "string") return;
       entry.values = values;
-      number.textContent = short(values[this.frame] ?? NaN);
+      entry.scale = scaleOf(values, column.unit);
+      number.textContent = short(values[this.frame] ?? NaN, entry.scale);
     });
     const label = this.picked && column.owner === this.picked.name ? withoutOwner(column.name, column.owner) : column.name;
     return el(

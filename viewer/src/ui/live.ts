@@ -1,7 +1,8 @@
 // A live machine: the bar that runs and pauses it, its controls, its gauges.
+import type { Samples } from "../connection";
 import type { Control, FromPage, Gauge, Status } from "../generated/records";
 import { Operator } from "../operator";
-import { breakable, el, iconButton, renew, short } from "./dom";
+import { el, iconButton, renew, short } from "./dom";
 import { Stick } from "./stick";
 import { Strip } from "./strip";
 
@@ -67,7 +68,7 @@ export class Live {
     );
     this.hint = el("p", { class: "note" }, hintOf(controls));
     this.rows = controls.map((control, k) => this.row(control, k));
-    this.strips = gauges.map((gauge) => new Strip(gauge.name, gauge.unit));
+    this.strips = gauges.map((gauge) => new Strip(gauge));
     const sticks = (["left", "right"] as const).filter((side) => controls.some((each) => each.stick.startsWith(side)));
     this.panel = el(
       "div",
@@ -109,7 +110,7 @@ export class Live {
   get keys(): [string, string][] {
     return this.controls
       .filter((each) => each.lowers || each.raises)
-      .map((each) => [[each.lowers, each.raises].filter(Boolean).map(keyInWords).join(" "), each.description ? `${each.name}: ${each.description}` : each.name]);
+      .map((each) => [[each.lowers, each.raises].filter(Boolean).map(keyInWords).join(" "), each.description ? `${each.label}: ${each.description}` : each.label]);
   }
 
   update(status: Status): void {
@@ -139,10 +140,15 @@ export class Live {
     this.problem.classList.toggle("watching", !!status.watches && !status.text);
   }
 
+  /** Points of the curves. */
+  sample({ width, values }: Samples): void {
+    for (let row = 0; row < values.length; row += width) this.strips.forEach((strip, k) => strip.add(values[row]!, values[row + 1 + k]!));
+  }
+
   /** Numbers behind a frame: gauges, then the values of the controls. */
   show(time: number, numbers: Float32Array): void {
     this.clock.textContent = `${time.toFixed(2)} s`;
-    this.strips.forEach((strip, k) => strip.add(time, numbers[k] ?? NaN));
+    this.strips.forEach((strip, k) => strip.show(numbers[k] ?? NaN));
     if (!this.operator.driving) this.operator.follow(numbers.subarray(this.gauges.length));
     const now = performance.now();
     if (now - this.drawn < DRAWN) return;
@@ -150,16 +156,16 @@ export class Live {
     for (const strip of this.strips) strip.draw();
     this.rows.forEach((row, k) => {
       const value = numbers[this.gauges.length + k] ?? NaN;
-      row.output.textContent = `${short(+value.toPrecision(3))} ${row.control.unit}`.trim();
+      row.output.textContent = inWords(row.control, value);
       if (row.slider && document.activeElement !== row.slider) row.slider.value = String(this.operator.driving ? this.operator.values[k] : value);
     });
   }
 
   private row(control: Control, k: number): Row {
-    const output = el("output", {}, short(control.rest));
+    const output = el("output", {}, inWords(control, control.rest));
     const keys = [control.lowers, control.raises].filter(Boolean).map((key) => el("kbd", {}, keyInWords(key)));
     const meant = control.description ? el("small", {}, control.description) : null;
-    const name = el("span", { class: "name" }, ...breakable(control.name), ...keys, meant);
+    const name = el("span", { class: "name" }, control.label, ...keys, meant);
     if (control.look === "button") {
       const button = el("button", { type: "button", class: "chip" }, "Press");
       const press = () => this.operator.move(k, control.high);
@@ -170,7 +176,7 @@ export class Live {
       el("li", {}, name, output, button);
       return { control, slider: null, output };
     }
-    const slider = el("input", { type: "range", min: control.low, max: control.high, step: "any", value: control.rest, "aria-label": control.name });
+    const slider = el("input", { type: "range", min: control.low, max: control.high, step: "any", value: control.rest, "aria-label": control.label });
     slider.addEventListener("input", () => this.operator.move(k, Number(slider.value)));
     slider.addEventListener("change", () => {
       this.operator.move(k, null);
@@ -182,6 +188,13 @@ export class Live {
     el("li", {}, el("label", {}, name, output, slider));
     return { control, slider, output };
   }
+}
+
+/** A value with its unit; of a lever from -1 to 1, the share of its way. */
+function inWords({ unit, low, high }: Control, value: number): string {
+  const scale = Math.max(Math.abs(low), Math.abs(high));
+  if (!unit && scale === 1) return `${short(Math.round(100 * value))} %`;
+  return `${short(+value.toPrecision(3), scale)} ${unit}`.trim();
 }
 
 const ARROWS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
@@ -203,5 +216,5 @@ function hintOf(controls: Control[]): string {
 }
 
 function stickInWords(side: string, controls: Control[]): string[] {
-  return controls.filter((each) => each.stick.startsWith(side)).map((each) => `${each.stick.endsWith("x") ? "↔" : "↕"} ${each.name}`);
+  return controls.filter((each) => each.stick.startsWith(side)).map((each) => `${each.stick.endsWith("x") ? "↔" : "↕"} ${each.label}`);
 }

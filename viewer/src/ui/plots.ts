@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Columns } from "../columns";
-import { breakable, el, iconButton, short } from "./dom";
+import { breakable, el, iconButton, scaleOf, short } from "./dom";
 
 const HEIGHT = 132;
 const MOST = 12; // curves at once
@@ -20,7 +20,7 @@ interface Chart {
   plot: uPlot | null;
   holder: HTMLElement;
   readout: HTMLElement;
-  series: { label: string; colour: string; values: (number | null)[]; times: Float64Array }[];
+  series: { label: string; colour: string; values: (number | null)[]; times: Float64Array; scale: number }[];
 }
 
 export class Plots {
@@ -70,7 +70,7 @@ export class Plots {
       if (!chart.plot) continue;
       const left = chart.plot.valToPos(time, "x");
       const line = chart.holder.querySelector<HTMLElement>(".now");
-      const shown = chart.series.map((each) => `${each.label} ${short(at(each.times, each.values, time) ?? NaN)}`);
+      const shown = chart.series.map((each) => `${each.label} ${short(at(each.times, each.values, time) ?? NaN, each.scale)}`);
       chart.plot.over.setAttribute("aria-valuenow", String(time));
       chart.plot.over.setAttribute("aria-valuetext", `${this.says(time)}: ${shown.join(", ")}`);
       if (line) line.style.transform = `translateX(${left}px)`;
@@ -79,7 +79,7 @@ export class Plots {
           const key = el("i", {});
           key.style.background = each.colour;
           const value = at(each.times, each.values, time);
-          return el("li", {}, key, el("span", { class: "name" }, ...breakable(each.label)), el("b", {}, value === null ? "–" : short(value)), iconButton("close", `Remove ${each.label}`, () => this.toggle(each.label)));
+          return el("li", {}, key, el("span", { class: "name" }, ...breakable(each.label)), el("b", {}, value === null ? "–" : short(value, each.scale)), iconButton("close", `Remove ${each.label}`, () => this.toggle(each.label)));
         }),
       );
     }
@@ -95,7 +95,7 @@ export class Plots {
         const values = await this.columns.get(stage, name);
         if (typeof values === "string") continue;
         const numbers = Array.from(values, (value) => (Number.isFinite(value) ? value : null));
-        chart.series.push({ label: stage ? `ghost ${name}` : name, colour, values: numbers, times });
+        chart.series.push({ label: stage ? `ghost ${name}` : name, colour, values: numbers, times, scale: scaleOf(numbers, unit) });
       }
     }
     return chart;
@@ -125,7 +125,7 @@ export class Plots {
       scales: { x: { time: false }, y: { range: (_u, low, high) => padded(low, high) } },
       axes: [
         { ...axis, size: 22, gap: 3 },
-        { ...axis, size: (_u, labels) => 14 + 6.4 * Math.max(3, ...(labels ?? []).map((label) => String(label).length)), gap: 4, values: (_u, splits) => splits.map(short) },
+        { ...axis, size: (_u, labels) => 14 + 6.4 * Math.max(3, ...(labels ?? []).map((label) => String(label).length)), gap: 4, values: (_u, splits) => splits.map((each) => short(each, Math.max(...splits.map(Math.abs)))) },
       ],
       series: [{}, ...chart.series.map((each) => ({ stroke: each.colour, width: each.label.startsWith("ghost ") ? 1 : 1.6, dash: each.label.startsWith("ghost ") ? [5, 4] : undefined, spanGaps: false, pxAlign: 0, points: { show: false } }))],
       hooks: { ready: [(plot) => this.listen(plot)] },

@@ -1,28 +1,35 @@
-// A number that changes, and its last seconds as a curve.
+// A number that changes, and its last seconds as a curve over its scale.
+import type { Gauge } from "../generated/records";
 import { el, measured } from "./dom";
 
 const SPAN = 15; // s that are shown
 const NOISE = 1e-6; // share of the largest number, and a number, below which a change is round-off
 const WIDTH = 284;
 const HEIGHT = 40;
+const ROOM = 4; // pixels above and below the curve
 
 export class Strip {
   readonly element: HTMLElement;
-  private readonly times: number[] = [];
-  private readonly numbers: number[] = [];
+  readonly times: number[] = [];
+  readonly numbers: number[] = [];
+  private value = NaN; // as it is now
   private readonly output = el("output", {});
   private readonly canvas = el("canvas", { width: 2 * WIDTH, height: 2 * HEIGHT, "aria-hidden": "true" });
 
-  constructor(
-    name: string,
-    private readonly unit: string,
-  ) {
-    this.element = el("li", { class: "strip" }, el("span", { class: "name" }, name), this.output, this.canvas);
+  constructor(private readonly gauge: Gauge) {
+    const scale = scaleInWords(gauge);
+    this.element = el("li", { class: "strip", title: gauge.name }, el("span", { class: "name" }, gauge.label), this.output, this.canvas, scale ? el("small", { class: "scale" }, scale) : null);
   }
 
+  /** The number of the frame that is shown. */
+  show(value: number): void {
+    this.value = value;
+  }
+
+  /** A point of the curve; one of an earlier moment begins it anew. */
   add(time: number, value: number): void {
     const last = this.times.at(-1);
-    if (last !== undefined && time < last) this.clear(); // put back to an earlier moment
+    if (last !== undefined && time < last) this.times.length = this.numbers.length = 0;
     this.times.push(time);
     this.numbers.push(Math.abs(value) < 1e-3 * NOISE ? 0 : value);
     while (this.times[0]! < time - SPAN) {
@@ -31,33 +38,64 @@ export class Strip {
     }
   }
 
-  private clear(): void {
-    this.times.length = 0;
-    this.numbers.length = 0;
-  }
-
   draw(): void {
-    const value = this.numbers.at(-1);
-    const end = this.times.at(-1);
-    if (value === undefined || end === undefined) return;
-    const { texts, unit } = measured([value], this.unit);
-    this.output.textContent = `${texts[0]} ${unit}`.trim();
+    const { low, high, limit } = this.gauge;
+    const largest = Math.max(...this.numbers.map(Math.abs), Math.abs(low ?? 0), Math.abs(high ?? 0), 1e-3);
+    const { texts, unit: shown } = inWords(this.gauge, [this.value], largest);
+    this.output.textContent = `${texts[0]} ${shown}`.trim();
+    this.element.classList.toggle("beyond", limit !== null && Math.abs(this.value) > limit);
     const context = this.canvas.getContext("2d");
-    if (!context) return;
+    const end = this.times.at(-1);
+    if (!context || end === undefined) return;
     const { width, height } = this.canvas;
-    const low = Math.min(...this.numbers);
-    const high = Math.max(...this.numbers);
-    const span = Math.max(high - low, NOISE * Math.max(Math.abs(low), Math.abs(high), 1));
+    const least = Math.min(...this.numbers, low ?? Infinity);
+    const most = Math.max(...this.numbers, high ?? -Infinity);
+    const span = Math.max(most - least, NOISE * Math.max(Math.abs(least), Math.abs(most), 1));
+    const up = (number: number) => height - ROOM - ((number - least) / span) * (height - 2 * ROOM);
+    const style = getComputedStyle(this.element);
     context.clearRect(0, 0, width, height);
-    context.strokeStyle = getComputedStyle(this.element).getPropertyValue("--accent");
+    if (limit !== null) {
+      context.strokeStyle = style.getPropertyValue("--limit");
+      context.lineWidth = 2;
+      context.setLineDash([8, 6]);
+      for (const at of [limit, -limit].filter((each) => each <= most && each >= least)) {
+        context.beginPath();
+        context.moveTo(0, up(at));
+        context.lineTo(width, up(at));
+        context.stroke();
+      }
+      context.setLineDash([]);
+    }
+    context.strokeStyle = style.getPropertyValue("--accent");
     context.lineWidth = 2.5;
     context.beginPath();
     this.numbers.forEach((number, k) => {
       const x = width * (1 - (end - this.times[k]!) / SPAN);
-      const y = height - 4 - ((number - low) / span) * (height - 8);
-      if (k) context.lineTo(x, y);
-      else context.moveTo(x, y);
+      if (k) context.lineTo(x, up(number));
+      else context.moveTo(x, up(number));
     });
     context.stroke();
   }
+}
+
+/** `0 … 250 bar, limit 230 bar`. */
+function scaleInWords(gauge: Gauge): string {
+  const { low, high, limit } = gauge;
+  const words: string[] = [];
+  if (low !== null && high !== null) {
+    const { texts, unit: shown } = inWords(gauge, [low, high]);
+    words.push(`${texts.join(" … ")} ${shown}`.trim());
+  }
+  if (limit !== null) {
+    const { texts, unit: shown } = inWords(gauge, [limit]);
+    words.push(`limit ${texts[0]} ${shown}`.trim());
+  }
+  return words.join(", ");
+}
+
+/** Numbers of a gauge with their unit; angles in degrees. */
+function inWords({ unit }: Gauge, values: number[], scale?: number): { texts: string[]; unit: string } {
+  if (unit !== "rad") return measured(values, unit, scale);
+  const turned = (value: number) => (value * 180) / Math.PI;
+  return { ...measured(values.map(turned), "deg", scale && turned(scale)), unit: "°" };
 }

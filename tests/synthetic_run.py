@@ -8,6 +8,7 @@ import json
 
 import numpy as np
 
+import nivel
 from nivel.integrate.loop.sink import Header
 from nivel.system.layout import FrameLayout, frame_layout
 
@@ -47,7 +48,7 @@ def header(**attributes) -> Header:
         "settings": json.dumps({"duration": 8.0, "step": 1e-3, "integrator": "rk4", "formulation": "newton-euler"}),
         "coordinate_units": json.dumps({"hinge.angle": "rad"}),
         "constraint_units": json.dumps(ROWS),
-        "nivel_version": "0.1.0",
+        "nivel_version": nivel.__version__,
         "outcome": "running",
     }
     return Header(layout(), {**known, **attributes})

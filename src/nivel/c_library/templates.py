@@ -5,6 +5,7 @@ from __future__ import annotations
 from string import Template
 
 HEADER = Template("""/* $name: a machine as a C library. Nothing is needed but libc and libm; nothing is allocated. SI units.
+   Written by nivel $version.
 
    A machine lives in a block of ${name}_size() bytes, aligned to 64. Blocks are independent of each other. */
 #ifndef ${NAME}_H

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import nivel
 from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
@@ -122,6 +123,7 @@ def _write(
     values: dict[str, Any] = {
         "name": name,
         "NAME": name.upper(),
+        "version": nivel.__version__,
         "size": image.words.nbytes + WORD * (1 + len(inputs)),
         "step": repr(step),
         "width": len(outputs),

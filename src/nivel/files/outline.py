@@ -41,9 +41,17 @@ def check_start(tree: Tree) -> None:
         return
     given = tree.data.pop("format")
     if given != FORMAT or isinstance(given, bool):
-        tree.faults.append(tree.fault(("format",), f"this nivel reads format {FORMAT}, not {shown(given)}"))
+        tree.faults.append(tree.fault(("format",), other_format(given, FORMAT)))
         if isinstance(given, int | float) and not isinstance(given, bool):
             raise ModelError(tree.faults)  # what another format means by the rest is not known
+
+
+def other_format(given: Any, known: int) -> str:
+    """Message on a `format` that is not the known one: from the future, or not a format at all."""
+    message = f"this nivel reads format {known}, not {shown(given)}"
+    if isinstance(given, int) and not isinstance(given, bool) and given > known:
+        return f"{message}, which belongs to a newer nivel: `pip install --upgrade nivel`"
+    return f"{message}; write `format: {known}`"
 
 
 def check_sections(tree: Tree) -> None:

@@ -9,6 +9,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from nivel.errors import Fault, ModelError
+from nivel.files.outline import other_format
 from nivel.files.overrides import override
 from nivel.files.sources import read_text
 from nivel.files.tree import Path, Tree, read_tree
@@ -88,9 +89,7 @@ def _check_format(tree: Tree) -> None:
         return
     given = tree.data.pop("format")
     if given != FORMAT or isinstance(given, bool):
-        raise ModelError(
-            [*tree.faults, tree.fault(("format",), f"this nivel reads format {FORMAT}, not {shown(given)}")]
-        )
+        raise ModelError([*tree.faults, tree.fault(("format",), other_format(given, FORMAT))])
 
 
 def _parameters(tree: Tree) -> Parameters:

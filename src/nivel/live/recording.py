@@ -13,6 +13,7 @@ from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+import nivel
 from nivel.errors import ModelError
 from nivel.live.journal import (
     FRAMES,
@@ -113,6 +114,7 @@ def about_run(machine: MachineRecord, source: str, settings: Mapping[str, Any], 
     """What stands in a recording besides its numbers, as JSON has it."""
     return {
         "format": FORMAT,
+        "nivel_version": nivel.__version__,
         "machine": machine.model_dump(mode="json", by_alias=True, exclude_none=True),
         "source": source,
         "settings": dict(settings),
@@ -274,7 +276,9 @@ def _from_journal(path: Path) -> tuple[dict[str, Any], list[Part]]:
 def _refuse_other_format(path: str | PathLike[str], about: dict[str, Any]) -> None:
     if about["format"] != FORMAT:
         raise ModelError(
-            f"{fspath(path)} was written by another version of nivel (format {about['format']}, this one reads {FORMAT})"
+            f"{fspath(path)} was written by nivel {about.get('nivel_version', '0.1.0')} in format {about['format']} of "
+            f"recordings; nivel {nivel.__version__}, which runs here, reads format {FORMAT}: "
+            "replay it with the version that wrote it"
         )
 
 

@@ -10,6 +10,8 @@ import nivel
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.flexible.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
+from nivel.results.frames.result_format import ATTRIBUTE as RESULT_FORMAT
+from nivel.results.frames.result_format import FORMAT
 from nivel.results.stress.body_sources import ATTRIBUTE, BodySource, as_attribute
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
@@ -39,6 +41,7 @@ def run_attributes(
         ),  # relative coordinates move body frames
         "settings": json.dumps(settings.as_dict()),
         "nivel_version": nivel.__version__,
+        RESULT_FORMAT: FORMAT,
         "outcome": "running",
         "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
         "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),

@@ -16,7 +16,7 @@ class Header:
     """What is known before the first frame.
 
     attributes : `machine`, `machine_record` (JSON), `machine_source`, `scene` (JSON), `settings` (JSON),
-        `coordinate_units` (JSON), `nivel_version`, `outcome` ("running").
+        `coordinate_units` (JSON), `nivel_version`, `result_format`, `outcome` ("running").
     """
 
     layout: FrameLayout

@@ -11,6 +11,7 @@ from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import unknown_word
 from nivel.results.beams.section_resultants import Array, Felt
+from nivel.results.frames.stored import understood
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,7 +98,8 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
     """
     import xarray as xr
 
-    machine = MachineRecord.model_validate_json(result.dataset.attrs["machine_record"])
+    with understood(result, "machine_record"):
+        machine = MachineRecord.model_validate_json(result.dataset.attrs["machine_record"])
     found = {beam.name: beam for beam in machine.beams}
     if name not in found:
         raise ModelError(unknown_word(name, tuple(found), "beam") if found else f"{machine.name} has no beams")

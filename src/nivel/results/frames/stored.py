@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.results.frames.json_forms import FORMS, misshapen, strangers
+from nivel.results.frames.result_format import check_format, written_by_newer
 from nivel.system.layout import Variable
 
 # what reading a file raises whose parts are not what they should be
@@ -84,6 +85,8 @@ class StoredContents:
         self.frame_count: int
         with opened(path) as file:
             try:
+                if "nivel_version" in file.attrs:
+                    check_format(path, file.attrs)
                 if "nivel_version" not in file.attrs or "time" not in file:
                     raise ModelError(
                         f"{path} is not a result file of nivel: "
@@ -91,7 +94,9 @@ class StoredContents:
                     )
                 self._understand(file)
             except DAMAGE as error:
-                raise ModelError(f"{path} is damaged and cannot be read: {error}") from None
+                raise ModelError(
+                    f"{path} is damaged and cannot be read: {error}{written_by_newer(file.attrs)}"
+                ) from None
 
     def _understand(self, file: h5py.File) -> None:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
@@ -154,8 +159,9 @@ def understood(contents: object, attribute: str) -> Iterator[None]:
         yield
     except DAMAGE as error:
         file = getattr(contents, "path", None) or "the result"
+        newer = written_by_newer(getattr(contents, "attributes", {}))
         raise ModelError(
-            f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {_first_line(error)}"
+            f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {_first_line(error)}{newer}"
         ) from None
 
 

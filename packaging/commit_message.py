@@ -15,7 +15,9 @@ import sys
 from pathlib import Path
 
 LONGEST = 72
-SCISSORS = "# ------------------------ >8 ------------------------"  # what `git commit --verbose` puts before the changes
+SCISSORS = (
+    "# ------------------------ >8 ------------------------"  # what `git commit --verbose` puts before the changes
+)
 TRAILER = re.compile(r"(Signed-off-by|Co-authored-by|Reviewed-by|Change-Id): ", re.IGNORECASE)
 # Git's own subjects of merges, which say only where something came from
 UNNAMED = re.compile(r"Merge(?: (?:remote-tracking )?(?:branch|commit|tag|pull request)\b.*)?")
@@ -33,7 +35,9 @@ def faults(message: str, *, merge: bool) -> list[str]:
         out.append("the second line is not empty; the body begins in the third line")
     if merge:
         if UNNAMED.fullmatch(subject):
-            out.append(f"`{subject}` does not name the subject of the merge; write for example `Merge: friction of ropes`")
+            out.append(
+                f"`{subject}` does not name the subject of the merge; write for example `Merge: friction of ropes`"
+            )
     elif not any(line.strip() and not TRAILER.match(line) for line in rest):
         out.append("there is no body; after an empty line, say why the change is made")
     return out

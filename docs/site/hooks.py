@@ -19,7 +19,13 @@ from reference import command_page, key_page
 
 ROOT = Path(__file__).parents[2]
 # pages that stand beside docs/
-PAGES = {"NOTATION.md": "notation.md", "benchmarks/README.md": "benchmarks.md", "README.md": "index.md"}
+PAGES = {
+    "NOTATION.md": "notation.md",
+    "benchmarks/README.md": "benchmarks.md",
+    "README.md": "index.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "CHANGELOG.md": "changelog.md",
+}
 OUTSIDE = re.compile(r"\]\(((?:\.\./)+[^)#\s]+)(#[^)\s]*)?\)")
 ANY = re.compile(r"\]\((?!http|#)([^)#\s]+)(#[^)\s]*)?\)")
 

@@ -50,8 +50,11 @@ def without_comments(text: str) -> str:
 
 
 def git(*arguments: str) -> str:
-    """The output of a command of Git."""
-    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
+    """The output of a command of Git; where it fails, the check ends with what Git says."""
+    done = subprocess.run(["git", *arguments], check=False, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(done.stderr.strip())
+    return done.stdout
 
 
 def merging() -> bool:

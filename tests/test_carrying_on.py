@@ -248,3 +248,7 @@ def test_the_hook_refuses_a_commit_and_merges_name_their_subject(repository):
     code, said = checked(folder, "--range", "main~1..main")
     assert code == 1
     assert said.count("there is no body") == 1
+    code, said = checked(folder, "--range", "nothing..main")
+    assert code == 1
+    assert "nothing..main" in said
+    assert "Traceback" not in said

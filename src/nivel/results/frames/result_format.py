@@ -40,7 +40,11 @@ def written_by_newer(attributes: Mapping[str, Any]) -> str:
 
 
 def _version(attributes: Mapping[str, Any]) -> str:
-    given = attributes.get("nivel_version", "")
+    """The version that the file states; empty where the attribute is damaged."""
+    try:
+        given = attributes.get("nivel_version", "")
+    except (KeyError, OSError, RuntimeError, ValueError):  # of the HDF5 library
+        return ""
     return given.decode(errors="replace") if isinstance(given, bytes) else str(given)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
@@ -84,19 +84,19 @@ class StoredContents:
         self.coordinates: dict[str, tuple[str, ...]]
         self.frame_count: int
         with opened(path) as file:
+            written: Mapping[str, Any] = {}
             try:
-                if "nivel_version" in file.attrs:
-                    check_format(path, file.attrs)
-                if "nivel_version" not in file.attrs or "time" not in file:
+                written = file.attrs
+                if "nivel_version" in written:
+                    check_format(path, written)
+                if "nivel_version" not in written or "time" not in file:
                     raise ModelError(
                         f"{path} is not a result file of nivel: "
                         "it lacks the attribute `nivel_version` or the variable `time`"
                     )
                 self._understand(file)
             except DAMAGE as error:
-                raise ModelError(
-                    f"{path} is damaged and cannot be read: {error}{written_by_newer(file.attrs)}"
-                ) from None
+                raise ModelError(f"{path} is damaged and cannot be read: {error}{written_by_newer(written)}") from None
 
     def _understand(self, file: h5py.File) -> None:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}

@@ -1,73 +1,78 @@
-"""Everything that must hold before a change is taken: style, types, import layers, indices of kernels, then all tests.
+"""Everything that must hold before a change is taken: style, kernels compiled, then all tests, two at a time.
 
-    python tests/all.py [--full] [arguments of pytest]
+    python tests/all.py [--full] [--keep-seconds] [arguments of pytest]
 
 Without `--full` what is marked `full` rests: the tails of grids, see `pyproject.toml`. Kernels are compiled before pytest starts its
-processes, which share the cache; a test that still compiles one fails. Indices are checked where kernels run as plain
-Python, see `tests/interpreted`. What needs no compiled kernel runs beside the rest.
+processes, which share the cache; a test that still compiles one fails. Types, import layers and indices of kernels are tests as well
+(`tests/test_house.py`), so that never more than two processes run. The seconds of every file are compared with `tests/seconds.json`,
+which `--keep-seconds` replaces.
 """
 
+import json
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
+import tempfile
 from pathlib import Path
+
+from seconds import KEPT, told
 
 ROOT = Path(__file__).resolve().parent.parent
 PYTHON = [sys.executable, "-m"]
-BIN = Path(sys.executable).parent
+OWN = ("--full", "--keep-seconds")
 
 
 def run(name, command, **environment):
-    """Run a command, and say that it failed or nothing."""
+    """Run a command; its exit code."""
     print(f"== {name}", flush=True)
-    code = subprocess.run(command, cwd=ROOT, env={**os.environ, **environment}, check=False).returncode
-    return f"{name} failed ({code})" if code else ""
+    return subprocess.run(command, cwd=ROOT, env={**os.environ, **environment}, check=False).returncode
 
 
-def run_beside():
-    """What needs no compiled kernel, with its output kept together."""
-    plain = {"NUMBA_DISABLE_JIT": "1"}
-    failures = []
-    for name, command, environment in (
-        ("import layers", [str(BIN / "lint-imports")], {}),
-        ("pyright", [str(BIN / "pyright"), "--pythonpath", sys.executable], {}),
-        ("kernels as plain Python", [*PYTHON, "pytest", "-q", "tests/interpreted", "-p", "no:cacheprovider"], plain),
-    ):
-        done = subprocess.run(
-            command,
-            cwd=ROOT,
-            env={**os.environ, **environment},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        if done.returncode:
-            failures.append(f"{name} failed ({done.returncode})")
-        print(f"== {name}\n{done.stdout}", flush=True)
-    return failures
+def compare_seconds(path, keep):
+    """Print what the files of tests took, and what grew; keep the seconds where that is asked for."""
+    if not path.exists():
+        return
+    now = json.loads(path.read_text(encoding="utf-8"))
+    before = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
+    print("== seconds", *told(now, before), sep="\n", flush=True)
+    if keep:
+        KEPT.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
 
 
 def main():
-    arguments = [each for each in sys.argv[1:] if each != "--full"]
+    arguments = [each for each in sys.argv[1:] if each not in OWN]
     everything = "--full" in sys.argv
     chosen = [] if everything else ["-m", "not full"]
     own = {"NIVEL_TESTS_ARE_COMPILED": "1", "NIVEL_TESTS_FULL": "1" if everything else "0"}
     # two processes whose linear algebra takes two threads each wait for each other
     own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    for name, more in (("ruff check", ["check", "."]), ("ruff format", ["format", "--check", "."])):
-        if failure := run(name, [*PYTHON, "ruff", *more]):
-            sys.exit(failure)
-    with ThreadPoolExecutor(1) as beside:
-        failure = run("compile", [*PYTHON, "nivel", "warmup"])  # on all processors
-        others = beside.submit(run_beside)
-        if not failure:
-            tests = [*PYTHON, "pytest", "-n", "2", "--dist", "worksteal", "-q", "--durations=10", *chosen, *arguments]
-            failure = run("pytest", tests, **own)
-        failures = [*others.result(), failure]
-    if any(failures):
-        sys.exit("\n".join(each for each in failures if each))
+    with tempfile.TemporaryDirectory() as folder:
+        taken = Path(folder) / "seconds.json"
+        own["NIVEL_TESTS_SECONDS"] = str(taken)
+        tests = [
+            "pytest",
+            "-p",
+            "seconds",
+            "-n",
+            "2",
+            "--dist",
+            "worksteal",
+            "-q",
+            "--durations=10",
+            *chosen,
+            *arguments,
+        ]
+        for name, command, environment in (
+            ("ruff check", ["ruff", "check", "."], {}),
+            ("ruff format", ["ruff", "format", "--check", "."], {}),
+            ("compile", ["nivel", "warmup"], {}),  # on all processors
+            ("pytest", tests, own),
+        ):
+            code = run(name, [*PYTHON, *command], **environment)
+            if name == "pytest":
+                compare_seconds(taken, "--keep-seconds" in sys.argv)
+            if code:
+                sys.exit(f"{name} failed ({code})")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,11 @@ settings.register_profile("nivel", deadline=None, derandomize=True)
 settings.load_profile("nivel")
 
 
+def pytest_collection_modifyitems(items):
+    """Checks of the whole code come first: they take longest."""
+    items.sort(key=lambda item: item.get_closest_marker("house") is None)
+
+
 @pytest.fixture
 def rng():
     return np.random.default_rng(20031)

@@ -1,6 +1,7 @@
 """What the benchmarks import from the package exists; they themselves take too long for a test."""
 
 import ast
+import re
 from importlib import import_module
 from pathlib import Path
 
@@ -16,3 +17,12 @@ def test_imports_exist(path):
             module = import_module(node.module)
             for alias in node.names:
                 assert hasattr(module, alias.name) or import_module(f"{node.module}.{alias.name}"), alias.name
+
+
+def test_the_page_installs_what_the_other_programs_ask_for():
+    page = (BENCHMARKS[0].parent / "README.md").read_text(encoding="utf-8")
+    (command,) = re.findall(r"\.venv-peers/bin/pip install (.*)", page)
+    peers = [path.read_text(encoding="utf-8") for path in (BENCHMARKS[0].parent / "peers").glob("*_*.py")]
+    asked = {name for text in peers for name in re.findall(r"pip install ([\w-]+)", text)}
+    assert asked
+    assert asked <= {*command.split()}

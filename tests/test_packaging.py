@@ -81,6 +81,8 @@ def test_a_plain_wheel_and_the_sources_carry_the_licences_of_the_page(project):
     with zipfile.ZipFile(wheel) as packed:
         assert licences(packed.namelist()) == {"LICENSE", "src/nivel/view/page/NOTICE"}
     assert check_wheel.faults(wheel) == ["it has no machine code", "it needs Numba", "its licences lack shipped/NOTICE"]
+    with pytest.raises(check_wheel.UnfitWheelError, match="it has no machine code, and it needs Numba"):
+        check_wheel.check(wheel)
     wheel.unlink()
     with tarfile.open(build(project, "sdist")) as packed:
         names = packed.getnames()

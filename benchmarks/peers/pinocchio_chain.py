@@ -12,6 +12,7 @@ The first run compiles, for one minute or more. See peer_chain.py for what is pr
 import hashlib
 import json
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -34,6 +35,8 @@ def program() -> Path:
     stamp = hashlib.sha256(SOURCE.read_bytes() + pinocchio.__version__.encode()).hexdigest()[:12]
     path = Path(tempfile.gettempdir()) / f"pinocchio_chain-{stamp}"
     if not path.exists():
+        if not (INCLUDE / "eigen3" / "Eigen" / "Core").is_file():
+            sys.exit(f"{INCLUDE} lacks the header files of Eigen: {sys.executable} -m pip install cmeel-eigen")
         command = ["g++", "-std=c++17", "-O3", "-march=native", "-w", *(f"-D{name}" for name in DEFINED)]
         command += [f"-I{INCLUDE}", f"-I{INCLUDE / 'eigen3'}", str(SOURCE), "-o", str(path)]
         subprocess.run(command, check=True)

@@ -21,13 +21,19 @@ SHIPPED = "src/nivel/native/shipped"
 
 @pytest.fixture
 def project(tmp_path):
-    """What building a wheel reads, with a package that has no code."""
+    """What building a wheel reads, with a package that has next to no code."""
     folder = tmp_path / "project"
-    for name in ("pyproject.toml", "README.md", "LICENSE", "packaging/hatch_build.py", "src/nivel/view/page/NOTICE"):
+    for name in (
+        "pyproject.toml",
+        "README.md",
+        "LICENSE",
+        "packaging/hatch_build.py",
+        "src/nivel/__init__.py",
+        "src/nivel/view/page/NOTICE",
+    ):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, folder / name)
     shutil.copy(ROOT / ".gitignore", folder)
-    (folder / "src/nivel/__init__.py").write_text("")
     return folder
 
 

@@ -10,6 +10,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
 import check_wheel
 from nivel.native import shipped
@@ -125,6 +126,15 @@ def test_the_package_of_another_folder_is_not_packed(tmp_path):
     assert f"this would compile {tmp_path / 'nivel'} and pack {ROOT / 'src/nivel'}" in done.stderr
     assert "Traceback" not in done.stderr
     assert not out.exists()
+
+
+def test_continuous_integration_builds_wheels_where_what_is_compiled_is_packed():
+    job = yaml.safe_load((ROOT / ".github/workflows/ci.yml").read_text(encoding="utf-8"))["jobs"]["wheels"]
+    lines = [step["run"] for step in job["steps"] if "run" in step]
+    (build,) = (k for k, line in enumerate(lines) if "packaging/build_wheel.py" in line)
+    (install,) = (k for k, line in enumerate(lines) if "pip install" in line)
+    assert "--editable ." in lines[install]
+    assert install < build
 
 
 def test_examples_of_the_check_exist():

@@ -169,6 +169,29 @@ def name_of(process):
         return ""
 
 
+def test_a_page_that_may_only_watch_disables_its_buttons_and_a_red_run_is_said_with_its_reasons(live, browser):
+    """The status is changed on its way to the page."""
+    _, viewing = live
+    with watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        until(page, "!!nivel.app.live.status")
+        names = ["Run", "Pause", "One tick", "Back to the start", "Save state", "Restore", "A program operates"]
+        assert page.get_by_role("button", name="Back to the start").is_enabled()
+        changed = "driver: 'program', watches: 'a program drives', light: 'red', reasons: ['Energy: error 0.5']"
+        page.evaluate(
+            f"live => {{ const update = live.update.bind(live); live.update = (s) => update({{...s, {changed}}}); }}",
+            page.evaluate_handle("nivel.app.live"),
+        )
+        until(page, "!!nivel.app.live.status.watches")
+        buttons = [each for name in names for each in page.get_by_role("button", name=name, exact=True).all()]
+        assert len(buttons) == len(names) - 1
+        assert not any(each.is_enabled() for each in buttons)
+        said = page.evaluate("document.querySelector('.live').textContent")
+        assert "A program drives." in said
+        assert "Energy: error 0.5" in said
+        assert page.evaluate("document.querySelector('.light').dataset.verdict") == "red"
+
+
 def test_a_body_is_pulled_by_the_mouse(live, browser):
     """With shift a drag pulls the cart along its rail, and the view does not turn; after it the hand has let go."""
     session, viewing = live

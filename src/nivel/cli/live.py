@@ -203,6 +203,10 @@ def conclusion(session: Session) -> Iterator[str]:
     if timing.ticks:
         integrator = session.plan.settings.integrator
         yield f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}"
+    light = session.light
+    if light.verdict != "green":
+        yield f"the trust report of this run would be {light.verdict}:"
+        yield from (f"  {each}" for each in light.reasons)
 
 
 def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:

@@ -150,6 +150,7 @@ def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Arr
     run, events = again.run, again.prepared.motion.system.events
     if run.counter[STOPPED]:
         outcome.stopped_by = events[run.counter[STOPPED] - 1]
+    outcome.pace = run.pace
     outcome.timing = {**counts_of(again.prepared.motion.system, run), "loop_seconds": 0.0, "wall_seconds": 0.0}
     if status not in (BUDGET_SPENT, ENDED):
         at = float(run.clock[ACCEPTED])

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
-from nivel.integrate.loop.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
+from nivel.integrate.loop.paced import COMMAND, DONE, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import hand, shared
 from nivel.live.history import History
 from nivel.live.journal import Journal
+from nivel.live.light import Counts, Judge, Light
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
 from nivel.live.recording import Take, takes_of
@@ -27,6 +28,7 @@ from nivel.live.timing import Timing, timing_of
 from nivel.machine import Input
 
 Array = NDArray[np.float64]
+LOOK: Final = 1.0  # s between two looks at how far the run can be trusted
 POLL: Final = 0.004  # s between two looks for a new frame
 OBEYED: Final = 5.0  # s that a command may take
 SPEEDS: Final = (0.01, 1.0)  # of simulated over real time
@@ -62,6 +64,8 @@ class Session:
         self.said: list[str] = []
         self.parts: Mapping[str, float] = {}  # share of the computing time by part, once it has ended
         self.problem = ""
+        self.light = Light()
+        self._looked = 0.0
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
         left = "" if journal is None else LEFT.format(path=journal.path)
@@ -75,6 +79,8 @@ class Session:
         self._ending = self._closing = False
         try:
             self.facts = self._first_word().facts
+            self._judge = Judge(self.facts["layout"], self.facts["attributes"])
+            self._counts = Counts()
             sizes = Sizes(*self.facts["sizes"])
             self._memory = SharedMemory(create=True, size=bytes_of(sizes))
             try:
@@ -140,6 +146,10 @@ class Session:
         while not self._closing:
             with self._lock:
                 frames = self.recorder.gather()
+                if len(frames):
+                    self._judge.take(frames)
+                if time.monotonic() - self._looked > LOOK:
+                    self._look()
             if len(frames):
                 self.history.add(frames)
                 self._newest = frames[-1]
@@ -154,6 +164,13 @@ class Session:
                 return
             time.sleep(POLL)
 
+    def _look(self) -> None:
+        """Find the light."""
+        self._looked = time.monotonic()
+        steps = int(self.live.control[DONE]) * self.pace.substeps
+        failed = self.problem if self.mode in ("failed", "gone") and not self._ending else ""
+        self.light = self._judge.light(self.timing, self._counts, steps, failed)
+
     @property
     def takes(self) -> list[Take]:
         """All motions from the start on that were recorded."""
@@ -166,6 +183,9 @@ class Session:
             told = self._pipe.recv()
             if told.kind == "parts":
                 self.parts = told.facts
+                continue
+            if told.kind == "counts":
+                self._counts = Counts(**told.facts)
                 continue
             self.said.append(told.text)
             if told.kind == "failed" or self.mode == "ended":
@@ -215,6 +235,8 @@ class Session:
                 self.recorder.save(int(self.live.control[SAVED]))
             if word in ("reset", "restore"):
                 self.problem = ""
+                self._judge.begin_again()
+                self.light, self._looked = Light(), time.monotonic()
                 self.recorder.begin_again(at_start=word == "reset")
         return ""
 
@@ -241,7 +263,8 @@ class Session:
             self._process.join()
         self._closing = True
         self._thread.join(OBEYED)
-        self.recorder.gather()
+        self._judge.take(self.recorder.gather())
+        self._look()
         # what looks at the memory after it is gone reads a copy
         self.live = copy_of(self.live)
         self.recorder.detach(self.live)

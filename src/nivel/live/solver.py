@@ -15,6 +15,7 @@ from typing import Any, Final
 
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.run.outcome import failure
+from nivel.analysis.run.simulate import guards_circuits
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.loop.paced import (
     CLOCK,
@@ -31,7 +32,7 @@ from nivel.integrate.loop.paced import (
     TICKS,
     Live,
 )
-from nivel.integrate.loop.run import ACCEPTED, STOPPED, TIME
+from nivel.integrate.loop.run import ACCEPTED, MOVING, REJECTED, STOPPED, TIME
 from nivel.integrate.loop.run import STEP as STEP_CLOCK
 from nivel.kernels.core import status as codes
 from nivel.kernels.output.observe import observe
@@ -51,7 +52,7 @@ REST: Final = 0.004  # s between two looks at the commands while nothing moves
 
 @dataclass
 class Told:
-    """What the solver says over its pipe. kind : ready, said, failed, refused, parts."""
+    """What the solver says over its pipe. kind : ready, said, failed, refused, parts, counts."""
 
     kind: str
     text: str = ""
@@ -116,6 +117,8 @@ class Solver:
         self._arrays = arrays_of([*live_run.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         self._saved: Snapshot | None = None
+        self._guards = guards_circuits(live_run.prepared)
+        self._counts: dict[str, float] = {}
 
     def live(self, urgent: bool) -> None:
         """Tick and obey until told to end."""
@@ -161,6 +164,7 @@ class Solver:
         control = self._live.control
         control[TICKS] = ticks
         status = self._drive()
+        self._tell_counts()
         if status == codes.BUDGET_SPENT:
             return
         self._show()
@@ -174,6 +178,16 @@ class Solver:
         else:
             control[MODE] = shared.FAILED
             self._pipe.send(Told("failed", self._why(status)))
+
+    def _tell_counts(self) -> None:
+        """Say what the steps counted since, where it has changed."""
+        run, guard = self._its.run, self._its.prepared.motion.system.record.circuit.guard
+        counts = {"kinetic_energy": float(run.pace[MOVING].max()), "guards": self._guards}
+        if self._guards:
+            counts |= {"divided": int(run.counter[REJECTED]), "guarded": int(guard[0]), "difference": float(guard[1])}
+        if counts != self._counts:
+            self._counts = counts
+            self._pipe.send(Told("counts", facts=counts))
 
     def _why(self, status: int) -> str:
         run, prepared = self._its.run, self._its.prepared

@@ -177,6 +177,8 @@ class LiveSource(Still):
             own=timing.own,
             dropped=dropped,
             text=session.problem,
+            light=session.light.verdict,
+            reasons=list(session.light.reasons),
         )
 
 

@@ -505,7 +505,8 @@ class Status:
     time : simulated [s]. speed : simulated over real time. driver : who operates it. watches : why this page can only watch, or empty.
     operated : its inputs follow an operator.
     computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by
-    their own computing. dropped : messages refused.
+    their own computing. dropped : messages refused. light : what the trust report would say if the run ended now; reasons : in sentences,
+    why it is not green.
     """
 
     type: Literal["status"]
@@ -522,6 +523,8 @@ class Status:
     own: int
     dropped: int
     text: str
+    light: Literal["green", "amber", "red"]
+    reasons: list[str]
 
 
 @dataclass(frozen=True)

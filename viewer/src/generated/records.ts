@@ -327,7 +327,7 @@ export interface Refused {
   problem: string;
 }
 
-/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. watches : why this page can only watch, or empty. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by their own computing. dropped : messages refused. */
+/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. watches : why this page can only watch, or empty. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by their own computing. dropped : messages refused. light : what the trust report would say if the run ended now; reasons : in sentences, why it is not green. */
 export interface Status {
   type: "status";
   mode: string;
@@ -343,6 +343,8 @@ export interface Status {
   own: number;
   dropped: number;
   text: string;
+  light: "green" | "amber" | "red";
+  reasons: string[];
 }
 
 /** From the page: the frame with this number is on the screen; the next may come. */

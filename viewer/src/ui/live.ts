@@ -29,7 +29,9 @@ export class Live {
   private readonly seat: HTMLButtonElement;
   private readonly speed: HTMLSelectElement;
   private readonly clock = el("output", { class: "time", "aria-live": "off" });
-  private readonly load = el("span", { class: "of load" });
+  private readonly load = el("span", {});
+  private readonly light = el("span", { class: "light", role: "img" });
+  private readonly reasons = el("ul", { class: "reasons" });
   private readonly problem = el("p", { class: "problem", role: "status" });
   private readonly hint: HTMLElement;
   private readonly commands: (HTMLButtonElement | HTMLSelectElement)[]; // what a page that only watches may not use
@@ -63,7 +65,7 @@ export class Live {
       { class: "timeline live-bar", role: "group", "aria-label": "Live" },
       el("div", { class: "transport" }, this.run, step, reset),
       el("div", { class: "clock" }, this.clock),
-      this.load,
+      el("span", { class: "of load" }, this.light, this.load),
       el("div", { class: "pace" }, hand, save, restore, this.speed, this.seat),
     );
     this.hint = el("p", { class: "note" }, hintOf(controls));
@@ -74,6 +76,7 @@ export class Live {
       "div",
       { class: "live" },
       this.problem,
+      this.reasons,
       controls.length ? el("h3", {}, "Controls") : null,
       controls.length ? this.hint : null,
       sticks.length ? el("div", { class: "sticks" }, ...sticks.map((side) => new Stick(side, stickInWords(side, controls), (stick, value) => this.operator.deflect(stick, value)).element)) : null,
@@ -127,14 +130,28 @@ export class Live {
     this.load.textContent = `${running ? "" : `${status.mode} · `}${short(+status.computing.toPrecision(2))} µs a tick, ${share.toPrecision(2)} %${status.overruns ? `, ${status.overruns} late` : ""}`;
     this.load.title = `99 % of the ticks are computed in at most this time, and begin at most ${short(+status.late.toPrecision(2))} µs after their deadlines. ${status.overruns} ended after the next deadline, ${status.own} of them by their own computing.`;
     this.problem.textContent = status.text;
+    this.judge(status);
     this.allow(status);
     if (document.activeElement !== this.speed) this.speed.value = String(status.speed);
     this.hint.hidden = status.driver === "you" || status.driver === "program";
   }
 
+  /** Whether the run can be trusted so far, and why not. */
+  private judge(status: Status): void {
+    this.light.dataset.verdict = status.light;
+    this.light.title = [`The trust report would be ${status.light} if the run ended now.`, ...status.reasons].join("\n");
+    this.light.setAttribute("aria-label", `trust: ${status.light}`);
+    const shown = status.text ? status.reasons.filter((each) => !each.includes(status.text)) : status.reasons;
+    if (this.reasons.dataset.shown === shown.join("\n")) return;
+    this.reasons.dataset.shown = shown.join("\n");
+    this.reasons.dataset.verdict = status.light;
+    this.reasons.replaceChildren(...shown.map((each) => el("li", {}, each)));
+  }
+
   /** Disable what this page may not use now; the reason stands in the panel and in the tip of the bar. */
   private allow(status: Status): void {
     for (const each of this.commands) each.disabled = !!status.watches || (each === this.seat && status.driver === "program");
+    for (const { slider } of this.rows) if (slider) slider.disabled = status.driver === "program";
     this.bar.title = status.watches;
     if (status.watches && !status.text) this.problem.textContent = `${status.watches[0]!.toUpperCase()}${status.watches.slice(1)}.`;
     this.problem.classList.toggle("watching", !!status.watches && !status.text);

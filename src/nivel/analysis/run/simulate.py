@@ -181,10 +181,15 @@ def _judged(result: Result, facts: Facts, plan: Plan, prepared: Prepared, finish
     return assess(result, replace(facts, further=(*facts.further, steps_item(fast))))
 
 
+def guards_circuits(prepared: Prepared) -> bool:
+    """Whether the steps of a run guard the pressures of circuits."""
+    guards = prepared.integrator.circuit_tangent or prepared.integrator is INTEGRATORS[SECANT]
+    return bool(guards and prepared.motion.system.nodes)
+
+
 def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
     """What the guard of steps over circuits did; None where there is none."""
-    guards = prepared.integrator.circuit_tangent or prepared.integrator is INTEGRATORS[SECANT]
-    if not (guards and prepared.motion.system.nodes):
+    if not guards_circuits(prepared):
         return None
     timing = finished.timing
     return Guard(int(timing["steps"]), int(timing["rejected"]), int(timing["guarded"]), timing["pressure_difference"])

@@ -1,0 +1,135 @@
+"""The light of a live run: what its trust report would say if it ended now, as far as that can be told while it goes on.
+
+It looks at the frames that watchers get, once a second, in the process of the server: the solver's loop does nothing for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from math import isnan
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.integrate.loop.sink import Header
+from nivel.live.timing import Timing
+from nivel.results.memory import MemoryContents
+from nivel.results.result import Result
+from nivel.results.trust.circuits import Guard, circuit_items, guard_items
+from nivel.results.trust.scales import largest_speed, speed_of_rest
+from nivel.results.trust.statements import statements
+from nivel.results.trust.trust import Facts, assess
+from nivel.results.trust.verdicts import Item, Threshold, Trust, Verdict, number, worst
+from nivel.system.layout import FrameLayout
+
+Array = NDArray[np.float64]
+OF_MOTION: Final = ("energy", "violation", "rate_violation")
+OF_CIRCUITS: Final = ("hydraulics", "fluid mass")
+REAL_TIME: Final = Threshold(
+    1e-2,
+    1e-1,
+    "Share of the time by which the simulated time was stretched, or of the ticks that take longer to compute than they last. A hundredth "
+    "is less than an operator notices; a tenth changes how the machine responds.",
+)
+
+
+@dataclass(frozen=True)
+class Counts:
+    """What the solver knows of the steps since the start of the motion: the largest kinetic energy [J], and of steps over circuits those
+    that were divided, their parts that were not extrapolated, and the largest difference of a pressure in one [Pa]. guards : whether
+    these are counted."""
+
+    kinetic_energy: float = 0.0
+    guards: bool = False
+    divided: int = 0
+    guarded: int = 0
+    difference: float = 0.0
+
+
+@dataclass(frozen=True)
+class Light:
+    """A verdict, and in sentences why it is not green."""
+
+    verdict: Verdict = "green"
+    reasons: tuple[str, ...] = ()
+
+
+@dataclass
+class Judge:
+    """Finds the light from frames. layout, attributes : of the run, as a result has them."""
+
+    layout: FrameLayout
+    attributes: dict[str, Any]
+    _first: Array | None = None  # the frame at the start, from which energies and the time are counted
+    _new: list[Array] = field(default_factory=list)
+    _trust: Trust | None = None  # the worst so far
+    _speed: float = 0.0
+    _circuits: tuple[Item, ...] = ()
+
+    def begin_again(self) -> None:
+        """The machine was put somewhere else: what was found before does not belong to this motion."""
+        self._new, self._trust, self._speed, self._circuits = [], None, 0.0, ()
+
+    def take(self, frames: Array) -> None:
+        """New frames (n, width)."""
+        if self._first is None and len(frames):
+            self._first = frames[0].copy()
+        self._new.append(frames.copy())
+
+    def light(self, timing: Timing, counts: Counts, steps: int, problem: str = "") -> Light:
+        """The light now. steps : done in this motion. problem : why it failed, or empty."""
+        if self._new and self._first is not None:
+            self._look(np.concatenate([self._first[None], *self._new]), counts.kinetic_energy)
+            self._new = []
+        items = tuple(self._items(timing, counts, steps, problem))
+        order = sorted((each for each in items if each.verdict != "green"), key=lambda each: each.verdict != "red")
+        return Light(worst(items), tuple(each.text for each in order))
+
+    def _items(self, timing: Timing, counts: Counts, steps: int, problem: str) -> Iterator[Item]:
+        if problem:
+            yield Item("outcome", "red", f"Outcome: {problem}")
+        if self._trust is not None:
+            yield from (each for each in statements(self._trust, "") if each.name in OF_MOTION)
+        yield from self._circuits
+        if counts.guards:
+            yield from guard_items(Guard(steps, counts.divided, counts.guarded, counts.difference))
+        if timing.ticks:
+            yield _real_time_item(timing)
+
+    @np.errstate(over="ignore", invalid="ignore")  # a motion that grows beyond all bounds is red, not a warning
+    def _look(self, frames: Array, kinetic_energy: float) -> None:
+        """Judge frames, the first of which is that of the start; kinetic_energy : the largest one of steps [J]."""
+        result = Result(MemoryContents(Header(self.layout, self.attributes), frames, self.attributes))
+        found = assess(result, Facts("running", kinetic_energy=kinetic_energy))
+        self._speed = max(self._speed, largest_speed(result))
+        self._circuits = tuple(each for each in circuit_items(result) if each.name in OF_CIRCUITS)
+        slowest = speed_of_rest(result, found.size)
+        merged = found if self._trust is None else _worse(self._trust, found)
+        self._trust = replace(merged, speed=max(self._speed, slowest), at_rest=self._speed < slowest)
+
+
+def _worse(old: Trust, new: Trust) -> Trust:
+    """The worst of both, each against the larger scale."""
+    out = old
+    if not new.energy_error_max <= old.energy_error_max:
+        out = replace(out, energy_error_max=new.energy_error_max, energy_error_time=new.energy_error_time)
+    if new.energy_scale > old.energy_scale:
+        out = replace(out, energy_scale=new.energy_scale, energy_scale_kind=new.energy_scale_kind)
+    for name in ("constraint_violation", "constraint_rate_violation"):
+        keys = [f"{name}_{part}" for part in ("max", "row", "time", "units")]
+        before, now = getattr(out, keys[0]), getattr(new, keys[0])
+        if not getattr(out, keys[1]) or isnan(now) or now > before:
+            out = replace(out, **{key: getattr(new, key) for key in keys})
+    return out
+
+
+def _real_time_item(timing: Timing) -> Item:
+    long, stretched = timing.own / timing.ticks, timing.stretched / (timing.ticks * timing.tick)
+    text = (
+        f"Real time: {number(100.0 * long)} % of the ticks take longer to compute than {1e3 * timing.tick:g} ms, and the time is "
+        f"stretched by {number(100.0 * stretched)} % ({REAL_TIME}); take longer steps, or a simpler model"
+    )
+    fraction = max(long, stretched)
+    return Item("real time", REAL_TIME.verdict(fraction), text, fraction, REAL_TIME.green, REAL_TIME.amber)

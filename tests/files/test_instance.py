@@ -23,6 +23,7 @@ TEXTS = {
     "file",
     "surface",
     "interface",
+    "label",
     "colour",
 }  # texts that name no element
 

@@ -372,3 +372,20 @@ joints:
     assert (solid["kind"], solid["centre"], solid["colour"]) == ("box", [40.0, 0.0, -2.0], "#b7bec6")
     assert len(shown["bodies"]) == 3
     assert shown["high"][0] < 10
+
+
+def test_round_off_of_a_scale_is_shown_as_zero(browser):
+    """A slider from -1 m to 1 m: 6e-19 m is none, 2e-6 m is a number; in turn a coordinate that stands at 0.25 m says so."""
+    text = """
+format: 1
+name: cart
+bodies:
+  cart: {mass: 1, inertia: [1, 1, 1], shape: {type: box, size: [1, 1, 1]}}
+joints:
+  rail: {type: translational, bodies: [ground, cart], point: [0, 0, 0], axis: [1, 0, 0]}
+"""
+    with served(Machine.from_record(parse_machine(text)).viewer_source()) as viewing, watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        for value, shown in ((6.33e-19, "0 m"), (-6.33e-19, "0 m"), (2e-6, "2e−6 m"), (0.25, "0.25 m")):
+            page.evaluate("(value) => nivel.app.coordinates.update([value], nivel.app.stage.coordinates, '')", value)
+            assert page.locator(".coordinates output").inner_text() == shown

@@ -289,6 +289,55 @@ def test_what_is_refused_is_refused_and_what_to_write_instead_is_taken(kind, ref
         read_quantity(each, kind, parameters)
 
 
+NAMED_AS_UNITS = rows(section("Parameters"))[1:]
+SHARED = {
+    "m": Number(3.0, KINDS["mass"][2]),
+    "g": Number(9.81, KINDS["acceleration"][2]),
+    "h": Number(0.5, KINDS["length"][2]),
+    "e": Number(0.3),
+}
+# what the texts of the table are, by their kinds, and their values
+MEANT = {
+    "2 m": ("length", 2.0),
+    "5 g": ("mass", 0.005),
+    "(1/2) h": ("time", 1800.0),
+    "10 N/m": ("stiffness", 10.0),
+    "9.81 m/s^2": ("acceleration", 9.81),
+    "2 kg/(m*s)": ((), 2.0),
+    "10 N*m": ("torque", 10.0),
+    "1 kg*m^2": ("inertia", 1.0),
+    "2*m": ("mass", 6.0),
+    "m*g": ("force", 29.43),
+    "h/2": ("length", 0.25),
+    "(12 N)/m": ("acceleration", 4.0),
+    "9.81 m/s^2*m": ("force", 29.43),
+    "2*e": ("number", 0.6),
+}
+
+
+def test_names_that_are_also_units_are_what_the_table_says():
+    shown = [text for row in NAMED_AS_UNITS for text in code(row[0]) if row[1] != "refused"]
+    assert shown == list(MEANT)
+    for text, (kind, value) in MEANT.items():
+        assert read_quantity(text, kind, SHARED) == pytest.approx(value)
+    ((refused, _, ways),) = [row for row in NAMED_AS_UNITS if row[1] == "refused"]
+    with pytest.raises(ExpressionError, match="may be the unit or the parameter"):
+        read_quantity(*code(refused), (), SHARED)
+    unit, parameter = code(ways)
+    assert (read_quantity(unit, (), SHARED), read_quantity(parameter, (), SHARED)) == (13.0, 33.0)
+
+
+def test_a_factor_without_a_unit_is_answered_as_shown():
+    (shown,) = blocks(section("Factors without a unit"), "text")
+    text = "format: 1\nparameters: {gap: 30 cm}\nbodies: {rod: {mass: 1, inertia: [1, 1, 1]}}\nforces:\n"
+    force = "  f: {type: force, body: rod, vector: [%s, 0, 0]}\n"
+    assert parse_machine(text + force % "2e5*(0.3 - rod.z)", "m.yaml")
+    with pytest.raises(ModelError) as caught:
+        parse_machine(text + force % "2e5*(gap - rod.z)", "m.yaml")
+    assert [fault.message for fault in caught.value.faults] == [shown.strip()]
+    assert parse_machine(text + force % code(shown)[-1], "m.yaml")
+
+
 def test_faults_are_shown_as_they_are():
     text, shown = blocks(section("Faults"), "text")
     with pytest.raises(ModelError) as caught:

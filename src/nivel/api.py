@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
@@ -137,7 +138,7 @@ class Machine(Model):
         from nivel.analysis.check.check import check
 
         with self._faults_in_file():
-            return check(plan)
+            return replace(check(plan), name_notes=self.name_notes)
 
     @checked_arguments
     def mass_properties(

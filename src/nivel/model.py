@@ -15,7 +15,7 @@ from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
 from nivel.files.known import Known
 from nivel.files.origin import Origin
-from nivel.files.scope import FileNames, read_known, read_names
+from nivel.files.scope import FileNames, read_known, read_name_notes, read_names
 from nivel.files.sources import Sources
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
@@ -213,6 +213,16 @@ class Model(Elements):
             return None
         sources = Sources(origin.allow_code).inside(origin.file)
         return read_known(origin.source, origin.file, sources, overrides=origin.values, record=self.record)
+
+    @cached_property
+    def name_notes(self) -> tuple[str, ...]:
+        """Sentences on parameters of the machine's file that have the name of a unit or of a constant, and stand in its place."""
+        origin = self.origin
+        if not origin.source:
+            return ()
+        return read_name_notes(
+            origin.source, origin.file, Sources(origin.allow_code).inside(origin.file), overrides=origin.values
+        )
 
     @property
     def parameters(self) -> Mapping[str, float]:

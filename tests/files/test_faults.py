@@ -54,7 +54,13 @@ FAULTS = {
     "misspelt parameter": ("-half]", "-hlf]", 0, "bodies.crank.position.2", "did you mean `half`"),
     "parameter at fault": ("half: radius/2", "half: radius/0", 0, "parameters.half", "division by zero"),
     "ring of parameters": ("radius: 0.25", "radius: 2*half", 0, "parameters.radius", "radius → half → radius"),
-    "unit as parameter": ("  half: radius/2", "  half: radius/2\n  g: 9.81", 1, "parameters.g", "is a unit"),
+    "function as parameter": (
+        "  half: radius/2",
+        "  half: radius/2\n  sin: 9.81",
+        1,
+        "parameters.sin",
+        "has a meaning",
+    ),
     "too short": ("gravity: [0, -9.81, 0]", "gravity: [0, -9.81]", 0, "gravity", "there are only 2"),
     "too long": ("gravity: [0, -9.81, 0]", "gravity: [0, 0, -9.81, 0]", 0, "gravity", "3 entries were expected, got 4"),
     "a number as a vector": (

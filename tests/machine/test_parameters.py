@@ -36,7 +36,7 @@ def test_a_chain_of_faults_is_reported_at_its_start():
 @pytest.mark.parametrize(
     ("name", "value", "part"),
     [
-        ("m", 1, "is a unit"),
+        ("min", 1, "has a meaning already"),
         ("pi", 3, "has a meaning already"),
         ("time", 3, "has a meaning already"),
         ("sin", 3, "has a meaning already"),

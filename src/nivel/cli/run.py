@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -111,7 +111,7 @@ def command(
     if as_json and result is not None:
         click.echo(json.dumps(result.summary(), indent=2))
     if not quiet and result is not None:
-        _say(result, target, None if unwritten else report)
+        _say(result, target, None if unwritten else report, loaded.name_notes)
     if unwritten is not None:
         say_faults(unwritten)
     if failure is not None:
@@ -143,7 +143,7 @@ def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: P
         check_target(report, "report", force=force, sources=[machine])
 
 
-def _say(result: Result, target: Path, report: Path | None) -> None:
+def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:
     from rich.console import Console
 
     from nivel.results.frames.occurrence import in_words
@@ -155,6 +155,8 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     if timing:  # not where the run was broken off
         done += f", {timing['steps']} steps {computed_in(timing['loop_seconds'], timing['steps'])}"
     console.print(done)
+    for note in notes:
+        console.print(f"note: {note}", markup=False, soft_wrap=True)
     for line in assembly_lines(result):
         console.print(line)
     for line in in_words(result.events, result.stopped_by):

@@ -18,8 +18,7 @@ from nivel.machine import MachineRecord, Orientation, Record
 from nivel.machine.parameters import resolve
 from nivel.machine.record import entry, unknown_word
 from nivel.machine.references import SECTIONS
-from nivel.machine.units.arithmetic import Number, Parameters
-from nivel.machine.units.dimension import Dimension, symbol
+from nivel.machine.units.arithmetic import Parameters
 from nivel.machine.units.quantity import FAULT, Position, fault, shown
 
 _PREFIX = re.compile(r"([^\W\d_][\w-]*)?")
@@ -86,19 +85,8 @@ def given_parameters(part: Tree, user: Tree, name: str, assembly: Assembly) -> N
             part.faults.append(user.fault(path, faults[word]))
         if key not in own or value is None:
             continue
-        own[key] = _text(value)
+        own[key] = value
         part.graft(user, {path: ("parameters", key)})
-
-
-def _text(number: Number) -> float | str:
-    """A parameter's value as it would stand in a file."""
-    if number.dimension is None:
-        return number.value
-    return f"{number.value!r}*({_symbol(number.dimension)})"
-
-
-def _symbol(dimension: Dimension) -> str:
-    return symbol(dimension).replace("cycle", "(Hz*s)")
 
 
 def made_by(tree: Tree, name: str, assembly: Assembly, part: MachineRecord) -> dict[str, dict[str, Record]] | None:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, Final
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
@@ -32,8 +33,11 @@ from nivel.machine.named_function import resolve_functions
 from nivel.machine.parameters import resolve
 from nivel.machine.references import SECTIONS
 from nivel.machine.units.arithmetic import Number, Parameters, Signal
-from nivel.machine.units.quantity import FAULT
+from nivel.machine.units.plain_factors import with_bodies
+from nivel.machine.units.quantity import FAULT, FunctionFault
+from nivel.machine.units.shared_names import name_notes
 
+MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressions that use them
 Elements = dict[str, dict[str, Record]]
 
 
@@ -79,6 +83,16 @@ def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str
         {name: each.value for name, each in values.items() if isinstance(each, Number)},
         {name: assembly for name, assembly in assemblies.items() if assembly is not None},
     )
+
+
+def read_name_notes(text: str, file: str, sources: Sources, *, overrides: Mapping[str, object]) -> tuple[str, ...]:
+    """What a reader has to know of parameters with the name of a unit or of a constant, in a file that was read without fault."""
+    tree = read_tree(text, file)
+    about_files, _, others = in_order(overrides)
+    override(tree, about_files)
+    include(tree, sources)
+    override(tree, {path: value for path, value in others.items() if path.partition(".")[0].strip() == "parameters"})
+    return name_notes(resolve(section_of(tree, "parameters"))[0])
 
 
 def _tree_of(
@@ -209,12 +223,13 @@ def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | N
         for name in (*names["control"], *names["inputs"])
         if can_be_named(name, parameters)
     }
+    known_names: Parameters = {**parameters, **signals}
     try:
-        record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})
+        record = MachineRecord.model_validate(data, context={"parameters": known_names})
     except ValidationError as error:
         if alike:  # faults are told in the words of the file
             return _record(tree, parameters, made, None)
-        for line in error.errors(include_url=False):
+        for line in _beside_functions(tree, data, known_names, names, error):
             path = _path_in_file(line["loc"], names)
             if line["type"] == FAULT and not tree.is_broken(path) and not _is_about_unread(tree, line["msg"]):
                 tree.faults.append(tree.fault(path, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
@@ -225,6 +240,38 @@ def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | N
     if tree.faults:
         raise ModelError(tree.faults)
     return record
+
+
+def _beside_functions(
+    tree: Tree, data: Any, parameters: Parameters, names: Mapping[str, list[str]], error: ValidationError
+) -> list[ErrorDetails]:
+    """What is still wrong when the functions whose plain numbers lack units are right; the faults of these go to `tree.faults`.
+
+    A function is called in several places: each round puts in what the calls have asked for, and looks at all of them again.
+    """
+    bodies: dict[str, str] = {}
+    first: dict[str, tuple[FunctionFault, Path]] = {}
+    lines = error.errors(include_url=False)
+    for _ in range(MOST_ROUNDS):
+        asked: dict[str, str] = {}
+        for line in lines:
+            lacking = line.get("ctx", {}).get("lacking")
+            for name, each in lacking.functions.items() if lacking is not None else ():
+                asked.setdefault(name, each.body)
+                first.setdefault(name, (each, _path_in_file(line["loc"], names)))
+        if not asked:
+            break
+        bodies |= asked
+        try:
+            MachineRecord.model_validate(data, context={"parameters": with_bodies(parameters, bodies)})
+        except ValidationError as other:
+            lines = other.errors(include_url=False)
+        else:
+            lines = []
+    for name, (each, caller) in first.items():
+        message = f"{each.message}; write `{each.head}: {bodies[name]}` (called by {'.'.join(map(str, caller))})"
+        tree.faults.append(tree.fault(("functions", each.head), message))
+    return lines
 
 
 def _is_about_unread(tree: Tree, message: str) -> bool:

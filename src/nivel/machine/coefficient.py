@@ -111,7 +111,7 @@ class OfCoordinate:
         except FaultyParameterError:
             raise reported() from None
         except ExpressionError as problem:
-            raise expression_fault(problem, value) from None
+            raise expression_fault(problem, value, parameters_of(info)) from None
         if self.bound == "positive" and number <= 0:
             raise fault(f"a value greater than zero was expected, got {shown(value)}")
         return _not_negative(number) if self.bound == "not negative" else number
@@ -143,7 +143,11 @@ def columns_of_coordinate(kinds: Mapping[str, tuple[str, str]]) -> Callable[[Any
                 except FaultyParameterError:
                     lines.append(InitErrorDetails(type=reported(), loc=(column, at), input=None))
                 except ExpressionError as problem:
-                    lines.append(InitErrorDetails(type=expression_fault(problem, entry), loc=(column, at), input=None))
+                    lines.append(
+                        InitErrorDetails(
+                            type=expression_fault(problem, entry, parameters_of(info)), loc=(column, at), input=None
+                        )
+                    )
         if lines:
             raise ValidationError.from_exception_data("table", lines)
         return table

@@ -10,26 +10,25 @@ They may use parameters and each other, in any order. Where an expression calls 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Final
 
 from pydantic import ValidationError
 
 from nivel.machine.table import read_table
 from nivel.machine.units.arithmetic import (
+    NOT_FOR_PARAMETERS,
     RESERVED,
-    Call,
     ExpressionError,
     FaultyParameterError,
     Function,
     Lookup,
-    Negative,
     Node,
     Number,
-    Operation,
     Parameters,
     Signal,
     bind,
+    calls,
     given,
 )
 from nivel.machine.units.grammar import parse
@@ -47,7 +46,7 @@ def resolve_functions(
 ) -> tuple[dict[str, Function | None], Faults]:
     """The functions by name, and what is wrong with some, by place in the section. One at fault is None."""
     faults: Faults = {}
-    trees: dict[str, tuple[str, tuple[str, ...], Node]] = {}
+    trees: dict[str, tuple[str, tuple[str, ...], Node, str]] = {}
     done: dict[str, Function | None] = {}
     for key, value in section.items():
         try:
@@ -60,7 +59,7 @@ def resolve_functions(
             if isinstance(value, Mapping):
                 done[name] = _curve(value, parameters)
             else:
-                trees[name] = (key, arguments, _body(value))
+                trees[name] = (key, arguments, _body(value), value if isinstance(value, str) else "")
         except ExpressionError as problem:
             faults[key,] = str(problem)
         except ValidationError as error:
@@ -90,7 +89,7 @@ def _head(key: str, value: object, parameters: Parameters) -> tuple[str, tuple[s
         raise ExpressionError(f"the arguments are missing: write `{name}(x): …`; a number with a name is a parameter")
     arguments = tuple(each.strip() for each in listed.split(","))
     for argument in arguments:
-        if not argument.isidentifier() or argument in RESERVED:
+        if not argument.isidentifier() or argument in NOT_FOR_PARAMETERS:
             raise ExpressionError(f"`{argument}` cannot be an argument; choose another name")
     if len(set(arguments)) < len(arguments):
         raise ExpressionError("two arguments have the same name")
@@ -117,41 +116,27 @@ def _curve(value: Mapping[str, object], parameters: Parameters) -> Function:
 
 def _resolve(
     name: str,
-    trees: Mapping[str, tuple[str, tuple[str, ...], Node]],
+    trees: Mapping[str, tuple[str, tuple[str, ...], Node, str]],
     done: dict[str, Function | None],
     parameters: Parameters,
     faults: Faults,
     users: tuple[str, ...],
 ) -> None:
     """Fill `done[name]`, first those it uses. `users` are the functions that led here."""
-    key, arguments, tree = trees[name]
+    key, arguments, tree, text = trees[name]
     if done[name] is not None or (key,) in faults:
         return
     if name in users:
         faults[key,] = f"depends on itself: {' → '.join([*users[users.index(name) :], name])}"
         return
-    for used in sorted(set(_calls(tree)) & trees.keys()):
+    for used in sorted(set(calls(tree)) & trees.keys()):
         _resolve(used, trees, done, parameters, faults, (*users, name))
     if (key,) in faults:
         return
     known = {each: value for each, value in {**parameters, **done}.items() if each not in arguments}
     try:
-        done[name] = Function(arguments, bind(tree, known, arguments))
+        done[name] = Function(arguments, bind(tree, known, arguments), key, text)
     except FaultyParameterError:
         return
     except ExpressionError as problem:
         faults[key,] = str(problem)
-
-
-def _calls(node: Node) -> Iterator[str]:
-    """The names of the functions that `node` calls."""
-    match node:
-        case Call(function, arguments):
-            yield function
-            for argument in arguments:
-                yield from _calls(argument)
-        case Operation(_, left, right):
-            yield from _calls(left)
-            yield from _calls(right)
-        case Negative(operand):
-            yield from _calls(operand)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from nivel.machine.units.arithmetic import (
-    RESERVED,
+    NOT_FOR_PARAMETERS,
     ExpressionError,
     FaultyParameterError,
     Node,
     Number,
+    Parameters,
     bind,
     evaluate,
     given,
@@ -18,7 +19,8 @@ from nivel.machine.units.arithmetic import (
 )
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import measure
-from nivel.machine.units.unit import UNITS
+from nivel.machine.units.quantity import ANY, lacking_unit
+from nivel.machine.units.shared_names import shared_names_hint
 
 
 def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict[str, str]]:
@@ -34,18 +36,19 @@ def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict
         except ExpressionError as fault:
             faults[name] = str(fault)
     values: dict[str, Number | None] = dict.fromkeys(faults)
+    texts = {name: value for name, value in given.items() if isinstance(value, str)}
     for name in trees:
-        _resolve(name, trees, values, faults, ())
+        _resolve(name, trees, texts, values, faults, ())
     return values, faults
 
 
 def _tree(name: str, value: object) -> Node:
     if not name.isidentifier():
         raise ExpressionError("the name of a parameter has letters, digits and `_` only")
-    if name in RESERVED:
+    if name in NOT_FOR_PARAMETERS:
         raise ExpressionError(f"`{name}` has a meaning already; choose another name")
-    if name in UNITS:
-        raise ExpressionError(f"`{name}` is a unit; choose another name")
+    if isinstance(value, Number):
+        return value
     if isinstance(value, str):
         tree = parse(value)
         if varies(tree):
@@ -59,6 +62,7 @@ def _tree(name: str, value: object) -> Node:
 def _resolve(
     name: str,
     trees: Mapping[str, Node],
+    texts: Mapping[str, str],
     values: dict[str, Number | None],
     faults: dict[str, str],
     users: tuple[str, ...],
@@ -76,14 +80,31 @@ def _resolve(
         values[name] = None
         return
     for used in sorted(names(trees[name]) & trees.keys()):
-        _resolve(used, trees, values, faults, (*users, name))
+        _resolve(used, trees, texts, values, faults, (*users, name))
     if name in values:  # found to be in a ring on the way
         return
     try:
         bound = bind(trees[name], values)
-        values[name] = Number(evaluate(bound), measure(bound))
+        values[name] = _value(bound, texts.get(name, ""), values)
     except FaultyParameterError:
         values[name] = None
     except ExpressionError as fault:
-        faults[name] = str(fault)
+        faults[name] = str(fault) + shared_names_hint(texts.get(name, ""), values)
         values[name] = None
+
+
+def _value(bound: Node, text: str, values: Mapping[str, Number | None]) -> Number:
+    """The value of a parameter. Raises ExpressionError, with the line to write where plain numbers lack units."""
+    try:
+        return Number(evaluate(bound), measure(bound))
+    except ExpressionError as problem:
+        raise (
+            lacking_unit(problem, text.strip(), ANY, values, (), _check, constant=True) if text else problem
+        ) from None
+
+
+def _check(text: str, values: Parameters) -> None:
+    """Raises ExpressionError where `text` is no value of a parameter."""
+    bound = bind(parse(text), values)
+    measure(bound)
+    evaluate(bound)

@@ -64,7 +64,7 @@ def _read(value: Any, info: ValidationInfo) -> float:
     except FaultyParameterError:
         raise reported() from None
     except ExpressionError as problem:
-        raise expression_fault(problem, value) from None
+        raise expression_fault(problem, value, parameters_of(info)) from None
     if number <= 0:
         raise fault(f"a stiffness greater than zero was expected, got {shown(value)}")
     return number

@@ -132,7 +132,9 @@ def _read_arguments(
             lines.append(InitErrorDetails(type=reported(), loc=("arguments", at), input=None))
             arguments.append(0.0)
         except ExpressionError as problem:
-            lines.append(InitErrorDetails(type=expression_fault(problem, entry), loc=("arguments", at), input=None))
+            lines.append(
+                InitErrorDetails(type=expression_fault(problem, entry, parameters), loc=("arguments", at), input=None)
+            )
             arguments.append(0.0)
     return arguments
 

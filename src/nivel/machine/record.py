@@ -133,7 +133,11 @@ def restated(error: ValidationError, record: type[Record], more: Sequence[InitEr
 
 
 def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails:
-    kind = reported() if line["type"] == REPORTED else fault(_sentence(line, record), at_key=_is_about_key(line))
+    kind = (
+        reported()
+        if line["type"] == REPORTED
+        else fault(_sentence(line, record), at_key=_is_about_key(line), lacking=line.get("ctx", {}).get("lacking"))
+    )
     place = [step for step in line["loc"] if step != "[key]"]
     tag = record.tagged.get(str(place[0])) if place else None
     if tag is not None and len(place) > tag:

@@ -160,7 +160,7 @@ def _read_column(
         except FaultyParameterError:
             lines.append(_line((word, at), reported()))
         except ExpressionError as problem:
-            lines.append(_line((word, at), expression_fault(problem, entry)))
+            lines.append(_line((word, at), expression_fault(problem, entry, parameters)))
     return column
 
 

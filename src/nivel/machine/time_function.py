@@ -28,6 +28,7 @@ from nivel.machine.units.quantity import (
     expected_kind,
     expression_fault,
     kinds_of,
+    lacking_unit,
     parameters_of,
     read_quantity,
     reported,
@@ -72,7 +73,14 @@ def _read_text(text: str, kind: Kind, parameters: Parameters, local: Collection[
     tree = bound_tree(text, parameters, local)
     if not varies(tree):
         return _read_constant(text, kind, parameters)
-    _check_kind_of_varying(tree, text.strip(), kind)
+    try:
+        _check_kind_of_varying(tree, text.strip(), kind)
+    except ExpressionError as problem:
+
+        def accepts(other: str, parameters: Parameters) -> None:
+            _check_kind_of_varying(bound_tree(other, parameters, local), other, kind)
+
+        raise lacking_unit(problem, text.strip(), kind, parameters, local, accepts) from None
     return Expression(render(fold(tree)))
 
 
@@ -156,7 +164,7 @@ class Varying:
         except FaultyParameterError:
             raise reported() from None
         except ExpressionError as problem:
-            raise expression_fault(problem, value) from None
+            raise expression_fault(problem, value, parameters) from None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         serialization = core_schema.plain_serializer_function_ser_schema(written)

@@ -87,7 +87,9 @@ def _read(entries: dict[tuple[int, ...], tuple[Any, Kind]], info: ValidationInfo
         except FaultyParameterError:
             lines.append(InitErrorDetails(type=reported(), loc=place, input=None))
         except ExpressionError as problem:
-            lines.append(InitErrorDetails(type=expression_fault(problem, value), loc=place, input=None))
+            lines.append(
+                InitErrorDetails(type=expression_fault(problem, value, parameters_of(info)), loc=place, input=None)
+            )
     if lines:
         raise ValidationError.from_exception_data("matrix", lines)
     return numbers

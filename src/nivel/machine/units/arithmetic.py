@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from itertools import pairwise
-from typing import Final, SupportsFloat
+from typing import Final, Literal, SupportsFloat
 
 from nivel.machine.units.dimension import Dimension
 from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated
@@ -59,9 +59,14 @@ class Signal:
 
 @dataclass(frozen=True)
 class Name:
-    """A parameter, constant, unit or local symbol that is not bound yet."""
+    """A parameter, constant, unit or local symbol that is not bound yet.
+
+    place : `unit` directly behind a number, where a unit stands although a parameter may have its name (`2 m`, `2 N/m`);
+    `product` behind `*` and a unit (`2 N*m`), where a name of both kinds is ambiguous
+    """
 
     text: str
+    place: Literal["free", "unit", "product"] = "free"
 
 
 @dataclass(frozen=True)
@@ -99,10 +104,15 @@ class Lookup:
 
 @dataclass(frozen=True)
 class Function:
-    """A named function: a bound `body` in which the `arguments` stand as signals of their names."""
+    """A named function: a bound `body` in which the `arguments` stand as signals of their names.
+
+    head, text : as it is written, of an expression: ``bump(x)``, ``5 cm*sin(x)``
+    """
 
     arguments: tuple[str, ...]
     body: Node
+    head: str = field(default="", compare=False)
+    text: str = field(default="", compare=False)
 
 
 Node = Number | Time | Signal | Name | Negative | Operation | Call | Lookup
@@ -180,6 +190,8 @@ COMPARISONS: Final = ("<", "<=", ">", ">=")
 LOGICAL: Final = ("and", "or")
 TIME: Final = "time"
 RESERVED: Final = frozenset({TIME, LOOKUP, *LOGICAL, *CONSTANTS, *FUNCTIONS})
+FREE_CONSTANTS: Final = frozenset({"e"})  # names that parameters and arguments of functions may take over
+NOT_FOR_PARAMETERS: Final = RESERVED - FREE_CONSTANTS
 LOCAL_SYMBOLS: Final = ("length", "angle", "value", "depth", "rate")  # where a law may use them they are signals
 
 
@@ -223,8 +235,26 @@ def leaves(node: Node) -> Iterator[Node]:
 
 
 def names(node: Node) -> set[str]:
-    """The unbound names in `node`; signals are none."""
-    return {leaf.text for leaf in leaves(node) if isinstance(leaf, Name)}
+    """The unbound names in `node` that may be those of parameters; signals are none."""
+    return {
+        leaf.text
+        for leaf in leaves(node)
+        if isinstance(leaf, Name) and not (leaf.place == "unit" and leaf.text in UNITS)
+    }
+
+
+def calls(node: Node) -> Iterator[str]:
+    """The names of the functions that `node` calls."""
+    match node:
+        case Call(function, arguments):
+            yield function
+            for argument in arguments:
+                yield from calls(argument)
+        case Operation(_, left, right):
+            yield from calls(left)
+            yield from calls(right)
+        case Negative(operand):
+            yield from calls(operand)
 
 
 def signals(node: Node) -> tuple[str, ...]:
@@ -239,12 +269,19 @@ def varies(node: Node) -> bool:
 
 def bind(node: Node, parameters: Parameters, local: Collection[str] = ()) -> Node:
     """`node` with every name replaced by what it stands for: one of the `local` symbols, else a parameter, a constant
-    or a unit.
+    or a unit; directly behind a number a unit comes first.
 
     Raises ExpressionError for an unknown name or one with two meanings, FaultyParameterError for one that has no value
     because of its own fault.
     """
     match node:
+        case Name(text, "unit") if text in UNITS:
+            return Number(*UNITS[text])
+        case Name(text, "product") if text in UNITS and (text in parameters or text in local):
+            raise ExpressionError(
+                f"`{text}` behind `*` and a unit may be the unit or the {'argument' if text in local else 'parameter'}: write a "
+                f"space in place of `*` for the unit, as in `2 N {text}`, or parentheses for the other, as in `(2 N)*{text}`"
+            )
         case Name(text) if text in local:
             if text in parameters:
                 raise ExpressionError(
@@ -337,7 +374,8 @@ def substituted(node: Node, arguments: Mapping[str, Node]) -> Node:
 def _hinting_at_hyphen(problem: UnknownNameError, node: Operation) -> ExpressionError:
     """`problem`, found in `node`, which may be meant as one symbol: `left-hinge.angle`."""
     before, after = list(leaves(node.left))[-1], next(leaves(node.right))
-    if node.symbol != "-" or before != Name(problem.name) or not isinstance(after, Signal):
+    is_name = isinstance(before, Name) and before.text == problem.name
+    if node.symbol != "-" or not is_name or not isinstance(after, Signal):
         return problem
     element = after.path.partition(".")[0]
     return ExpressionError(

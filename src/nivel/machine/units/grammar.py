@@ -13,12 +13,18 @@
 
 A unit multiplies what stands before it in its term, so `3/8 in` is three eighths of an inch and `pi/2 rad` a quarter
 turn. `2 m / 4 s` could then be read in two ways and is refused; `(2 m)/(4 s)` is clear.
+
+A parameter may have the name of a unit. Directly behind a number, a `)` or a unit the name is the unit, and what divides a unit
+there is one too: `2 m`, `9.81 m/s^2`. Elsewhere it is the parameter: `2*m`, `F/m`. Behind `*` and a unit it is ambiguous, except
+where the whole text is a number with units: `10 N*m`.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import lru_cache
+from typing import Literal, NamedTuple
 
 from nivel.machine.units.arithmetic import (
     COMPARISONS,
@@ -35,6 +41,7 @@ from nivel.machine.units.arithmetic import (
     Signal,
     Time,
     finite,
+    leaves,
 )
 from nivel.machine.units.unit import UNITS
 
@@ -70,7 +77,7 @@ class _Parser:
         node = self.condition()
         if self.at < len(self.tokens):
             raise self.unexpected()
-        return node
+        return _units(node, "unit") if _is_plain_quantity(node) else node
 
     def condition(self) -> Node:
         self.deeper()
@@ -111,15 +118,24 @@ class _Parser:
     def term(self) -> Node:
         node = self.sign()
         has_unit = divided = False
+        joined = ""  # the signs after which a name still belongs to the units behind a number
         while True:
             if self.symbol() in ("*", "/"):
-                divided = self.take() == "/"
-                node = Operation("/" if divided else "*", node, self.sign())
+                sign = self.take()
+                divided = sign == "/"
+                operand = self.sign()
+                if sign in joined and _is_of_units(operand, product=not divided):
+                    operand = _units(operand, "unit" if divided else "product")
+                    joined = "/" if divided else joined
+                else:
+                    joined = ""
+                node = Operation(sign, node, operand)
             elif self.kind() == "name" and not self.word() and self.follows_number():
                 if divided and has_unit:
                     raise ExpressionError("which part the last unit belongs to is unclear; write `(2 m)/(4 s)`")
                 node = Operation("*", node, self.unit())
                 has_unit = True
+                joined = joined or "*/"
             else:
                 return node
 
@@ -156,7 +172,7 @@ class _Parser:
             raise ExpressionError(f"`*` is missing before `{name}`")
         if "." in name:
             raise ExpressionError(f"`*` is missing before `{name}`")
-        return self.raised(_named(name))
+        return self.raised(replace(named, place="unit") if isinstance(named := _named(name), Name) else named)
 
     def atom(self) -> Node:
         kind = self.kind()
@@ -209,6 +225,43 @@ class _Parser:
         return ExpressionError(f"`{self.tokens[self.at][1]}` was not expected here{hint}")
 
 
+def _is_of_units(node: Node, *, product: bool = False) -> bool:
+    """Whether `node` is made of names of units only: ``m``, ``s^2``, and unless it stands in a `product` ``(m*s)``."""
+    match node:
+        case Name(text):
+            return text in UNITS
+        case Operation("**", base, exponent):
+            return _is_of_units(base, product=product) and not any(isinstance(each, Name) for each in leaves(exponent))
+        case Operation("*" | "/", left, right):
+            return not product and _is_of_units(left) and _is_of_units(right)
+    return False
+
+
+def _units(node: Node, place: Literal["unit", "product"]) -> Node:
+    """`node` with its names in another place."""
+    match node:
+        case Name(text):
+            return Name(text, place)
+        case Negative(operand):
+            return Negative(_units(operand, place))
+        case Operation(symbol, left, right):
+            return Operation(symbol, _units(left, place), _units(right, place))
+    return node
+
+
+def _is_plain_quantity(node: Node) -> bool:
+    """Whether `node` is a number and units: ``-10 N*m``, ``3/8 in``."""
+    match node:
+        case Negative(operand):
+            return _is_plain_quantity(operand)
+        case Operation("*" | "/", left, right):
+            if all(isinstance(leaf, Number) for leaf in leaves(right)):
+                return _is_plain_quantity(left)
+            in_place = all(leaf.place != "free" for leaf in leaves(right) if isinstance(leaf, Name))
+            return in_place and _is_of_units(right) and _is_plain_quantity(left)
+    return isinstance(node, Number)
+
+
 def _named(name: str) -> Node:
     if "." not in name:
         return Time() if name == TIME else Name(name)
@@ -218,6 +271,25 @@ def _named(name: str) -> Node:
             raise ExpressionError(f"`{name}` has more than one dot; write `{element}.{_VECTORS[quantity]}{rest[0]}`")
         raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
     return Signal(name)
+
+
+class Token(NamedTuple):
+    """A number, name or symbol of a text, and where it stands in it."""
+
+    kind: str
+    text: str
+    start: int
+    end: int
+
+
+def placed_tokens(text: str) -> list[Token]:
+    """The tokens of `text`, which has been read."""
+    tokens, at, end = [], 0, len(text.rstrip())
+    while at < end and (found := _TOKEN.match(text, at)):
+        kind = str(found.lastgroup)
+        tokens.append(Token(kind, found.group(kind), *found.span(kind)))
+        at = found.end()
+    return tokens
 
 
 def _tokens(text: str) -> list[tuple[str, str]]:

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numbers
 import re
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
@@ -21,6 +22,7 @@ from nivel.machine.units.arithmetic import (
     LOCAL_SYMBOLS,
     ExpressionError,
     FaultyParameterError,
+    Function,
     Node,
     Parameters,
     UnknownNameError,
@@ -32,7 +34,9 @@ from nivel.machine.units.arithmetic import (
 )
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.measure import measure, refuse_unlike_terms
+from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
+from nivel.machine.units.plain_factors import completed, with_bodies
+from nivel.machine.units.shared_names import shared_names_hint
 from nivel.machine.units.slips import slip
 from nivel.wording import shown
 
@@ -47,9 +51,13 @@ ANY: Kind = ()  # whatever it measures
 LARGEST = 1e100  # squares of such numbers, and products of three, can be held
 
 
-def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
-    """A validation error whose text is `message`, ready for people; `at_key`: not the value is wrong but its key."""
-    return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key})
+def fault(message: str, *, at_key: bool = False, lacking: LackingUnitError | None = None) -> PydanticCustomError:
+    """A validation error whose text is `message`, ready for people; `at_key`: not the value is wrong but its key.
+
+    lacking : of an expression, if functions that it calls are at fault
+    """
+    more = {} if lacking is None else {"lacking": lacking}
+    return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key, **more})
 
 
 def reported() -> PydanticCustomError:
@@ -116,6 +124,81 @@ def _clash(its: Dimension | None, wanted: Dimension) -> Literal["", "other", "tu
     return "turns" if is_angular(wanted) and counts_turns(its) else ""
 
 
+@dataclass(frozen=True)
+class FunctionFault:
+    """What is wrong with the function that is written as `head`, in the words of a message, and its text as it would be right."""
+
+    head: str
+    message: str
+    body: str
+
+    @property
+    def line(self) -> str:
+        """The line to write."""
+        return f"{self.head}: {self.body}"
+
+
+class LackingUnitError(ExpressionError):
+    """Plain numbers of an expression, or of functions that it calls, lack units; the message has the line to write.
+
+    functions : those that have to change, by name
+    """
+
+    def __init__(self, message: str, functions: Mapping[str, FunctionFault]) -> None:
+        super().__init__(message)
+        self.functions = functions
+
+
+def lacking_unit(
+    problem: ExpressionError,
+    text: str,
+    kind: Kind,
+    parameters: Parameters,
+    local: Collection[str],
+    accepts: Callable[[str, Parameters], None],
+    *,
+    constant: bool = False,
+) -> ExpressionError:
+    """`problem` of the expression `text`, with the line to write where it is that plain numbers lack units.
+
+    accepts : raises ExpressionError for a text that is still wrong
+    """
+    wanted = tuple(KINDS[one][2] for one in kinds_of(kind))
+    answer = completed(text, parameters, tuple(local), wanted, accepts, constant=constant)
+    if answer is None:
+        return problem
+    why = _why(text, kind, parameters, local, answer.reading) or str(problem)
+    faults: dict[str, FunctionFault] = {}
+    for name, body in answer.bodies.items():
+        function = parameters[name]
+        assert isinstance(function, Function)
+        message = f"{why}, where it is called: {_lacking(answer.lacking[name])}"
+        faults[name] = FunctionFault(function.head, message, body)
+    if "" in answer.lacking:
+        after = _why(text, kind, with_bodies(parameters, answer.bodies), local, answer.reading) or str(problem)
+        message = f"{after}: {_lacking(answer.lacking[''])}; write `{answer.text}`"
+    else:
+        message = f"{why}; write {' and '.join(f'`{each.line}`' for each in faults.values())}"
+    return LackingUnitError(message, faults)
+
+
+def _why(text: str, kind: Kind, parameters: Parameters, local: Collection[str], reading: Reading) -> str:
+    """Why `text` does not fit with its variables taken as in `reading`."""
+    try:
+        its = measure(bound_tree(text, parameters, local), reading)
+        check_kind(text, its, kind)
+    except ExpressionError as problem:
+        start = f"`{text}` is "
+        return f"this is {str(problem).removeprefix(start)}" if str(problem).startswith(start) else str(problem)
+    return ""
+
+
+def _lacking(factors: tuple[tuple[str, str], ...]) -> str:
+    """That factors lack units, in a clause: each as it is written, with its unit."""
+    (name, unit), *others = factors
+    return " and ".join([f"`{name}` lacks the unit {unit}", *(f"`{each}` the unit {its}" for each, its in others)])
+
+
 def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
     """`value` as a finite SI number of `kind`, of no more than LARGEST but for times and lengths, of which others judge.
 
@@ -131,13 +214,24 @@ def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
     value = plain(value)
     if isinstance(value, str):
         tree = constant_tree(value, parameters)
-        its = measure(tree)
-        number = evaluate(tree)
-        check_kind(value.strip(), its, kind)
+        try:
+            its = measure(tree)
+            number = evaluate(tree)
+            check_kind(value.strip(), its, kind)
+        except ExpressionError as problem:
+            accepts = partial(_check_constant, kind)
+            raise lacking_unit(problem, value.strip(), kind, parameters, (), accepts, constant=True) from None
         return number
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return given(value)
     raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
+
+
+def _check_constant(kind: Kind, text: str, parameters: Parameters) -> None:
+    """Raises ExpressionError where `text` is no quantity of `kind`."""
+    tree = constant_tree(text, parameters)
+    check_kind(text, measure(tree), kind)
+    evaluate(tree)
 
 
 def constant_tree(text: str, parameters: Parameters) -> Node:
@@ -170,7 +264,7 @@ class Quantity:
         except FaultyParameterError:
             raise reported() from None
         except ExpressionError as problem:
-            raise expression_fault(problem, value) from None
+            raise expression_fault(problem, value, parameters_of(info)) from None
         if self.positive and number <= 0:
             instead = MASSLESS if self.kind == "mass" and number == 0 else ""
             article = KINDS[self.kind][0] if isinstance(self.kind, str) else "a number"
@@ -189,14 +283,19 @@ class Quantity:
         return {"anyOf": [number, {"type": "string"}], "description": meaning}
 
 
-def expression_fault(problem: ExpressionError, value: object) -> PydanticCustomError:
-    """`problem` with the text that it is in, unless the message shows it already."""
+def expression_fault(
+    problem: ExpressionError, value: object, parameters: Parameters | None = None
+) -> PydanticCustomError:
+    """`problem` with the text that it is in, unless the message shows it already. parameters : that the text may name"""
     message = str(problem)
     if isinstance(value, str) and f"`{value.strip()}`" not in message:
         message = f"{shown(value.strip())}: {message}"
-    if isinstance(value, str) and (answer := slip(value)):
+    lacking = isinstance(problem, LackingUnitError)
+    if isinstance(value, str) and not lacking and (answer := slip(value, parameters or ())):
         message = re.sub(r"; did you mean `[^`]*`\?$", "", message) + answer
-    return fault(message)
+    if isinstance(value, str):
+        message += shared_names_hint(value, parameters or {})
+    return fault(message, lacking=problem if isinstance(problem, LackingUnitError) else None)
 
 
 def of_one_kind(value: Any, info: ValidationInfo) -> Any:
@@ -209,7 +308,7 @@ def of_one_kind(value: Any, info: ValidationInfo) -> Any:
         try:
             refuse_unlike_terms(tree)
         except ExpressionError as problem:
-            raise expression_fault(problem, value) from None
+            raise expression_fault(problem, value, parameters_of(info)) from None
     return value
 
 

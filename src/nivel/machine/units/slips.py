@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from typing import Final
 
 # pattern of the slip, ignoring case where it begins with (?i); the answer
@@ -51,10 +52,14 @@ def spelled(name: str) -> str:
     return text
 
 
-def slip(text: str) -> str:
-    """What is meant by a usual slip in the expression `text`, as the end of the message on it; empty where none is seen."""
+def slip(text: str, taken: Collection[str] = ()) -> str:
+    """What is meant by a usual slip in the expression `text`, as the end of the message on it; empty where none is seen.
+
+    taken : names of parameters, which are no slips
+    """
     if re.fullmatch(r"\s*[-+]?\d+,\d+(\s.*)?", text):
         return f"; write `{text.strip().replace(',', '.')}`: decimals stand behind a point"
-    if re.search(r"(?<![\w.])t(?![\w.(])", text) and not re.search(r"\d\s*t\b", text):
+    if "t" not in taken and re.search(r"(?<![\w.])t(?![\w.(])", text) and not re.search(r"\d\s*t\b", text):
         return " (`t` is the unit tonne; the time is written `time`)"
-    return next((answer for pattern, answer in _ANSWERS if re.search(pattern, text)), "")
+    found = ((re.search(pattern, text), answer) for pattern, answer in _ANSWERS)
+    return next((answer for match, answer in found if match and match[0] not in taken), "")

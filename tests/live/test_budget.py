@@ -1,14 +1,19 @@
 """The budget of a machine: what ticks cost, by method and by part."""
 
+from itertools import combinations, product
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import cart
+from nivel.cli.budget import command
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LONGEST, count_into
-from nivel.live.budget import costs, swept
+from nivel.live.budget import Cost, Held, costs, ends, swept
 from nivel.live.shared import Sizes, bytes_of, live_in
-from nivel.live.timing import PERCENTS, in_a_sentence, timing_of
+from nivel.live.timing import PERCENTS, Timing, in_a_sentence, timing_of
+from nivel.machine import Input
 
 
 def test_percentiles_are_those_of_the_durations_within_a_bin():
@@ -67,3 +72,61 @@ def test_levers_are_swept_within_their_ranges_and_rates():
     assert (values[:, 0].min(), values[:, 0].max()) == (-1.0, 1.0)
     assert np.abs(np.diff(values[:, 0], prepend=0.0)).max() <= 4e-3 * (1.0 + 1e-12)
     assert np.all(values[:, 1] == 1.0)
+
+
+def test_inputs_are_held_at_both_ends_alone_and_levers_in_all_combinations():
+    """The lever at -1 and 1; the brake, which rests at 1, at 0 and 2. Three levers also in their eight combinations."""
+    assert ends(cart.machine().record.inputs) == [{"lever": -1.0}, {"lever": 1.0}, {"brake": 0.0}, {"brake": 2.0}]
+    levers = [Input(name=name, range=(-1.0, 2.0)) for name in "abc"]
+    held = ends(levers)
+    assert held[:6] == [{name: end} for name in "abc" for end in (-1.0, 2.0)]
+    assert {tuple(each.values()) for each in held[6:]} == set(product((-1.0, 2.0), repeat=3))
+
+
+@pytest.mark.parametrize("count", [5, 7, 8, 12])
+def test_of_many_levers_any_two_are_held_in_all_their_combinations(count):
+    """With far fewer rows than 2ⁿ."""
+    levers = [Input(name=f"l{k}", range=(-1.0, 1.0)) for k in range(count)]
+    rows = [each for each in ends(levers) if len(each) > 1]
+    assert len(rows) <= 16
+    for one, other in combinations(range(count), 2):
+        assert {(each[f"l{one}"], each[f"l{other}"]) for each in rows} == set(product((-1.0, 1.0), repeat=2))
+
+
+def test_a_lever_is_held_until_the_machine_is_at_its_end_and_what_fails_there_is_told(tmp_path):
+    """At 8 m a square root ends the run: m v̇ = F - d v from rest, with the lever at 1 after 0.25 s. Levers that go to and fro stay far
+    from it. With the brake alone the machine stands still, and is left after three seconds."""
+    text = cart.CART.replace("effort: 20.0*lever.value", "effort: 20.0*lever.value + 0*sqrt(8 - rail.displacement)")
+    (found,) = costs(parse_machine(text), {}, None, ["rk4"], compiled_only=False)
+    assert found.note == ""
+    assert [each.values for each in found.held] == ends(cart.machine().record.inputs)
+    assert found.combinations == 4
+    left, right, *brake = found.held
+    assert np.isnan(left.ended)
+    assert left.timing.ticks == 15_000
+    assert [each.timing.ticks for each in brake] == [3000, 3000]
+    t = np.arange(0.0, 3.0, 1e-4)
+    v = np.zeros_like(t)
+    for k in range(len(t) - 1):
+        v[k + 1] = v[k] + 1e-4 * (cart.FORCE * min(4.0 * t[k], 1.0) - cart.DAMPING * v[k]) / cart.MASS
+    assert right.ended == pytest.approx(t[np.argmax(np.cumsum(v) * 1e-4 > 8.0)], abs=5e-3)
+    assert found.rate_held == pytest.approx(1.0 / max(found.timing.computing[3], found.worst.cost))
+    path = tmp_path / "cart.yaml"
+    path.write_text(text)
+    said = CliRunner().invoke(command, [str(path), "--integrators", "rk4", "--quiet"]).output
+    assert f"  with lever at 1 the run ends at {right.ended:.4g} s" in said
+    assert "inputs held at their ends (4 combinations): dearest with " in said
+
+
+def test_the_dearest_inputs_decide_what_rate_a_machine_holds():
+    """A median that is cheap, and an end at which ticks cost eight times as much."""
+
+    def timing(high):
+        return Timing(1000, 1e-3, (2e-5, 5e-5, 8e-5, high, 2.0 * high), (0.0,) * 5, 0, 0, 0.0)
+
+    cheap, dear = Held({"lever": -1.0}, timing(1.0e-4)), Held({"lever": 1.0, "other": 0.5}, timing(8.0e-4))
+    cost = Cost("rk4", timing(1.1e-4), {}, held=[cheap, dear], combinations=2)
+    assert cost.worst is dear
+    assert str(cost.worst) == "lever at 1, other at 0.5"
+    assert cost.rate_held == pytest.approx(1250.0)
+    assert Cost("rk4", timing(1.0e-4), {}).rate_held == pytest.approx(1e4)

@@ -1,10 +1,15 @@
-"""Budget of a machine in real time, found without operating it: ticks as fast as they go, by method and by part."""
+"""Budget of a machine in real time, found without operating it: ticks as fast as they go, by method and by part.
+
+Levers are moved to and fro; then inputs are held at their ends, each alone and all together, until the machine stands still: actuators are
+at their ends then, where ticks may cost a multiple.
+"""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from math import nan
 from typing import Any, Final
 
@@ -16,13 +21,30 @@ from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.integrate.loop.paced import CLOCK, DEADLINE, DONE, FROM_TAPE, HEARD, NOW, PACED, SLEEP, SPEED, TICKS, drive
+from nivel.integrate.loop.paced import (
+    CLOCK,
+    DEADLINE,
+    DONE,
+    FROM_TAPE,
+    HEARD,
+    LATEST,
+    LONGEST,
+    NOW,
+    PACED,
+    SHOWN,
+    SLEEP,
+    SPEED,
+    TICKS,
+    drive,
+)
 from nivel.integrate.loop.run import TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
+from nivel.live.hand import COUNT
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in
+from nivel.live.snapshot import arrays_of, put_back, taken
 from nivel.live.system_clock import clock_addresses
 from nivel.live.timing import Timing, timing_of
 from nivel.machine import Input, MachineRecord
@@ -32,6 +54,29 @@ Array = NDArray[np.float64]
 DURATION: Final = 2.0  # s simulated, at least so many ticks
 TICKS_AT_LEAST: Final = 2000
 CYCLES: Final = 2.0  # of every lever
+HELD: Final = 15  # s simulated, at most, that inputs are held at their ends
+HELD_AT_LEAST: Final = 3  # s before a machine may be said to stand still
+STILL: Final = 1e-4  # m, or as Euler parameters, by which it moves in a second then
+MOST_IN_ALL: Final = 4  # levers of which all combinations of ends are held; of more, all combinations of any two
+PATIENCE: Final = 20.0  # s of the processor for all combinations of a method
+
+
+@dataclass(frozen=True)
+class Held:
+    """What ticks cost while inputs are held. values : of these inputs, the others rest. ended : time at which the run ended [s]; NaN: it
+    did not."""
+
+    values: Mapping[str, float]
+    timing: Timing
+    ended: float = nan
+
+    @property
+    def cost(self) -> float:
+        """Computing time of a tick, 99.9 % [s]."""
+        return self.timing.computing[3]
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name} at {value:.4g}" for name, value in self.values.items())
 
 
 @dataclass(frozen=True)
@@ -40,7 +85,7 @@ class Cost:
 
     note : why it does not run, or what else is to be known of the run. parts : share of the computing time by part, where that is known.
     off : how far the farthest body was at the end from where steps of half the length by the method of the
-    file had it [m]; NaN: not known.
+    file had it [m]; NaN: not known. held : with inputs at their ends, of `combinations` in all those for which there was time.
     """
 
     integrator: str
@@ -48,6 +93,19 @@ class Cost:
     parts: Mapping[str, float]
     note: str = ""
     off: float = nan
+    held: Sequence[Held] = ()
+    combinations: int = 0
+
+    @property
+    def worst(self) -> Held | None:
+        """The inputs that are dearest to hold."""
+        return max(self.held, key=lambda each: each.cost, default=None)
+
+    @property
+    def rate_held(self) -> float:
+        """Ticks a second that 99.9 % of the computing times allow, whatever the inputs do."""
+        costs = [each.cost for each in self.held] + ([self.timing.computing[3]] if self.timing else [])
+        return 1.0 / max([*costs, 1e-9])
 
 
 def fixed_methods() -> list[str]:
@@ -105,6 +163,28 @@ def swept(inputs: Sequence[Input], ticks: int, tick: float) -> Array:
     return out
 
 
+def ends(inputs: Sequence[Input]) -> list[dict[str, float]]:
+    """Values to hold inputs at, of those that do not rest: each alone at both its ends, then all levers that go back when they are let go,
+    in all combinations of their ends. Of more than MOST_IN_ALL levers any two are in all their combinations (a Hadamard matrix)."""
+    alone = [{each.name: end} for each in inputs for end in each.range if end != each.rest_value]
+    levers = [each for each in inputs if not each.hold]
+    if len(levers) < 2:
+        return alone
+    sides = list(product((0, 1), repeat=len(levers))) if len(levers) <= MOST_IN_ALL else _pairs(len(levers))
+    together = [
+        {each.name: each.range[k] for each, k in zip(levers, row, strict=True) if each.range[k] != each.rest_value}
+        for row in sides
+    ]
+    return alone + [each for each in together if each and each not in alone]
+
+
+def _pairs(count: int) -> list[tuple[int, ...]]:
+    """Rows of zeros and ones of which any two columns have all four combinations."""
+    order = 1 << count.bit_length()
+    columns = [[(row & column).bit_count() % 2 for row in range(order)] for column in range(1, count + 1)]
+    return list(zip(*columns, strict=True))
+
+
 def _exact(machine: MachineRecord, settings: Mapping[str, Any], pace: Pace) -> Array | None:
     """Positions (bodies, 3) at the end by steps of half the length; None where that run ends before."""
     try:
@@ -127,7 +207,15 @@ def _cost(name: str, plan: Plan, pace: Pace, exact: Array | None, *, at_rest: bo
             return Cost(name, None, {}, note)
         note = f"{note}: this is with levers at rest"
     timing = timing_of(run.live)
-    return Cost(name, timing, shares(run.its, run.live.control, run.loop), note, off)
+    parts = shares(run.its, run.live.control, run.loop)
+    wanted = ends(plan.machine.inputs[:-COUNT])
+    held, begin = [], time.thread_time()
+    run = _Run(prepared_run(plan, pace), moved=False)
+    for values in wanted:
+        if time.thread_time() - begin > PATIENCE:
+            break
+        held.append(run.hold(values))
+    return Cost(name, timing, parts, note, off, held, len(wanted))
 
 
 class _Run:
@@ -143,8 +231,34 @@ class _Run:
         live.clock[SPEED] = 1e12
         live.control[[PACED, TICKS, FROM_TAPE]] = 1, ticks, int(moved)
         live.control[HEARD] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
+        self._arrays = arrays_of([*its.records, (live.value,)])
+        self._start = taken(self._arrays, 0)
         if moved:
             live.tape[:ticks] = swept(its.plan.machine.inputs, ticks, its.pace.tick)
+
+    def hold(self, values: Mapping[str, float]) -> Held:
+        """From the start, with inputs going to these values and the others at rest, until the machine stands still."""
+        live, control, pace = self.live, self.live.control, self.its.pace
+        put_back(self._arrays, self._start)
+        live.target[:] = [values.get(each.name, each.rest_value) for each in self.its.plan.machine.inputs]
+        live.histogram[:] = 0
+        control[[DONE, LONGEST, LATEST, FROM_TAPE]] = 0
+        control[TICKS], control[HEARD] = max(1, round(1.0 / pace.tick)), np.iinfo(np.int64).max // 2
+        before, status = None, BUDGET_SPENT
+        for second in range(1, HELD + 1):
+            status = self.loop()
+            after = self.pose()
+            still = before is not None and np.abs(after - before).max(initial=0.0) < STILL
+            before = after
+            if status != BUDGET_SPENT or (still and second >= HELD_AT_LEAST):
+                break
+        return Held(values, timing_of(live), nan if status == BUDGET_SPENT else int(control[DONE]) * pace.tick)
+
+    def pose(self) -> Array:
+        """Positions [m] and Euler parameters of all bodies in the newest frame."""
+        newest = self.live.frames[int(self.live.control[SHOWN] - 1) % len(self.live.frames)]
+        layout = self.its.prepared.motion.system.layout.variables
+        return np.concatenate([newest[each.columns] for each in layout if each.name in ("position", "orientation")])
 
     def go(self) -> int:
         """Tick until the end. Returns a status."""

@@ -74,14 +74,17 @@ def _percentiles(counts: np.ndarray, longest: float) -> tuple[float, ...]:
     return *(min(end, longest) for end in ends), longest
 
 
-def in_a_sentence(machine: str, integrator: str, timing: Timing, parts: Mapping[str, float]) -> str:
-    """What a tick costs, of which part what share, and what rate that would allow."""
+def in_a_sentence(
+    machine: str, integrator: str, timing: Timing, parts: Mapping[str, float], rate_held: float | None = None
+) -> str:
+    """What a tick costs, of which part what share, and what rate [Hz] that would allow; None: that of the timing."""
+    held = timing.rate_held if rate_held is None else rate_held
     rate, cost, median = 1.0 / timing.tick, 1e6 * timing.computing[3], 1e6 * timing.computing[0]
     ordered = sorted(((share, name) for name, share in parts.items() if share >= LEAST), reverse=True)
     shared = ", ".join(f"{100.0 * share:.0f} % {name}" for share, name in ordered)
     return (
         f"{machine} at {rate / 1e3:.4g} kHz costs {cost:.0f} µs a tick by {integrator} ({median:.0f} µs in the median"
-        f"{f', of which {shared}' if shared else ''}); it would hold {timing.rate_held / 1e3:.3g} kHz"
+        f"{f', of which {shared}' if shared else ''}); it would hold {held / 1e3:.3g} kHz"
     )
 
 

@@ -21,9 +21,10 @@ from nivel.files import parse_machine
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-PAGES = sorted([*DOCS.rglob("*.md"), ROOT / "README.md", ROOT / "NOTATION.md", ROOT / "benchmarks" / "README.md"])
+BESIDE = ("README.md", "NOTATION.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "benchmarks/README.md")
+PAGES = sorted([*DOCS.rglob("*.md"), *(ROOT / name for name in BESIDE)])
 # pages that are made when the site is built
-MADE = {"keys.md", "command-line.md", "notation.md", "benchmarks.md", "gallery.md"}
+MADE = {"keys.md", "command-line.md", "notation.md", "benchmarks.md", "changelog.md", "contributing.md", "gallery.md"}
 WRITTEN_HERE = [
     "index.md",
     "python.md",

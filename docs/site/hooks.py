@@ -14,6 +14,7 @@ from mkdocs.structure.pages import Page
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from cheat_sheet import SHEET_STYLE, cheat_sheet
 from gallery import crane_at_work, gallery
 from reference import command_page, key_page
 
@@ -46,9 +47,10 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     def add(path: str, content: str | bytes) -> None:
         files.append(File.generated(config, path, content=content))
 
-    add("assets/nivel.css", STYLE)
+    add("assets/nivel.css", STYLE + SHEET_STYLE)
     add("assets/iframe-worker.js", (ROOT / "docs" / "site" / "iframe-worker.js").read_bytes())
     add("keys.md", key_page())
+    add("cheat-sheet.md", cheat_sheet())
     add("command-line.md", command_page())
     for source, page in PAGES.items():
         if page != "index.md":
@@ -68,7 +70,10 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
-STYLE = ".md-typeset td code{word-break:normal;white-space:nowrap}.md-typeset table:not([class]){font-size:.66rem}"
+STYLE = (
+    ".md-typeset td code{word-break:normal;white-space:nowrap}.md-typeset table:not([class]){font-size:.66rem}"
+    ".md-typeset .admonition td code{white-space:normal}"
+)
 
 
 def on_page_content(html: str, **_: Any) -> str:

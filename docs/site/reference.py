@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import click
@@ -11,12 +11,7 @@ import click
 def key_page() -> str:
     """Every key of every element: what it takes, its default and meaning."""
     from nivel.files.assembly import Assembly
-    from nivel.machine import MachineRecord
-    from nivel.machine.control import BLOCKS
-    from nivel.machine.forces import FORCES
-    from nivel.machine.references import SECTIONS
 
-    kinds = {"forces": FORCES, "control": BLOCKS}
     lines = [
         "# Every key",
         "",
@@ -24,20 +19,58 @@ def key_page() -> str:
         "What the keys mean together stands in [machine files](machine-files.md).",
         "",
     ]
-    seen: set[type] = set()
-    for section in (*SECTIONS, "assembly", "simulation"):
-        records = kinds.get(section) or list(_records(MachineRecord.model_fields[section].annotation))
+    found = sections()
+    for section, records in found.items():
         if len(records) > 1:
             lines += [f"## {section}", ""]
         for record in records:
             lines += _table(record, section if len(records) == 1 else "", 2 if len(records) == 1 else 3)
-            seen.add(record)
     lines += _table(Assembly, "assemblies", 2)
-    parts = sorted({part for record in seen for part in _parts(record)} - seen, key=lambda part: part.__name__)
     lines += ["## Parts of elements", ""]
-    for part in parts:
+    for part in parts_of(record for records in found.values() for record in records):
         lines += _table(part, "", 3)
     return "\n".join(lines)
+
+
+def sections() -> dict[str, list[type]]:
+    """The records of every section of a machine file."""
+    from nivel.machine import MachineRecord
+    from nivel.machine.control import BLOCKS
+    from nivel.machine.forces import FORCES
+    from nivel.machine.hydraulics import COMPONENTS
+    from nivel.machine.hydraulics.fluid import Fluid, Gas
+    from nivel.machine.references import SECTIONS
+
+    # what is told apart by its type when it is read does not stand in the annotation
+    kinds: dict[str, list[type]] = {
+        "forces": [*FORCES],
+        "control": [*BLOCKS],
+        "fluids": [Fluid, Gas],
+        "hydraulics": [*COMPONENTS],
+    }
+    names = (*SECTIONS, "assembly", "simulation")
+    return {name: kinds.get(name) or list(_records(MachineRecord.model_fields[name].annotation)) for name in names}
+
+
+def parts_of(records: Iterable[type]) -> list[type]:
+    """Records in the fields of these, in the order of their names."""
+    seen = set(records)
+    return sorted({part for record in seen for part in _parts(record)} - seen, key=lambda part: part.__name__)
+
+
+def read_before(record: Any) -> dict[str, str]:
+    """Keys of the file that other keys take the place of before a record is made, with their meanings."""
+    from nivel.files.schema import schema
+
+    known = {field.alias or name for name, field in record.model_fields.items()}
+    written = schema()["$defs"].get(record.__name__, {}).get("properties", {})
+    return {key: text["description"] for key, text in written.items() if key not in known and "description" in text}
+
+
+def kind_of(record: Any) -> str:
+    """The word for `type:` of a record; empty where it has none or several."""
+    kind = record.model_fields["type"].default if "type" in record.model_fields else None
+    return kind if isinstance(kind, str) else ""
 
 
 def _records(annotation: Any) -> Iterator[type]:
@@ -63,9 +96,9 @@ def _parts(record: type) -> Iterator[type]:
 def _table(record: Any, section: str, level: int) -> list[str]:
     from nivel.machine.signature import words_of
 
-    kind = record.model_fields["type"].default if "type" in record.model_fields else None
+    kind = kind_of(record)
     alone = bool(record.collection)  # an element is known by its type, a part of one by its name
-    title = section or (f"`type: {kind}`" if isinstance(kind, str) and alone else record.__name__)
+    title = section or (f"`type: {kind}`" if kind and alone else record.__name__)
     text = " ".join((record.__doc__ or "").split("\n\n")[0].split())
     lines = [f"{'#' * level} {title}", "", text, "", "| key | takes | default | meaning |", "|---|---|---|---|"]
     for name, field in record.model_fields.items():
@@ -75,6 +108,7 @@ def _table(record: Any, section: str, level: int) -> list[str]:
         default = "must be given" if field.is_required() else _default(field)
         takes = words_of(field).replace("|", "or")
         lines.append(f"| `{key}` | {takes} | {default} | {(field.description or '').replace('|', 'or')} |")
+    lines += [f"| `{key}` | text | | {meaning} |" for key, meaning in read_before(record).items()]
     return [*lines, ""]
 
 

@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -18,13 +19,23 @@ from checking import check
 from example_files import rigid_example
 from nivel.analysis.plan.plan import plan_run
 from nivel.files import parse_machine
+from nivel.files.schema import schema as file_schema
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 BESIDE = ("README.md", "NOTATION.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "benchmarks/README.md")
 PAGES = sorted([*DOCS.rglob("*.md"), *(ROOT / name for name in BESIDE)])
 # pages that are made when the site is built
-MADE = {"keys.md", "command-line.md", "notation.md", "benchmarks.md", "changelog.md", "contributing.md", "gallery.md"}
+MADE = {
+    "changelog.md",
+    "cheat-sheet.md",
+    "contributing.md",
+    "keys.md",
+    "command-line.md",
+    "notation.md",
+    "benchmarks.md",
+    "gallery.md",
+}
 WRITTEN_HERE = [
     "index.md",
     "python.md",
@@ -160,6 +171,19 @@ def test_bash_completes_what_is_typed(typed, offered):
     assert offered in done.stdout.split()
 
 
+METHODS = (DOCS / "methods.md").read_text(encoding="utf-8")
+BOX = METHODS[METHODS.index("Which method?</p>") : METHODS.index("## Coordinates")]
+
+
+@pytest.mark.parametrize("settings", re.findall(r"`(\{.*?\})`", BOX))
+def test_the_box_of_methods_names_settings_that_run(settings, tmp_path):
+    (base,) = files_of(HOW_TO).values()
+    file = tmp_path / "base.yaml"
+    file.write_text(base, encoding="utf-8")
+    result = nivel.load(file).with_settings({**yaml.safe_load(settings), "duration": 0.05}).simulate()
+    assert result.trust.verdict == "green"
+
+
 def test_there_are_thirty_answers():
     assert len(ANSWERS) >= 30
 
@@ -213,8 +237,44 @@ def test_no_page_of_the_site_fetches_anything(site):
         assert not re.findall(r'<(?:script|img|iframe|link)\b[^>]*?(?:src|href)="?(?:https?:)?//[^>]*', text), page
 
 
-def test_the_site_is_searched_when_it_is_opened_from_a_disk(site):
-    with chromium() as browser, watched(browser) as seen:
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as running:
+        yield running
+
+
+def test_the_keys_of_a_machine_file_stand_on_one_screen(site, browser):
+    with watched(browser, width=1280, height=800) as seen:
+        seen.page.goto((site / "cheat-sheet.html").as_uri())
+        sheet = seen.page.locator(".sheet").bounding_box()
+        assert sheet["x"] + sheet["width"] <= 1280
+        assert sheet["y"] + sheet["height"] <= 1.05 * 800
+        size = seen.page.evaluate("getComputedStyle(document.querySelector('.sheet')).fontSize")
+        assert float(size.removesuffix("px")) >= 8
+
+
+def keys_of_the_schema():
+    """(kind, keys) of all elements in the schema that editors use, which is made of what reads a machine file."""
+    definitions = file_schema()["$defs"]
+    for each in definitions.values():
+        kind = each.get("properties", {}).get("type", {}).get("const", "")
+        yield kind, set(each.get("properties", {})) - {"type", "name"}
+
+
+@pytest.mark.parametrize(("module", "page"), [("cheat_sheet", "cheat_sheet"), ("reference", "key_page")])
+def test_every_key_stands_on_the_pages_of_keys(module, page, monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS / "site"))
+    text = getattr(importlib.import_module(module), page)()
+    words = set(re.findall(r"[\w-]+", re.sub(r"</?(?:b|i|u)>", " ", text)))
+    found = [kind for kind, _ in keys_of_the_schema()]
+    assert len(found) > 60
+    words |= {"markers", "bodies", "points"} if "ends" in words else set()
+    assert {kind for kind in found if kind} <= words
+    assert set().union(*(keys for _, keys in keys_of_the_schema())) <= words
+
+
+def test_the_site_is_searched_when_it_is_opened_from_a_disk(site, browser):
+    with watched(browser) as seen:
         page = seen.page
         seen.context.set_offline(True)
         for start in ("index.html", "tutorials/pendulum.html"):
@@ -249,3 +309,10 @@ def test_every_example_has_a_picture_in_the_gallery(monkeypatch):
     page, drawn = gallery.gallery(True)
     assert len(drawn) == len(gallery.examples()) == page.count("![")
     assert all("<path" in svg or "<line" in svg or "<poly" in svg for svg in drawn.values())
+
+
+def test_the_site_is_built_by_the_versions_that_its_page_names():
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    for extra in ("docs", "dev"):
+        assert any(re.fullmatch(r"mkdocs-material>=9\.\d+,<10", each) for each in needed[extra])
+        assert any(re.fullmatch(r"mkdocs>=1\.\d+,<2", each) for each in needed[extra])

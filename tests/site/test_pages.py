@@ -18,6 +18,7 @@ from browsing import chromium, watched
 from checking import check
 from example_files import rigid_example
 from nivel.analysis.plan.plan import plan_run
+from nivel.cli import COMMANDS
 from nivel.files import parse_machine
 from nivel.files.schema import schema as file_schema
 
@@ -316,3 +317,8 @@ def test_the_site_is_built_by_the_versions_that_its_page_names():
     for extra in ("docs", "dev"):
         assert any(re.fullmatch(r"mkdocs-material>=9\.\d+,<10", each) for each in needed[extra])
         assert any(re.fullmatch(r"mkdocs>=1\.\d+,<2", each) for each in needed[extra])
+
+
+def test_the_page_of_all_functions_names_every_command():
+    text = (DOCS / "features.md").read_text(encoding="utf-8")
+    assert {name for name in COMMANDS if f"| `nivel {name}" not in text} == set()

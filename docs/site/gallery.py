@@ -151,7 +151,7 @@ def _picture(path: Path) -> str:
     return ""
 
 
-# (time [s], position) of the levers of the loader crane of `nivel demo`, which lifts a load and lays it on its truck
+# (time [s], position) of the levers of the loader crane of `nivel demo`, which lifts a load and swings it over its truck
 LEVERS = {
     "lift_lever": ((0.4, 0), (0.8, 0.8), (3.4, 0.8), (3.8, 0), (8.2, 0), (8.8, -0.4), (10, -0.4), (10.6, 0)),
     "slew_lever": ((2.6, 0), (4.7, 0.48), (6.3, 0.48), (8.4, 0)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import cache
 from typing import Any
 
 import click
@@ -60,11 +61,16 @@ def parts_of(records: Iterable[type]) -> list[type]:
 
 def read_before(record: Any) -> dict[str, str]:
     """Keys of the file that other keys take the place of before a record is made, with their meanings."""
+    known = {field.alias or name for name, field in record.model_fields.items()}
+    written = _definitions().get(record.__name__, {}).get("properties", {})
+    return {key: text["description"] for key, text in written.items() if key not in known and "description" in text}
+
+
+@cache
+def _definitions() -> dict[str, Any]:
     from nivel.files.schema import schema
 
-    known = {field.alias or name for name, field in record.model_fields.items()}
-    written = schema()["$defs"].get(record.__name__, {}).get("properties", {})
-    return {key: text["description"] for key, text in written.items() if key not in known and "description" in text}
+    return schema()["$defs"]
 
 
 def kind_of(record: Any) -> str:

@@ -39,6 +39,8 @@ def build(folder, *targets):
 def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
     machine = nivel.load(EXAMPLES / file).with_settings(settings)
     written = machine.export_c(tmp_path / "c")
+    header = (written.folder / f"{written.name}.h").read_text(encoding="utf-8")
+    assert f"Written by nivel {nivel.__version__}." in header
     done = subprocess.run([build(written.folder) / "example"], check=True, capture_output=True, text=True, timeout=120)
     names, *rows = csv.reader(io.StringIO(done.stdout))
     result = machine.simulate(output_interval=machine.record.simulation.step)

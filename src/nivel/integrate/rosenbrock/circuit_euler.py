@@ -7,6 +7,9 @@
 J is that of `nivel.motion.circuit_shift`, and f is taken at the begin of each part: with the evaluation at y, which a step begins with in
 any case, it takes two evaluations. What changes with the time is late by the part, which the extrapolation removes.
 
+Where an end stop that was free at the begin is met in the middle, J of the second half is that of the middle, with the slopes of the stop,
+and Y₂ is taken as it is: Y₁ has passed through the stop, and an extrapolation from it would throw the piston back.
+
 The guard is the same. How far the pressures of Y₁ and Y₂ differ follows from masses and strokes by their slopes before and behind the step;
 where that is more than a part of LARGEST, both are evaluated.
 
@@ -18,10 +21,20 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
-from nivel.integrate.rosenbrock.extrapolated_euler import HALVES, RATE, WHOLE, is_state, pressure_difference
+from nivel.integrate.rosenbrock.extrapolated_euler import (
+    EXTRAPOLATED,
+    HALVES,
+    NO_STATE,
+    PLAIN,
+    RATE,
+    WHOLE,
+    is_state,
+    pressure_difference,
+)
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.tangent import find_slopes, slope_by_mass
+from nivel.kernels.hydraulics.piston import a_stop_is_met, pushing_stops
+from nivel.kernels.hydraulics.tangent import GUIDE, find_slopes, slope_by_mass
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.circuit_shift import advance_circuit, factorise_circuit, soften
@@ -62,7 +75,7 @@ def judged_difference(machine, run):
 
 @leaf
 def difference_in_step(evaluate, machine, run):
-    """How far the pressures [Pa] of Y₁ and Y₂ differ; infinite where these, or 2 Y₂ - Y₁ in `trial`, are no states.
+    """How far the pressures [Pa] of Y₁ and Y₂ differ; infinite where these, or what is made of them in `trial`, are no states.
 
     Where the last one can be taken it is the state last evaluated, with its rate in `scratch`, or KNOWN is 0.
     """
@@ -81,11 +94,21 @@ def difference_in_step(evaluate, machine, run):
     return difference
 
 
+@leaf
+def renew_slopes(machine, t, s):
+    """Factors of the halves with the slopes of the state last evaluated; the mechanics answer as at the begin. Returns a status."""
+    find_slopes(machine, t)
+    soften(record_at(machine).circuit.tangent)
+    return factorise_circuit(machine, OF_HALVES, s)
+
+
 @shared
 def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
-    """Fill WHOLE and HALVES from the state y, last evaluated. Returns a status, and whether HALVES is filled."""
+    """Fill WHOLE and HALVES from the state y, last evaluated. Returns a status, and what becomes of the step."""
     y, middle, other = run.y, run.trial, run.stages[OTHER]
     record_at(machine).circuit.tangent.travel[:, :] = 0.0
+    guides = record_at(machine).circuit.tangent.family[GUIDE]
+    pushing = pushing_stops(machine, guides) if guides != NONE else 0
     find_slopes(machine, t)
     run.counter[EVALUATIONS] += 1
     run.counter[FACTORISATIONS] += 2
@@ -98,17 +121,23 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
     if status == OK:
         status = leave(machine, y, run.rate, 0.5 * h, other)
     if status != OK:
-        return status, False
+        return status, NO_STATE
     advance_circuit(machine, OF_HALVES, 0.5 * h, run.rate, other, y, middle)
     if not is_state(machine, middle) or call_evaluate(evaluate, machine, t + 0.5 * h, middle, run.stages[RATE]) != OK:
-        return OK, False
-    status = renew(machine, 0.5 * h)
+        return OK, NO_STATE
+    outcome = EXTRAPOLATED
+    if guides != NONE and a_stop_is_met(machine, guides, pushing):
+        outcome = PLAIN
+        run.counter[FACTORISATIONS] += 1
+        status = renew_slopes(machine, t + 0.5 * h, 0.5 * h)
+    if status == OK:
+        status = renew(machine, 0.5 * h)
     if status == OK:
         status = leave(machine, middle, run.stages[RATE], 0.5 * h, other)
     if status != OK:
-        return status, False
+        return status, NO_STATE
     advance_circuit(machine, OF_HALVES, 0.5 * h, run.stages[RATE], other, middle, run.stages[HALVES])
-    return OK, is_state(machine, run.stages[HALVES])
+    return OK, outcome if is_state(machine, run.stages[HALVES]) else NO_STATE
 
 
 @shared
@@ -120,15 +149,16 @@ def attempt_over_circuits(evaluate, machine, history, prepare, renew, leave):
     """
     run = run_at(history)
     whole, halves, trial = run.stages[WHOLE], run.stages[HALVES], run.trial
-    status, filled = fill_both(evaluate, machine, run, run.clock[TIME], run.clock[STEP], prepare, renew, leave)
+    status, outcome = fill_both(evaluate, machine, run, run.clock[TIME], run.clock[STEP], prepare, renew, leave)
     if status != OK:
         return status, np.inf
+    beyond = 1.0 if outcome == EXTRAPOLATED else 0.0
     for i in range(trial.shape[0]):
-        trial[i] = 2.0 * halves[i] - whole[i]
-    difference = difference_in_step(evaluate, machine, run) if filled else np.inf
+        trial[i] = halves[i] + beyond * (halves[i] - whole[i])
+    difference = difference_in_step(evaluate, machine, run) if outcome != NO_STATE else np.inf
     if not difference <= LARGEST:
         for i in range(trial.shape[0]):
-            trial[i] = halves[i] if filled else whole[i]
+            trial[i] = halves[i] if outcome != NO_STATE else whole[i]
     return OK, difference
 
 

@@ -10,8 +10,11 @@ it is one step of Newton's method on a root.
 
 Guard: where pressures of Y₁ and Y₂ differ by more than LARGEST, or a mass would vanish, the step is made in parts
 (`nivel.integrate.rosenbrock.parts`). Of the smallest parts that cannot be trusted either Y₂ is taken, or where that is no state, Y₁; they
-are counted,
-and the largest difference is kept, in `Circuit.guard`.
+are counted, and the largest difference is kept, in `Circuit.guard`.
+
+Where surfaces of a contact or stop that were apart at the begin touch in the middle, J of the second half is that of the middle, and Y₂ is
+taken as it is: J of the begin knows nothing of the contact, whose force over half a step would throw the bodies back, and so would an
+extrapolation from Y₁, which has passed through the surface.
 """
 
 from __future__ import annotations
@@ -21,6 +24,7 @@ import numpy as np
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
+from nivel.kernels.forces.impact import meet, part
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
@@ -29,6 +33,8 @@ from nivel.native.function import leaf, stage
 
 # rows of run.stages: rates inside the step, Y₁, Y₂, the rate at the begin
 RATE, WHOLE, HALVES, BEGIN = 0, 1, 2, 3
+# What becomes of a step: Y₂ is no state; Y₂ is taken as it is; 2 Y₂ - Y₁ is taken.
+NO_STATE, PLAIN, EXTRAPOLATED = 0, 1, 2
 
 
 @leaf
@@ -78,31 +84,61 @@ def pressure_difference(evaluate, machine, run):
 
 
 @leaf
+def surfaces_meet(machine):
+    """Whether surfaces touch in the state last evaluated that did not touch before; the speeds at which they met are kept while they do."""
+    record = record_at(machine)
+    met = False
+    for j in range(record.watched.surface.shape[0]):
+        part(record.elements, record.watched.surface[j, 0], record.watched.surface[j, 1])
+        if meet(record.elements, record.watched.surface[j, 0], record.watched.surface[j, 1]):
+            met = True
+    return met
+
+
+@leaf
+def renew_parts(machine, t, y, rate, s):
+    """Factors for s with the derivatives at the state y, last evaluated, with its rate. Returns a status."""
+    keep_multipliers(machine)
+    status = find_parts(machine, t, y, rate)
+    if status == OK:
+        status = factorise_shifted(machine, record_at(machine).newton.shifted.real, s)
+    return status
+
+
+@leaf
 def both(evaluate, machine, run, t, h):
-    """Fill WHOLE and HALVES from the state y, last evaluated. Returns a status, and whether HALVES is filled."""
+    """Fill WHOLE and HALVES from the state y, last evaluated. Returns a status, and what becomes of the step."""
     y, rate = run.y, run.stages[RATE]
     shifted = record_at(machine).newton.shifted
+    surfaces_meet(machine)
     status = find_parts(machine, t, y, run.rate)
     if status == OK:
         status = call_evaluate(evaluate, machine, run.clock[REACHED], y, rate)
     if status == OK:
         status = factorise_shifted(machine, shifted.real, h)
     if status != OK:
-        return status, False
+        return status, NO_STATE
     advance_linearly(machine, run, y, h, run.stages[WHOLE])
     status = call_evaluate(evaluate, machine, t + 0.5 * h, y, rate)
     if status == OK:
         status = factorise_shifted(machine, shifted.real, 0.5 * h)
     if status != OK:
-        return status, False
+        return status, NO_STATE
     middle = run.trial
     advance_linearly(machine, run, y, 0.5 * h, middle)
     run.counter[EVALUATIONS] += 3
     run.counter[FACTORISATIONS] += 2
     if not is_state(machine, middle) or call_evaluate(evaluate, machine, run.clock[REACHED], middle, rate) != OK:
-        return OK, False
+        return OK, NO_STATE
+    outcome = EXTRAPOLATED
+    if surfaces_meet(machine):
+        outcome = PLAIN
+        run.counter[FACTORISATIONS] += 1
+        status = renew_parts(machine, run.clock[REACHED], middle, rate, 0.5 * h)
+        if status != OK:
+            return status, NO_STATE
     advance_linearly(machine, run, middle, 0.5 * h, run.stages[HALVES])
-    return OK, True
+    return OK, outcome if is_state(machine, run.stages[HALVES]) else NO_STATE
 
 
 @stage
@@ -111,19 +147,20 @@ def attempt(evaluate, machine, history):
     run, circuit = run_at(history), record_at(machine).circuit
     whole, halves, trial = run.stages[WHOLE], run.stages[HALVES], run.trial
     keep_multipliers(machine)
-    status, filled = both(evaluate, machine, run, run.clock[TIME], run.clock[STEP])
+    status, outcome = both(evaluate, machine, run, run.clock[TIME], run.clock[STEP])
     if status != OK:
         return status, np.inf
-    filled, difference = filled and is_state(machine, halves), np.inf
-    if filled and is_state(machine, whole):
+    difference = np.inf
+    if outcome != NO_STATE and is_state(machine, whole):
         difference = 0.0 if circuit.node.shape[0] == 0 else pressure_difference(evaluate, machine, run)
+    beyond = 1.0 if outcome == EXTRAPOLATED else 0.0
     for i in range(trial.shape[0]):
-        trial[i] = 2.0 * halves[i] - whole[i]
+        trial[i] = halves[i] + beyond * (halves[i] - whole[i])
     if not is_state(machine, trial):
         difference = np.inf
     if not difference <= LARGEST:
         for i in range(trial.shape[0]):
-            trial[i] = halves[i] if filled else whole[i]
+            trial[i] = halves[i] if outcome != NO_STATE else whole[i]
     return OK, difference
 
 

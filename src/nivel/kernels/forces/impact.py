@@ -2,12 +2,13 @@
 
 The factor a follows from the approach speed v and the coefficient of restitution e: the motion m v̇ = -K δⁿ (1 + a δ̇) leaves with
 speed e v where ln((1 + x)/(1 - e x)) = x (1 + e), x = a v, whatever K, n and m are (integrate v dv/(1 + a v) over the contact). x is
-a number of the element; v is remembered from the first accepted state in contact.
+a number of the element; v is remembered from the first accepted state in contact, so it is a constant of the contact, of which no
+derivative is taken.
 """
 
 from __future__ import annotations
 
-from nivel.kernels.algebra.analytic import absolute, maximum, real, real_power
+from nivel.kernels.algebra.analytic import absolute, real, real_power
 from nivel.native.function import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
@@ -24,8 +25,8 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     nothing = 0.0 * rate
     if real(depth) <= 0.0 and not (followed == 1 and remembered > 0.0):
         return nothing, nothing, nothing, nothing
-    speed = remembered if remembered > 0.0 else maximum(rate, SLOWEST)
-    kept = speed if real(depth) > 0.0 else nothing
+    speed = remembered if remembered > 0.0 else max(real(rate), SLOWEST)
+    kept = speed + nothing if real(depth) > 0.0 else nothing
     if followed == 1 and remembered == 0.0:
         return nothing, nothing, nothing, kept
     elastic = stiffness * real_power(absolute(depth), exponent)
@@ -35,3 +36,30 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     if real(depth) > 0.0 and real(force) < 0.0:
         force = nothing
     return force, elastic * depth / (exponent + 1.0), (force - elastic) * rate, kept
+
+
+@leaf
+def slopes_of_impact(depth, rate, stiffness, x, remembered):
+    """(∂F/∂δ, ∂F/∂δ̇) of `impact` with the exponent 1, for real numbers: K (1 + a δ̇) and K δ a while the surfaces push."""
+    speed = remembered if remembered > 0.0 else max(rate, SLOWEST)
+    push = 1.0 + x / speed * rate
+    if depth <= 0.0 or push <= 0.0:
+        return 0.0, 0.0
+    return stiffness * push, stiffness * depth * x / speed
+
+
+@leaf
+def meet(elements, k, i):
+    """Whether surface i of element k, apart in the last accepted state, touches in the state last evaluated: then the approach speed is
+    that of this state."""
+    if elements.memory[k, i] > 0.0 or not real(elements.depth[k, i]) > 0.0:
+        return False
+    elements.memory[k, i] = real(elements.proposal[k, i])
+    return True
+
+
+@leaf
+def part(elements, k, i):
+    """Forget that surface i of element k has touched, where it is apart in the state last evaluated."""
+    if not real(elements.depth[k, i]) > 0.0:
+        elements.memory[k, i] = 0.0

@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
-from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.impact import impact, meet, part, slopes_of_impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from nivel.kernels.hydraulics.slopes import add_by_pressure
@@ -34,6 +34,8 @@ FORCE, POWER, POSITION, SPEED, FRICTION = 0, 1, 2, 3, 4
 COULOMB, SEAL, STATIC, STRIBECK, TRANSITION, VISCOUS, STROKE, STIFFNESS, LOSS = 1, 2, 3, 4, 5, 6, 7, 8, 9
 # pressure difference [Pa] below which the friction by pressure is rounded
 ROUNDED = 1e5
+# bits of the number that says which end stops push; further ones count as met in every step in which they push
+BITS = 62
 
 
 @leaf
@@ -149,7 +151,7 @@ def add_slopes_of_pressing(machine, number):
 
 @leaf
 def add_slopes_of_guides(machine, number):
-    """Slopes of the friction of pistons, and of the elastic part of their end stops."""
+    """Slopes of the friction of pistons and of their end stops."""
     record = record_at(machine)
     elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
     tangent = circuit.tangent
@@ -170,5 +172,52 @@ def add_slopes_of_guides(machine, number):
         add_by_pressure(circuit, row, index[NODE_A], -by_pressure)
         if index[NODE_B] != NONE:
             add_by_pressure(circuit, row, index[NODE_B], by_pressure)
-        if elements.depth[k, 0] > 0.0 or elements.depth[k, 1] > 0.0:
-            row[states + c] -= n[STIFFNESS]
+        for end in range(2):
+            rate = v if end == 1 else -v
+            by_depth, by_rate = slopes_of_impact(
+                elements.depth[k, end], rate, n[STIFFNESS], n[LOSS], elements.memory[k, end]
+            )
+            row[states + c] -= by_depth
+            row[states + count + c] -= by_rate
+
+
+@leaf
+def stop_pushes(elements, k, end, v):
+    """Whether an end stop of piston k pushes it at the speed v, in the state last evaluated."""
+    rate = v if end == 1 else -v
+    by_depth, _ = slopes_of_impact(
+        elements.depth[k, end], rate, elements.number[k, STIFFNESS], elements.number[k, LOSS], elements.memory[k, end]
+    )
+    return by_depth > 0.0
+
+
+@leaf
+def pushing_stops(machine, number):
+    """The end stops that push in the state last evaluated, with which a part of a step begins: bit j of the j-th of the first BITS."""
+    record = record_at(machine)
+    elements, coordinates = record.elements, record.coordinates
+    pushing, j = np.int64(0), np.int64(0)
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        for end in range(2):
+            part(elements, k, end)
+            meet(elements, k, end)
+            if j < BITS and stop_pushes(elements, k, end, coordinates.rate[elements.columns[k, COORDINATE]]):
+                pushing |= np.int64(1) << j
+            j += 1
+    return pushing
+
+
+@leaf
+def a_stop_is_met(machine, number, before):
+    """Whether an end stop pushes in the state last evaluated that is not among those of `before`; the speed at which it is met is kept."""
+    record = record_at(machine)
+    elements, coordinates = record.elements, record.coordinates
+    met, j = False, np.int64(0)
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        for end in range(2):
+            meet(elements, k, end)
+            known = j < BITS and (before >> j) & 1 == 1
+            if not known and stop_pushes(elements, k, end, coordinates.rate[elements.columns[k, COORDINATE]]):
+                met = True
+            j += 1
+    return met

@@ -130,6 +130,25 @@ def test_edges_of_a_4_3_valve_open_beyond_their_overlap(u, centre):
         assert flow == pytest.approx(K * (1.0 - step(abs(read) / 0.1)) * root(difference * BAR), rel=1e-4, abs=1e-18)
 
 
+@pytest.mark.parametrize(("overlap", "rounding"), [(0.0, 0.02), (0.1, 0.02), (0.3, 0.1), (-0.2, 0.02)])
+@pytest.mark.parametrize("u", [0.11, 0.35, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("ways", ["4/3", "2/2", "3/2"])
+def test_an_edge_opens_as_its_page_says(ways, u, overlap, rounding):
+    """x = R(z)/R(1 - overlap), which is 1 at a full stroke: there the flow is that of the rating, whatever the overlap is."""
+    valve = {"type": "directional-valve", "ways": ways, "overlap": overlap, "rounding": rounding, "command": u, **RATED}
+    ports = {
+        "4/3": {"P": 100, "T": 2, "A": 60, "B": 30},
+        "2/2": {"P": 100, "A": 60},
+        "3/2": {"P": 100, "T": 2, "A": 60},
+    }[ways]
+    (flow,) = steady(between(valve, **{port: p * BAR for port, p in ports.items()}), "valve.flow_PA")
+    z = 2 * u - 1 - overlap if ways == "3/2" else u - overlap
+    opening = ramp(z, rounding) / ramp(1 - overlap, rounding)
+    assert flow == pytest.approx(K * opening * root(40 * BAR), rel=1e-9, abs=1e-18)
+    if u == 1.0:
+        assert flow == pytest.approx(K * root(40 * BAR), rel=1e-12)
+
+
 @pytest.mark.parametrize(("ways", "u", "open_edges"), [
     ("2/2", 0.0, ()), ("2/2", 1.0, ("PA",)),
     ("3/2", 0.0, ("AT",)), ("3/2", 1.0, ("PA",)),

@@ -1,9 +1,15 @@
 """Pressures of the nodes of a circuit: volumes, given pressures, and pressures that are signals.
 
 The state of a volume is the mass m of its fluid; its pressure is the root of m v(p)/ρ₀ = V + V_e(p). V is what pistons leave open and a
-constant part, V_e what elastic walls, (p - pa) C, and the gas of an accumulator, V₀ R(1 - (p₀/p)^(1/n)), make room for. Energy stored:
+constant part, V_e what elastic walls, (p - pa) C, and the gas of an accumulator make room for. Energy stored:
 
     E = m h - (p - pa) (V + V_e) + ∫ (p - pa) dV_e
+
+The gas of an accumulator fills V₀ at its precharge p₀, and above it follows p (V₀ - V_oil)ⁿ = p₀ V₀ⁿ. Below, it presses up to half of the
+oil out of the dead volume V_d and then rests on its inlet; R is a ramp of the width w:
+
+    V_oil = V₀ (R(y + w) - w/2), y = 1 - (p₀/p)^(1/n), w = min(2 %, V_d/V₀)        V_oil = V₀ y for p ≥ p₀
+    ∫ p dV_oil = p₀ V₀ ((1 - y)^(1 - n) - 1)/(n - 1), or -p₀ V₀ ln(1 - y) for n = 1, from p₀ on
 """
 
 from __future__ import annotations
@@ -27,7 +33,7 @@ VOLUME, GIVEN, SIGNAL = 0, 1, 2
 FIXED, COMPLIANCE, GAS, PRECHARGE, EXPONENT = 0, 1, 2, 3, 4
 # columns of `Circuit.known`: mass [kg] and volume [m³] without V_e, pressure, v and its derivative, ρ₀ h, V_e and its derivative
 MASS, OPEN, PRESSURE, VALUE, RATE, ENERGY, EXTRA, GIVE = 0, 1, 2, 3, 4, 5, 6, 7
-# Gas gives way over this share of its volume, smoothly.
+# Gas comes to rest on its inlet within this share of its volume, or that of the dead volume where it is less.
 GAS_WIDTH = 0.02
 # points and weights of Gauss's rule on [0, 1], for the energy within that width
 NODES = (0.5 - 0.5 * np.sqrt(0.6), 0.5, 0.5 + 0.5 * np.sqrt(0.6))
@@ -35,34 +41,43 @@ WEIGHTS = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
 
 
 @leaf
+def rest_width(n):
+    """w: share of the volume of the gas within which it comes to rest on its inlet."""
+    return min(GAS_WIDTH, n[FIXED] / n[GAS])
+
+
+@leaf
 def room(n, p):
     """(V_e [m³], dV_e/dp) at the real pressure p."""
     volume, slope = n[COMPLIANCE] * (p - ATMOSPHERE), n[COMPLIANCE]
     if n[GAS] > 0.0:
-        left = (n[PRECHARGE] / p) ** (1.0 / n[EXPONENT])
-        volume += n[GAS] * ramp(1.0 - left, GAS_WIDTH)
-        slope += n[GAS] * step((1.0 - left) / GAS_WIDTH) * left / (n[EXPONENT] * p)
+        left, width = (n[PRECHARGE] / p) ** (1.0 / n[EXPONENT]), rest_width(n)
+        if p >= n[PRECHARGE]:
+            volume += n[GAS] * (1.0 - left)
+            slope += n[GAS] * left / (n[EXPONENT] * p)
+        else:
+            volume += n[GAS] * (ramp(1.0 - left + width, width) - 0.5 * width)
+            slope += n[GAS] * step((1.0 - left) / width + 1.0) * left / (n[EXPONENT] * p)
     return volume, slope
 
 
 @leaf
 def energy_of_room(n, p):
-    """∫ (p - pa) dV_e from atmospheric pressure to p [J]."""
+    """∫ (p - pa) dV_e [J]: of walls from atmospheric pressure to p, of gas from its precharge."""
     stored = 0.5 * n[COMPLIANCE] * (p - ATMOSPHERE) ** 2
     if n[GAS] > 0.0:
-        gas, first, exponent = n[GAS], n[PRECHARGE], n[EXPONENT]
-        y = 1.0 - (first / p) ** (1.0 / exponent)
-        within = min(max(y, 0.0), GAS_WIDTH)
-        for k in range(3):
-            x = within * NODES[k]
-            stored += within * WEIGHTS[k] * gas * step(x / GAS_WIDTH) * (first * (1.0 - x) ** (-exponent) - ATMOSPHERE)
-        if y > GAS_WIDTH:
-            if exponent > 1.0:
-                grown = (1.0 - y) ** (1.0 - exponent) - (1.0 - GAS_WIDTH) ** (1.0 - exponent)
-                stored += gas * first * grown / (exponent - 1.0)
-            else:
-                stored += gas * first * np.log((1.0 - GAS_WIDTH) / (1.0 - y))
-            stored -= gas * ATMOSPHERE * (y - GAS_WIDTH)
+        pressed = np.log(p / n[PRECHARGE]) / n[EXPONENT]  # -ln(1 - y)
+        if p >= n[PRECHARGE]:
+            over = n[EXPONENT] - 1.0
+            work = np.expm1(over * pressed) / over if over != 0.0 else pressed
+            stored += n[GAS] * (n[PRECHARGE] * work + ATMOSPHERE * np.expm1(-pressed))
+        else:
+            width = rest_width(n)
+            y = max(-np.expm1(-pressed), -width)
+            for k in range(3):
+                x = y * NODES[k]
+                over = n[PRECHARGE] * (1.0 - x) ** (-n[EXPONENT]) - ATMOSPHERE
+                stored += y * WEIGHTS[k] * n[GAS] * step(x / width + 1.0) * over
     return stored
 
 

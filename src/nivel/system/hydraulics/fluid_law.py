@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from nivel.kernels.hydraulics.fluid import ATMOSPHERE, DENSITY, specific_volume
-from nivel.kernels.hydraulics.volume import COMPLIANCE, EXPONENT, FIXED, GAS, GAS_WIDTH, PRECHARGE
+import numpy as np
+
+from nivel.kernels.hydraulics.fluid import DENSITY, specific_volume
+from nivel.kernels.hydraulics.volume import FIXED
+from nivel.kernels.hydraulics.volume import room as room_of_walls_and_gas
 
 # as it is written: kernels call it compiled
 _LAW: Any = getattr(specific_volume, "py_func", specific_volume)
+_ROOM: Any = getattr(room_of_walls_and_gas, "py_func", room_of_walls_and_gas)
 
 
 def density_and_modulus(fluid: Sequence[float], p: float) -> tuple[float, float]:
@@ -21,9 +25,6 @@ def density_and_modulus(fluid: Sequence[float], p: float) -> tuple[float, float]
 def mass_at(fluid: Sequence[float], room: Sequence[float], swept: float, p: float) -> float:
     """[kg] in a volume at the pressure p, of which pistons leave `swept` [m³] open; `room` is a row of `Circuit.room`."""
     density, _ = density_and_modulus(fluid, p)
-    volume = room[FIXED] + swept + room[COMPLIANCE] * (p - ATMOSPHERE)
-    if room[GAS] > 0.0:
-        y = 1.0 - (room[PRECHARGE] / p) ** (1.0 / room[EXPONENT])
-        t = min(max(y / GAS_WIDTH, 0.0), 1.0)
-        volume += room[GAS] * (GAS_WIDTH * t**3 * (1.0 - 0.5 * t) if t < 1.0 else y - 0.5 * GAS_WIDTH)
+    extra, _ = _ROOM(np.asarray(room), p)
+    volume = room[FIXED] + swept + extra
     return density * volume

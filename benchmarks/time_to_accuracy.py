@@ -91,7 +91,7 @@ class OwnRun:
         self.row.fineness = f"{name} {enough[0][name]:.2g}"
 
     def measure(self) -> None:
-        timing = self._machine.simulate(**self._options, output_interval=self._options["duration"]).timing
+        timing = self._machine.simulate(verify=False, **self._options, output_interval=self._options["duration"]).timing
         self.row.steps = int(timing["steps"])
         self.row.times.append(timing["loop_seconds"])
 
@@ -103,7 +103,9 @@ class OwnRun:
 
     def _error(self, options: dict[str, float]) -> float:
         try:
-            result = self._machine.simulate(**self._options | options, output_interval=options.get("step", FRAMES))
+            result = self._machine.simulate(
+                verify=False, **self._options | options, output_interval=options.get("step", FRAMES)
+            )
         except nivel.SolveError:  # too coarse to finish
             return math.inf
         position = result["position"].values

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from nivel.api import Machine
+
 # the first example of a test may compile a kernel, so there is no deadline; the same examples every time keep CI steady
 settings.register_profile("nivel", deadline=None, derandomize=True)
 settings.load_profile("nivel")
+
+# a second run is made by tests of it alone, which say `verify=True`: all others would take twice their time
+Machine.simulate.__wrapped__.__kwdefaults__["verify"] = False
 
 
 def pytest_collection_modifyitems(items):

@@ -172,4 +172,4 @@ def crane_at_work() -> str:
     for name, points in LEVERS.items():
         times, positions = zip((0.0, 0.0), *points, (AT_WORK, 0.0), strict=True)
         inputs[name] = Table(times, positions)
-    return scene_html([machine.simulate(inputs=inputs)])
+    return scene_html([machine.simulate(verify=False, inputs=inputs)])

@@ -66,4 +66,8 @@ def cantilever(count: int) -> MachineRecord:
 if __name__ == "__main__":
     from nivel import Machine
 
-    print(Machine.from_record(cantilever(8)).simulate())
+    print(
+        Machine.from_record(cantilever(8)).simulate(
+            verify=False,
+        )
+    )

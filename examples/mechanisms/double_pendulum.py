@@ -28,6 +28,8 @@ machine = nivel.Machine(
 )
 
 if __name__ == "__main__":
-    result = machine.simulate()
+    result = machine.simulate(
+        verify=False,
+    )
     print(result)
     print(f"elbow at the end: {float(result['elbow.angle'][-1]):.3f} rad")

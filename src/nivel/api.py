@@ -59,6 +59,15 @@ if TYPE_CHECKING:
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
+    from nivel.machine.settings import (
+        Coordinates,
+        Formulation,
+        Integrator,
+        Rotations,
+        Stabilisation,
+        Start,
+        StepControl,
+    )
     from nivel.native.entry import Entry
     from nivel.results.analyses.configuration_curve import ConfigurationCurve
     from nivel.results.analyses.efforts import Efforts
@@ -68,6 +77,10 @@ if TYPE_CHECKING:
     from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
+
+    StaticCoordinates = Literal["auto", "absolute", "relative"]
+else:  # other words are refused by those who read settings, with the nearest one
+    Coordinates = Formulation = Integrator = Rotations = Stabilisation = Start = StaticCoordinates = StepControl = str
 
 
 class Machine(Model):
@@ -182,13 +195,13 @@ class Machine(Model):
         duration: float | str | None = None,
         step: float | str | None = None,
         output_interval: float | str | None = None,
-        integrator: str | None = None,
-        formulation: str | None = None,
-        coordinates: str | None = None,
-        rotations: str | None = None,
-        stabilisation: str | None = None,
-        start: str | None = None,
-        step_control: str | None = None,
+        integrator: Integrator | None = None,
+        formulation: Formulation | None = None,
+        coordinates: Coordinates | None = None,
+        rotations: Rotations | None = None,
+        stabilisation: Stabilisation | None = None,
+        start: Start | None = None,
+        step_control: StepControl | None = None,
         tolerance: float | str | None = None,
         largest_step: float | str | None = None,
         cut: Sequence[str] | str | None = None,
@@ -201,7 +214,7 @@ class Machine(Model):
         inputs: Mapping[str, float | str | PathLike[str] | Table] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
-        verify: bool = False,
+        verify: bool = True,
         verify_limit: float | str | None = None,
         listener: Listener | None = None,
     ) -> Result:
@@ -214,8 +227,9 @@ class Machine(Model):
         hht, generalised_alpha : mappings as in a machine file.
         inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
-        beside this one, with finer steps on other times, tells how exact every number is; `nivel run` does so by itself. verify_limit
-        [s] : the second run goes on for so long after the first at most, by default as long again as that took.
+        beside this one, with finer steps on other times, tells how exact every number is, as with `nivel run`; without it the result says
+        that it is not verified. verify_limit [s] : the second run goes on for so long after the first at most, by default as long again
+        as that took, and at least 10 s.
         A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
@@ -281,11 +295,11 @@ class Machine(Model):
         *,
         step: float | str | None = None,
         output_interval: float | str | None = None,
-        integrator: str | None = None,
-        formulation: str | None = None,
-        coordinates: str | None = None,
-        stabilisation: str | None = None,
-        start: str | None = None,
+        integrator: Integrator | None = None,
+        formulation: Formulation | None = None,
+        coordinates: Coordinates | None = None,
+        stabilisation: Stabilisation | None = None,
+        start: Start | None = None,
         record: bool = False,
         listener: Listener | None = None,
     ) -> Simulation:
@@ -352,7 +366,7 @@ class Machine(Model):
         line_search: bool = True,
         modes: int | str | None = None,
         buckling: int | str | None = None,
-        coordinates: str | None = None,
+        coordinates: StaticCoordinates | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         listener: Listener | None = None,
@@ -413,7 +427,7 @@ class Machine(Model):
         end: float | str | None = None,
         duration: float | str | None = None,
         positions: int | str | None = None,
-        coordinates: str | None = None,
+        coordinates: StaticCoordinates | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         listener: Listener | None = None,
@@ -464,7 +478,7 @@ class Machine(Model):
         coordinate: str,
         *,
         positions: int | str | None = None,
-        coordinates: str | None = None,
+        coordinates: StaticCoordinates | None = None,
         listener: Listener | None = None,
     ) -> Range:
         """How far a joint coordinate can be driven from where it is, both ways: a whole turn, or, of a length, twice the machine's size.
@@ -598,7 +612,7 @@ class Machine(Model):
         orientations: Any = None,
         limits: Mapping[str, Any] | None = None,
         posture: Mapping[str, Any] | None = None,
-        coordinates: str | None = None,
+        coordinates: StaticCoordinates | None = None,
         listener: Listener | None = None,
     ) -> JointPath:
         """Joint coordinates that lead a marker, or the frame of a body, along a path.
@@ -645,7 +659,7 @@ class Machine(Model):
         about: float | str | None = None,
         inputs: Sequence[str] | str | None = None,
         outputs: Sequence[str] | str | None = None,
-        coordinates: str | None = None,
+        coordinates: StaticCoordinates | None = None,
         listener: Listener | None = None,
     ) -> LinearModel:
         """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
@@ -698,11 +712,11 @@ class Machine(Model):
     def compare(
         self,
         *,
-        integrators: Sequence[str] | str | None = None,
-        formulations: Sequence[str] | str | None = None,
-        coordinates: Sequence[str] | str | None = None,
-        rotations: Sequence[str] | str | None = None,
-        stabilisations: Sequence[str] | str | None = None,
+        integrators: Sequence[Integrator] | Integrator | None = None,
+        formulations: Sequence[Formulation] | Formulation | None = None,
+        coordinates: Sequence[Coordinates] | Coordinates | None = None,
+        rotations: Sequence[Rotations] | Rotations | None = None,
+        stabilisations: Sequence[Stabilisation] | Stabilisation | None = None,
         steps: Sequence[float | str] | float | str | None = None,
         tolerances: Sequence[float | str] | float | str | None = None,
         duration: float | str | None = None,

@@ -23,8 +23,10 @@ from nivel.machine import (
     AssemblySettings,
     Beam,
     Body,
+    Coupling,
     Driver,
     Event,
+    Force,
     Input,
     Joint,
     MachineRecord,
@@ -35,6 +37,8 @@ from nivel.machine import (
     State,
 )
 from nivel.machine.changes import changed
+from nivel.machine.control import ControlBlock
+from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.named import Named, NamedValues
 from nivel.machine.record import entry
 from nivel.machine.references import SECTIONS
@@ -78,7 +82,7 @@ class Elements:
         return self._named("joint", self.record.joints)
 
     @property
-    def couplings(self) -> Named[Any]:
+    def couplings(self) -> Named[Coupling]:
         """Couplings by name: gears, belts, racks and linear couplings."""
         return self._named("coupling", self.record.couplings)
 
@@ -88,17 +92,17 @@ class Elements:
         return self._named("driver", self.record.drivers)
 
     @property
-    def forces(self) -> Named[Any]:
+    def forces(self) -> Named[Force]:
         """Forces by name, of all types."""
         return self._named("force", self.record.forces)
 
     @property
-    def fluids(self) -> Named[Any]:
+    def fluids(self) -> Named[AnyFluid]:
         """Fluids by name."""
         return self._named("fluid", self.record.fluids)
 
     @property
-    def hydraulics(self) -> Named[Any]:
+    def hydraulics(self) -> Named[HydraulicComponent]:
         """Components of hydraulic circuits by name."""
         return self._named("component", self.record.hydraulics)
 
@@ -113,7 +117,7 @@ class Elements:
         return self._named("state", self.record.states)
 
     @property
-    def control(self) -> Named[Any]:
+    def control(self) -> Named[ControlBlock]:
         """Blocks of the control by name."""
         return self._named("block", self.record.control)
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationError
+from pydantic import BeforeValidator, ValidationError
 
 from nivel.files.include import FileName, Sections
 from nivel.files.instance import renamed
@@ -15,6 +15,7 @@ from nivel.files.placed import NotRepresentableError, placed
 from nivel.files.placement import Placement
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord, Orientation, Record
+from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.parameters import resolve
 from nivel.machine.record import entry, unknown_word
 from nivel.machine.references import SECTIONS
@@ -41,7 +42,7 @@ class Assembly(Record):
 
     file: FileName
     position: Position = Field(default=(0.0, 0.0, 0.0), description="of the part's origin")
-    orientation: Orientation | None = Field(default=None, description="of the part's axes")
+    orientation: Maybe[OneRecord[Orientation]] = Field(default=None, description="of the part's axes")
     mirror: Literal["x", "y", "z", "none"] = Field(
         default="none", description="axis of the part along which it is mirrored, before it is placed"
     )

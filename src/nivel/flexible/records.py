@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.flexible.solid_records import Part, Solid
 from nivel.machine.beams.section import Material, SectionRecord
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
+from nivel.machine.given import Field, ManyNames, Maybe, OneNumber, OneRecord, TwoNames, TwoNumbers
 from nivel.machine.machine_record import Title
 from nivel.machine.record import Name, unknown_word
 from nivel.machine.units.quantity import (
@@ -30,7 +31,7 @@ LENGTHS: Final = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 1e-3, "in": 0.0254, "ft
 MASSES: Final = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237, "lbf s^2/in": 175.126835, "slug": 14.59390294}
 HELD: Final = ("x", "y", "z", "rx", "ry", "rz")
 
-Frequency = Annotated[float, Quantity("frequency", positive=True)]
+Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
 Count = Annotated[Whole, Field(strict=True, ge=0)]
 Positive = Annotated[Whole, Field(strict=True, ge=1)]
 
@@ -53,11 +54,11 @@ def _node(value: Any) -> Any:
 class BeamRecord(Checked):
     """A straight beam between two nodes, divided into equal elements."""
 
-    nodes: tuple[Name, Name]
+    nodes: TwoNames[Name]
     section: Name
     material: Name
     elements: Positive = 8
-    up: Direction | None = Field(default=None, description="the local z axis is as near to this direction as it can be")
+    up: Maybe[Direction] = Field(default=None, description="the local z axis is as near to this direction as it can be")
 
 
 class PointMassRecord(Checked):
@@ -93,7 +94,7 @@ class Matrices(Checked):
     nodes: FileName = Field(description="a mesh (.inp), bulk data (.bdf, .dat) or a table (.csv)")
     stiffness_name: str | None = Field(default=None, description="name of the matrix in the file")
     mass_name: str | None = Field(default=None, description="name of the matrix in the file")
-    units: Units = Units()
+    units: OneRecord[Units] = Field(default=Units())
 
 
 class Plane(Checked):
@@ -113,7 +114,7 @@ class CylinderSurface(Checked):
     point: Position
     axis: Direction
     radius: PositiveLength
-    between: tuple[Length, Length] | None = None
+    between: Maybe[TwoNumbers[Length]] = Field(default=None)
 
     def problems(self) -> Iterator[Problem]:
         if not any(self.axis):
@@ -123,7 +124,7 @@ class CylinderSurface(Checked):
 class BoxRegion(Checked):
     """The nodes in a box between two opposite corners."""
 
-    from_: Position = Field(alias="from")
+    from_: Position = Field(key="from")
     to: Position
 
 
@@ -135,15 +136,15 @@ class InterfaceRecord(Checked):
     )
     nodes: tuple[int, ...] | None = Field(default=None, description="numbers of nodes that are tied")
     set: str | None = Field(default=None, description="name of a node set in the mesh, whose nodes are tied")
-    plane: Plane | None = None
-    cylinder: CylinderSurface | None = None
-    box: BoxRegion | None = None
-    within: BoxRegion | None = Field(default=None, description="only the nodes in this box")
+    plane: Maybe[OneRecord[Plane]] = Field(default=None)
+    cylinder: Maybe[OneRecord[CylinderSurface]] = Field(default=None)
+    box: Maybe[OneRecord[BoxRegion]] = Field(default=None)
+    within: Maybe[OneRecord[BoxRegion]] = Field(default=None, description="only the nodes in this box")
     tie: Literal["rigid", "average"] = Field(
         default="rigid", description="rigid: the nodes move as one solid (RBE2); average: they share the force (RBE3)"
     )
-    at: Position | None = Field(default=None, description="the reference node; default: the middle of the nodes")
-    tolerance: PositiveLength | None = Field(default=None, description="distance up to which a node is on a surface")
+    at: Maybe[Position] = Field(default=None, description="the reference node; default: the middle of the nodes")
+    tolerance: Maybe[PositiveLength] = Field(default=None, description="distance up to which a node is on a surface")
 
     def problems(self) -> Iterator[Problem]:
         ways = ("node", "nodes", "set", "plane", "cylinder", "box")
@@ -161,7 +162,7 @@ class Modes(Checked):
     """How many normal modes: a count, or all up to a frequency; `given`: none, the user gives the shapes."""
 
     count: Count | None = None
-    up_to: Frequency | None = None
+    up_to: Maybe[Frequency] = Field(default=None)
     given: bool = False
 
     def problems(self) -> Iterator[Problem]:
@@ -197,7 +198,7 @@ class Reduction(Checked):
     shapes: tuple[ShapeFunction, ...] | FileName = Field(default=(), description="of `modes: given`")
     mass: Literal["consistent", "lumped"] = "consistent"
     reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
-    held: tuple[str, ...] = Field(
+    held: ManyNames[str] = Field(
         default=(), description="six degrees of freedom `interface.x` … `interface.rz` instead"
     )
     inertia_modes: Truth = Field(
@@ -233,13 +234,13 @@ class ModelRecord(Checked):
     description: str = ""
     materials: dict[Name, Material] = Field(default={})
     sections: dict[Name, SectionRecord] = Field(default={})
-    frame: Frame | None = None
-    solid: Solid | None = None
-    matrices: Matrices | None = None
+    frame: Maybe[OneRecord[Frame]] = Field(default=None)
+    solid: Maybe[OneRecord[Solid]] = Field(default=None)
+    matrices: Maybe[OneRecord[Matrices]] = Field(default=None)
     interfaces: dict[Name, InterfaceRecord] = Field(default={})
-    reduction: Reduction = Reduction()
-    recovery: Recovery = Recovery()
-    expected_mass: Mass | None = Field(default=None, description="what the body should weigh, to check the units")
+    reduction: OneRecord[Reduction] = Field(default=Reduction())
+    recovery: OneRecord[Recovery] = Field(default=Recovery())
+    expected_mass: Maybe[Mass] = Field(default=None, description="what the body should weigh, to check the units")
 
     tagged = {"sections": 2}  # noqa: RUF012
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
+from nivel.machine.given import Field
 from nivel.machine.record import Name
 from nivel.machine.units.quantity import Position, PositiveLength, fault, shown
 
@@ -27,7 +28,7 @@ class BoxPart(_PartRecord):
     """A block between two opposite corners."""
 
     type: Literal["box"] = "box"
-    from_: Position = Field(alias="from")
+    from_: Position = Field(key="from")
     to: Position
 
     def problems(self) -> Iterator[Problem]:
@@ -39,7 +40,7 @@ class CylinderPart(_PartRecord):
     """A round bar between two points of its axis."""
 
     type: Literal["cylinder"] = "cylinder"
-    from_: Position = Field(alias="from")
+    from_: Position = Field(key="from")
     to: Position
     radius: PositiveLength
 
@@ -52,7 +53,7 @@ class ConePart(_PartRecord):
     """A round bar that tapers from `radius` to `end_radius`."""
 
     type: Literal["cone"] = "cone"
-    from_: Position = Field(alias="from")
+    from_: Position = Field(key="from")
     to: Position
     radius: PositiveLength
     end_radius: PositiveLength

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
+from nivel.machine.given import Field, Maybe
 from nivel.machine.record import Record
 from nivel.machine.units.quantity import PositiveLength
 
@@ -11,7 +10,7 @@ from nivel.machine.units.quantity import PositiveLength
 class AssemblySettings(Record):
     """What the assembly may do to close the joints."""
 
-    largest_gap: PositiveLength | None = Field(
+    largest_gap: Maybe[PositiveLength] = Field(
         default=None,
         description="by which joints may be open as given; absent, a tenth of the size of the machine",
     )

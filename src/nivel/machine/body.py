@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Final, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.flexibility import FlexibleBody
+from nivel.machine.given import Field, ManyRecords, Maybe, OneRecord
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.orientation import Orientation
 from nivel.machine.record import GROUND, Name
@@ -43,27 +44,29 @@ class Body(Checked):
     tagged = {"shape": 1, "looks": 2}  # noqa: RUF012
 
     name: Name
-    mass: Mass | None = None
-    centre_of_mass: Position | None = Field(
+    mass: Maybe[Mass] = Field(default=None)
+    centre_of_mass: Maybe[Position] = Field(
         default=None, description="in the body frame; default the origin, or the shape's centre"
     )
-    inertia: InertiaTensor | None = Field(
+    inertia: Maybe[InertiaTensor] = Field(
         default=None, description="body axes: [xx, yy, zz], {xx, yy, zz, xy, xz, yz} or 3×3 matrix"
     )
     inertia_about: Literal["centre-of-mass", "origin"] = "centre-of-mass"
-    position: Position | None = Field(
+    position: Maybe[Position] = Field(
         default=None, description="of the body frame's origin, global; default the global origin"
     )
-    orientation: Orientation | None = Field(default=None, description="of the body frame; default not turned")
+    orientation: Maybe[OneRecord[Orientation]] = Field(
+        default=None, description="of the body frame; default not turned"
+    )
     velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of the body frame's origin, global axes")
-    angular_velocity: AngularVelocityVector | None = Field(default=None, description="global axes")
-    angular_velocity_body: AngularVelocityVector | None = Field(default=None, description="body axes")
-    shape: Shape | None = None
-    looks: Annotated[tuple[Shape, ...], BeforeValidator(listed)] = Field(
+    angular_velocity: Maybe[AngularVelocityVector] = Field(default=None, description="global axes")
+    angular_velocity_body: Maybe[AngularVelocityVector] = Field(default=None, description="body axes")
+    shape: Maybe[OneRecord[Shape]] = Field(default=None)
+    looks: Annotated[ManyRecords[Shape], BeforeValidator(listed)] = Field(
         default=(), description="further solids that are drawn, in the body frame; they have no mass and touch nothing"
     )
-    density: Density | None = None
-    flexible: FlexibleBody | None = Field(
+    density: Maybe[Density] = Field(default=None)
+    flexible: Maybe[FlexibleBody] = Field(
         default=None, description="modes by which it bends; its mass is in their file"
     )
     point_mass: Truth = Field(default=False, description="a mass at a point, which does not turn")

@@ -12,7 +12,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from nivel.machine.coefficient import COORDINATE, COORDINATE_EFFORT, COORDINATE_RATE, kind_for
-from nivel.machine.time_function import TimeFunction, Varying, written
+from nivel.machine.time_function import OneFunction, TimeFunction, Varying, written
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ class OfCoordinateFunction:
         return Varying(self.kinds, self.local, self.smooth).__get_pydantic_json_schema__(schema, handler)
 
 
-CoordinateLaw = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE_EFFORT, local=("value", "rate"))]
-CoordinateEffortFunction = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE_EFFORT)]
-CoordinateSpeed = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE_RATE)]
-CoordinatePosition = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE)]
-CoordinateMotion = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE, smooth=True)]
+CoordinateLaw = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT, local=("value", "rate"))]
+CoordinateEffortFunction = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT)]
+CoordinateSpeed = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_RATE)]
+CoordinatePosition = Annotated[OneFunction, OfCoordinateFunction(COORDINATE)]
+CoordinateMotion = Annotated[OneFunction, OfCoordinateFunction(COORDINATE, smooth=True)]

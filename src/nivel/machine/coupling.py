@@ -8,11 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.coordinate_reference import CoordinateReference, Kind
+from nivel.machine.given import Field, ManyNames, ManyNumbers, Maybe, TwoNames, TwoNumbers
 from nivel.machine.record import Name
 from nivel.machine.units.quantity import Length, PositiveLength, Scalar
 
@@ -27,9 +26,9 @@ class Gear(Checked):
 
     name: Name
     type: Literal["gear"] = "gear"
-    joints: Annotated[tuple[CoordinateReference, CoordinateReference], _TWO]
-    teeth: tuple[PositiveNumber, PositiveNumber] | None = Field(default=None, description="numbers of teeth n₁, n₂")
-    ratio: PositiveNumber | None = Field(default=None, description="n₂/n₁, in place of `teeth`")
+    joints: Annotated[TwoNames[CoordinateReference], _TWO]
+    teeth: Maybe[TwoNumbers[PositiveNumber]] = Field(default=None, description="numbers of teeth n₁, n₂")
+    ratio: Maybe[PositiveNumber] = Field(default=None, description="n₂/n₁, in place of `teeth`")
     internal: Truth = Field(default=False, description="one wheel runs inside the other: both turn the same way")
 
     @property
@@ -62,8 +61,8 @@ class Belt(Checked):
 
     name: Name
     type: Literal["belt"] = "belt"
-    joints: Annotated[tuple[CoordinateReference, CoordinateReference], _TWO]
-    radii: tuple[PositiveLength, PositiveLength] = Field(description="of the pulleys r₁, r₂")
+    joints: Annotated[TwoNames[CoordinateReference], _TWO]
+    radii: TwoNumbers[PositiveLength] = Field(description="of the pulleys r₁, r₂")
     crossed: Truth = Field(default=False, description="the belt crosses itself: the pulleys turn opposite ways")
 
     @property
@@ -85,7 +84,7 @@ class Rack(Checked):
 
     name: Name
     type: Literal["rack"] = "rack"
-    joints: tuple[CoordinateReference, CoordinateReference] = Field(description="the pinion's angle, the rack's way")
+    joints: TwoNames[CoordinateReference] = Field(description="the pinion's angle, the rack's way")
     radius: Length = Field(description="of the pinion; negative: the rack moves the other way")
 
     @property
@@ -110,8 +109,8 @@ class LinearCoupling(Checked):
 
     name: Name
     type: Literal["linear"] = "linear"
-    coordinates: tuple[CoordinateReference, ...] = Field(description="two or more different joint coordinates")
-    factors: tuple[Scalar, ...] = Field(description="one for each coordinate [m or rad], none zero")
+    coordinates: ManyNames[CoordinateReference] = Field(description="two or more different joint coordinates")
+    factors: ManyNumbers[Scalar] = Field(description="one for each coordinate [m or rad], none zero")
 
     @property
     def terms(self) -> Terms:

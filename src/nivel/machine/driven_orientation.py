@@ -6,18 +6,19 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Final
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.given import Field, Maybe
 from nivel.machine.orientation import AxisSequence
 from nivel.machine.table import Table
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import FourFunctions, OneFunction, ThreeFunctions, TimeFunction, varying
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import Direction, fault, listed
 
-AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
-ShareMotion = Annotated[TimeFunction, varying("number", smooth=True)]
+AngleMotion = Annotated[OneFunction, varying("angle", smooth=True)]
+ShareMotion = Annotated[OneFunction, varying("number", smooth=True)]
 FORMS: Final = ("euler", "axis", "euler_parameters")
 # Euler parameters between the points of a table are made of unit length; shorter than this they are of points too far apart.
 SHORTEST: Final = 0.9
@@ -43,15 +44,13 @@ def _columns(value: Any) -> Any:
 class DrivenOrientation(Checked):
     """One of: `euler` with `sequence`, `axis` with `angle`, `euler_parameters`; all functions of time."""
 
-    euler: Annotated[tuple[AngleMotion, AngleMotion, AngleMotion] | None, BeforeValidator(listed)] = Field(
+    euler: Annotated[Maybe[ThreeFunctions[AngleMotion]], BeforeValidator(listed)] = Field(
         default=None, description="three angles, each about an axis of the frame as turned so far"
     )
     sequence: AxisSequence | None = Field(default=None, description="axes of the three turns, e.g. zyx")
-    axis: Direction | None = Field(default=None, description="axis of the turn, of any length")
-    angle: AngleMotion | None = Field(default=None, description="turn about `axis`, right-handed")
-    euler_parameters: Annotated[
-        tuple[ShareMotion, ShareMotion, ShareMotion, ShareMotion] | None, BeforeValidator(_columns)
-    ] = Field(
+    axis: Maybe[Direction] = Field(default=None, description="axis of the turn, of any length")
+    angle: Maybe[AngleMotion] = Field(default=None, description="turn about `axis`, right-handed")
+    euler_parameters: Annotated[Maybe[FourFunctions[ShareMotion]], BeforeValidator(_columns)] = Field(
         default=None,
         description="four functions, scalar first, or one table whose `values` have four numbers a row; made of unit length",
     )

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Final, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import Truth
 from nivel.machine.coordinate_function import CoordinateMotion
 from nivel.machine.coordinate_reference import CoordinateReference, Kind, kind_of
 from nivel.machine.driven_orientation import DrivenOrientation
+from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.record import GROUND, Name
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import listed
 
-LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
+LengthMotion = Annotated[OneFunction, varying("length", smooth=True)]
 # keys of a driver of one motion, which a whole pose has no use for
 OF_ONE_MOTION: Final = ("coordinate", "along", "about", "value")
 
@@ -37,12 +38,12 @@ class Driver(Checked):
         description="axis of `relative_to` about which the marker is turned, measured between the axes that follow it",
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
-    value: CoordinateMotion | None = Field(default=None, description="length or angle, a function of time")
-    position: Annotated[tuple[LengthMotion, LengthMotion, LengthMotion] | None, BeforeValidator(listed)] = Field(
+    value: Maybe[CoordinateMotion] = Field(default=None, description="length or angle, a function of time")
+    position: Annotated[Maybe[ThreeFunctions[LengthMotion]], BeforeValidator(listed)] = Field(
         default=None,
         description="of the marker's point from that of `relative_to`, along its axes: three functions of time",
     )
-    orientation: DrivenOrientation | None = Field(
+    orientation: Maybe[OneRecord[DrivenOrientation]] = Field(
         default=None, description="of the marker's axes in those of `relative_to`, functions of time"
     )
     from_start: Truth = Field(

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field, ValidationInfo
+from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
+from nivel.machine.given import Field
 from nivel.machine.record import Name
 from nivel.machine.table import Table
 from nivel.machine.time_function import Measured

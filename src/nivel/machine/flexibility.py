@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
+from nivel.machine.given import Field, Given
 from nivel.machine.record import Record
 from nivel.machine.units.quantity import Real, Whole, fault, shown
 
@@ -27,9 +28,9 @@ class Flexibility(Record):
     file: str = Field(min_length=1, description="file of `nivel reduce`, relative to the machine file")
     modes: Annotated[Whole, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
     damping_ratio: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
-    neglect: Annotated[tuple[Invariant, ...], BeforeValidator(_distinct)] = Field(
-        default=(), description="inertia invariants that the moving body does without: I5, I8, I9"
-    )
+    neglect: Annotated[
+        Given[tuple[Invariant, ...], tuple[Invariant, ...], Invariant | Sequence[Invariant]], BeforeValidator(_distinct)
+    ] = Field(default=(), description="inertia invariants that the moving body does without: I5, I8, I9")
 
 
 def _file_or_mapping(value: Any) -> Any:
@@ -40,4 +41,6 @@ def _file_or_mapping(value: Any) -> Any:
     raise fault(f"a file of `nivel reduce`, or a mapping with `file`, was expected, got {shown(value)}")
 
 
-FlexibleBody = Annotated[Flexibility, BeforeValidator(_file_or_mapping)]
+FlexibleBody = Annotated[
+    Given[Flexibility, Flexibility, str | Mapping[str, Any] | Flexibility], BeforeValidator(_file_or_mapping)
+]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
+from nivel.machine.given import Field, Given, SomeNumbers, SomeRows
 from nivel.machine.record import Record
 from nivel.machine.solids import centroid, squared_gyration, volume
 from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
@@ -37,9 +38,9 @@ class Inertia(Record):
     xx: InertiaComponent
     yy: InertiaComponent
     zz: InertiaComponent
-    xy: InertiaComponent = 0.0
-    xz: InertiaComponent = 0.0
-    yz: InertiaComponent = 0.0
+    xy: InertiaComponent = Field(default=0.0)
+    xz: InertiaComponent = Field(default=0.0)
+    yz: InertiaComponent = Field(default=0.0)
 
 
 def _components(value: Any, info: ValidationInfo) -> Any:
@@ -92,7 +93,10 @@ def _from_matrix(rows: list[Any], info: ValidationInfo) -> dict[str, float]:
 
 
 _MOMENTS_OR_MATRIX: Final = list[float | str] | list[list[float | str]]
-InertiaTensor = Annotated[Inertia, BeforeValidator(_components, json_schema_input_type=Inertia | _MOMENTS_OR_MATRIX)]
+InertiaTensor = Annotated[
+    Given[Inertia, Inertia, Inertia | Mapping[str, float | str] | SomeNumbers | SomeRows],
+    BeforeValidator(_components, json_schema_input_type=Inertia | _MOMENTS_OR_MATRIX),
+]
 
 
 @dataclass(frozen=True)

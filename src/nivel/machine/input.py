@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import Truth
+from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.record import Name, Record
 from nivel.machine.table import Table
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import ANY, Quantity, Real, Whole, fault, listed, shown
 
-Number = Annotated[float, Quantity(ANY)]
+Number = Annotated[OneNumber, Quantity(ANY)]
 Stick = Literal["left-x", "left-y", "right-x", "right-y"]
 
 # Values of a table may pass a limit by this share of the range, which is round-off.
@@ -52,7 +53,7 @@ class Gamepad(Checked):
 class Keys(Record):
     """The keys of a keyboard that raise and lower an input while they are held down."""
 
-    raise_: Key | None = Field(default=None, alias="raise", description="key that moves the input to its upper end")
+    raise_: Key | None = Field(default=None, key="raise", description="key that moves the input to its upper end")
     lower: Key | None = Field(default=None, description="key that moves the input to its lower end")
 
 
@@ -65,26 +66,26 @@ class Input(Checked):
     collection: ClassVar[str] = "inputs"
 
     name: Name
-    range: Annotated[tuple[Number, Number], BeforeValidator(listed)] = Field(
+    range: Annotated[TwoNumbers[Number], BeforeValidator(listed)] = Field(
         default=(-1.0, 1.0), description="least and greatest value"
     )
-    rest: Number | None = Field(
+    rest: Maybe[Number] = Field(
         default=None, description="value of an untouched input; default 0, or the end of the range nearest to it"
     )
-    rate: Annotated[float, Quantity(ANY, positive=True)] | None = Field(
+    rate: Maybe[Annotated[OneNumber, Quantity(ANY, positive=True)]] = Field(
         default=None, description="greatest change per second; absent, no limit"
     )
     units: str = Field(default="", description="SI unit of the value, for people")
     label: str = Field(default="", description="what the page calls it; default follows from the name")
     description: str = Field(default="", description="what it moves, for the operator")
-    signal: Annotated[TimeFunction, varying(ANY)] | None = Field(
+    signal: Maybe[Annotated[OneFunction, varying(ANY)]] = Field(
         default=None, description="value in runs without an operator: a number, or a table of time"
     )
     hold: Truth = Field(default=False, description="whether it stays where it is left, and does not go back to rest")
     control: Literal["slider", "button"] = Field(default="slider", description="what the page shows for it")
     stick: Stick | None = Field(default=None, description="axis of a stick on the page that moves it as well")
-    keys: Keys | None = Field(default=None, description="keys that raise and lower it")
-    gamepad: Gamepad | None = Field(default=None, description="axis or button of a gamepad")
+    keys: Maybe[OneRecord[Keys]] = Field(default=None, description="keys that raise and lower it")
+    gamepad: Maybe[OneRecord[Gamepad]] = Field(default=None, description="axis or button of a gamepad")
 
     @property
     def rest_value(self) -> float:

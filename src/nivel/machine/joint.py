@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Final, Literal
 
-from pydantic import Field
-
 from nivel.machine.axes import Triple, bad_axis_pair, no_direction, parallel
 from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.placement import angle_between
 from nivel.machine.record import BodyName, Name, Record, unknown_word
@@ -122,13 +121,13 @@ _WANTED: Final = {
 class CoordinateValues(Record):
     """Values of joint coordinates by name."""
 
-    angle: Angle | None = None
-    angle_1: Angle | None = None
-    angle_2: Angle | None = None
-    displacement: Length | None = None
-    x: Length | None = None
-    y: Length | None = None
-    distance: Length | None = None
+    angle: Maybe[Angle] = Field(default=None)
+    angle_1: Maybe[Angle] = Field(default=None)
+    angle_2: Maybe[Angle] = Field(default=None)
+    displacement: Maybe[Length] = Field(default=None)
+    x: Maybe[Length] = Field(default=None)
+    y: Maybe[Length] = Field(default=None)
+    distance: Maybe[Length] = Field(default=None)
 
     @property
     def given(self) -> dict[str, float]:
@@ -139,13 +138,13 @@ class CoordinateValues(Record):
 class CoordinateRates(Record):
     """Rates of joint coordinates by name."""
 
-    angle: AngularVelocity | None = None
-    angle_1: AngularVelocity | None = None
-    angle_2: AngularVelocity | None = None
-    displacement: Velocity | None = None
-    x: Velocity | None = None
-    y: Velocity | None = None
-    distance: Velocity | None = None
+    angle: Maybe[AngularVelocity] = Field(default=None)
+    angle_1: Maybe[AngularVelocity] = Field(default=None)
+    angle_2: Maybe[AngularVelocity] = Field(default=None)
+    displacement: Maybe[Velocity] = Field(default=None)
+    x: Maybe[Velocity] = Field(default=None)
+    y: Maybe[Velocity] = Field(default=None)
+    distance: Maybe[Velocity] = Field(default=None)
 
     @property
     def given(self) -> dict[str, float]:
@@ -164,38 +163,40 @@ class Joint(Checked):
 
     name: Name
     type: JointType
-    bodies: tuple[BodyName, BodyName] | None = Field(
-        default=None, description="first and second body; one may be `ground`"
-    )
-    markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
-    point: Position | None = Field(default=None, description="of the joint, global")
+    bodies: Maybe[TwoNames[BodyName]] = Field(default=None, description="first and second body; one may be `ground`")
+    markers: Maybe[TwoMarkers] = Field(default=None, description="on the first and second body: names or markers")
+    point: Maybe[Position] = Field(default=None, description="of the joint, global")
     interface: Name | None = Field(
         default=None, description="of a flexible body among the two, by name, instead of `point`: where it is as placed"
     )
-    points: tuple[Position, Position] | None = Field(
+    points: Maybe[TwoPlaces[Position]] = Field(
         default=None, description="of a joint between two points: on the first body, on the second; global"
     )
-    axis: Direction | None = Field(default=None, description="of the joint; global, of any length")
-    axes: tuple[Direction, Direction] | None = Field(
+    axis: Maybe[Direction] = Field(default=None, description="of the joint; global, of any length")
+    axes: Maybe[TwoPlaces[Direction]] = Field(
         default=None,
         description="of a joint with two axes: on the first body, on the second; global; perpendicular in a universal one",
     )
-    x_axis: Direction | None = Field(
+    x_axis: Maybe[Direction] = Field(
         default=None, description="where the joint's x axis points, made perpendicular to `axis`; global"
     )
-    pitch: Length | None = Field(default=None, description="of a screw, advance per turn; negative: left-handed")
-    distance: PositiveLength | None = Field(default=None, description="held between the points; default as placed")
-    radius: PositiveLength | None = Field(default=None, description="of a wheel that rolls, at its outermost points")
-    rim_radius: Length | None = Field(
+    pitch: Maybe[Length] = Field(default=None, description="of a screw, advance per turn; negative: left-handed")
+    distance: Maybe[PositiveLength] = Field(default=None, description="held between the points; default as placed")
+    radius: Maybe[PositiveLength] = Field(default=None, description="of a wheel that rolls, at its outermost points")
+    rim_radius: Maybe[Length] = Field(
         default=None,
         description="of its rim where it touches, in a section through the axle; default 0, a sharp edge; as large as `radius`: a ball",
     )
-    locked: tuple[Motion, ...] | None = Field(
+    locked: Maybe[Given[tuple[Motion, ...], tuple[Motion, ...], Sequence[Motion]]] = Field(
         default=None,
         description="of a generic joint: motions that it does not allow, x y z along and rx ry rz about the axes of its first marker",
     )
-    start: CoordinateValues | None = Field(default=None, description="of joint coordinates, held by the assembly")
-    start_rates: CoordinateRates | None = Field(default=None, description="of joint coordinates at the start")
+    start: Maybe[OneRecord[CoordinateValues]] = Field(
+        default=None, description="of joint coordinates, held by the assembly"
+    )
+    start_rates: Maybe[OneRecord[CoordinateRates]] = Field(
+        default=None, description="of joint coordinates at the start"
+    )
 
     @property
     def coordinates(self) -> tuple[str, ...]:

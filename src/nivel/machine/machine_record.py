@@ -31,6 +31,7 @@ from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
 from nivel.machine.functions import MachineFunction, functions_of
+from nivel.machine.given import Field, ManyRecords, OneRecord
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.index import Index
 from nivel.machine.input import Input
@@ -79,26 +80,26 @@ class MachineRecord(Checked):
 
     name: Title
     description: str = ""
-    surroundings: Annotated[tuple[Shape, ...], BeforeValidator(listed)] = Field(
+    surroundings: Annotated[ManyRecords[Shape], BeforeValidator(listed)] = Field(
         default=(), description="solids that are drawn on the ground, at global places; nothing touches them"
     )
-    gravity: AccelerationVector = (0.0, 0.0, 0.0)
-    bodies: tuple[Body, ...] = ()
-    beams: tuple[Beam, ...] = ()
-    markers: tuple[Marker, ...] = ()
-    joints: tuple[Joint, ...] = ()
-    couplings: tuple[Coupling, ...] = ()
-    drivers: tuple[Driver, ...] = ()
-    forces: tuple[Force, ...] = ()
-    fluids: tuple[AnyFluid, ...] = ()
-    hydraulics: tuple[HydraulicComponent, ...] = ()
-    inputs: tuple[Input, ...] = ()
-    states: tuple[State, ...] = ()
-    control: tuple[ControlBlock, ...] = ()
-    sensors: tuple[Sensor, ...] = ()
-    events: tuple[Event, ...] = ()
-    assembly: AssemblySettings = AssemblySettings()
-    simulation: SimulationSettings = SimulationSettings()
+    gravity: AccelerationVector = Field(default=(0.0, 0.0, 0.0))
+    bodies: ManyRecords[Body] = Field(default=())
+    beams: ManyRecords[Beam] = Field(default=())
+    markers: ManyRecords[Marker] = Field(default=())
+    joints: ManyRecords[Joint] = Field(default=())
+    couplings: ManyRecords[Coupling] = Field(default=())
+    drivers: ManyRecords[Driver] = Field(default=())
+    forces: ManyRecords[Force] = Field(default=())
+    fluids: ManyRecords[AnyFluid] = Field(default=())
+    hydraulics: ManyRecords[HydraulicComponent] = Field(default=())
+    inputs: ManyRecords[Input] = Field(default=())
+    states: ManyRecords[State] = Field(default=())
+    control: ManyRecords[ControlBlock] = Field(default=())
+    sensors: ManyRecords[Sensor] = Field(default=())
+    events: ManyRecords[Event] = Field(default=())
+    assembly: OneRecord[AssemblySettings] = Field(default=AssemblySettings())
+    simulation: OneRecord[SimulationSettings] = Field(default=SimulationSettings())
 
     @cached_property
     def body_named(self) -> Mapping[str, Body]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.axes import bad_axis_pair
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.given import Field, Given, Maybe, OneRecord
 from nivel.machine.orientation import Orientation
 from nivel.machine.record import GROUND, BodyName, Name
 from nivel.machine.units.quantity import Direction, Position, fault, shown
@@ -27,9 +28,9 @@ class Marker(Checked):
     body: BodyName = Field(description="a body, a station of a beam `BEAM.STATION`, or `ground`")
     position: Position = Field(default=(0.0, 0.0, 0.0), description="in the body frame")
     interface: Name | None = Field(default=None, description="of a flexible body, by name, instead of `position`")
-    orientation: Orientation | None = Field(default=None, description="of the marker in the body frame")
-    axis: Direction | None = Field(default=None, description="z axis of the marker in the body frame, of any length")
-    x_axis: Direction | None = Field(default=None, description="x axis, made perpendicular to `axis`")
+    orientation: Maybe[OneRecord[Orientation]] = Field(default=None, description="of the marker in the body frame")
+    axis: Maybe[Direction] = Field(default=None, description="z axis of the marker in the body frame, of any length")
+    x_axis: Maybe[Direction] = Field(default=None, description="x axis, made perpendicular to `axis`")
 
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
@@ -48,5 +49,10 @@ def _name_or_marker(value: Any) -> Any:
     raise fault(f"the name of a marker, or a marker {{body: …, position: …}}, was expected, got {shown(value)}")
 
 
-MarkerPlace = Annotated[Name | Marker, BeforeValidator(_name_or_marker)]
-TwoMarkers = tuple[MarkerPlace, MarkerPlace]
+MarkerPlace = Annotated[
+    Given[Name | Marker, str | Marker, str | Marker | Mapping[str, Any]], BeforeValidator(_name_or_marker)
+]
+ManyMarkers = Given[tuple[MarkerPlace, ...], tuple[str | Marker, ...], Sequence[str | Marker | Mapping[str, Any]]]
+TwoMarkers = Given[
+    tuple[MarkerPlace, MarkerPlace], tuple[str | Marker, str | Marker], Sequence[str | Marker | Mapping[str, Any]]
+]

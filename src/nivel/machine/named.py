@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Final, Generic, TypeVar
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
@@ -45,17 +45,23 @@ class Named(Mapping[str, Element], Generic[Element]):
             raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self._records), self._singular)))
         return self._records[name]
 
-    def __setitem__(self, name: str, element: object) -> None:
-        """Refused: nothing changes a machine. Raises ModelError with the line to write."""
-        raise ModelError(Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.replace({name})`, {_ANOTHER}"))
+    if not TYPE_CHECKING:  # what type checkers refuse of a mapping that cannot be changed
 
-    def __delitem__(self, name: str) -> None:
-        """As `__setitem__`."""
-        raise ModelError(Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.without({name!r})`, {_ANOTHER}"))
+        def __setitem__(self, name: str, element: object) -> None:
+            """Refused: nothing changes a machine. Raises ModelError with the line to write."""
+            raise ModelError(
+                Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.replace({name})`, {_ANOTHER}")
+            )
 
-    def __getattr__(self, name: str) -> Element:
-        message = f"elements are read by their names: write [{name!r}]" if not name.startswith("_") else name
-        raise AttributeError(message)
+        def __delitem__(self, name: str) -> None:
+            """As `__setitem__`."""
+            raise ModelError(
+                Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.without({name!r})`, {_ANOTHER}")
+            )
+
+        def __getattr__(self, name: str) -> Element:
+            message = f"elements are read by their names: write [{name!r}]" if not name.startswith("_") else name
+            raise AttributeError(message)
 
     def __contains__(self, name: object) -> bool:
         return name in self._records

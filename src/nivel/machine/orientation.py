@@ -10,8 +10,9 @@ from typing import Annotated, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, model_validator
 
+from nivel.machine.given import Field, FourNumbers, Maybe, ThreeNumbers, ThreeRows
 from nivel.machine.record import Record, unknown_word
 from nivel.machine.units.quantity import Angle, Direction, Scalar, fault, listed, shown
 from nivel.machine.vectors import cross
@@ -48,18 +49,18 @@ class Orientation(Record):
     None of them: not turned.
     """
 
-    euler: Annotated[tuple[Angle, Angle, Angle] | None, BeforeValidator(listed)] = Field(
+    euler: Annotated[Maybe[ThreeNumbers[Angle]], BeforeValidator(listed)] = Field(
         default=None, description="three angles, each about an axis of the frame as turned so far"
     )
     sequence: AxisSequence | None = Field(
         default=None, description="axes of the three turns; zxz is the classical 3-1-3"
     )
-    axis: Direction | None = Field(default=None, description="axis of the turn, of any length")
-    angle: Angle | None = Field(default=None, description="turn about `axis`, right-handed")
-    matrix: Annotated[tuple[_Row, _Row, _Row] | None, BeforeValidator(listed)] = Field(
+    axis: Maybe[Direction] = Field(default=None, description="axis of the turn, of any length")
+    angle: Maybe[Angle] = Field(default=None, description="turn about `axis`, right-handed")
+    matrix: Annotated[Maybe[ThreeRows[_Row]], BeforeValidator(listed)] = Field(
         default=None, description="rows of the rotation matrix; its columns are the axes of the turned frame"
     )
-    euler_parameters: Annotated[tuple[Scalar, Scalar, Scalar, Scalar] | None, BeforeValidator(listed)] = Field(
+    euler_parameters: Annotated[Maybe[FourNumbers[Scalar]], BeforeValidator(listed)] = Field(
         default=None, description="four numbers, scalar first"
     )
 

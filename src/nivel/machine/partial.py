@@ -40,18 +40,19 @@ def problems_beside(record: type[Checked], data: Any, wrong: Collection[object],
     """The problems that `record` finds in `data` before it looks at a field that is `wrong`, by its name or its key in a file."""
     if not isinstance(data, Mapping):
         return
+    its: Any = record  # a class can be hashed, which is not seen of those with fields
     keys = {name: {name, field.alias} for name, field in record.model_fields.items()}
     hidden = frozenset(name for name in keys if not keys[name].isdisjoint(wrong))
     known = set[str | None]().union(*(keys[name] for name in keys if name not in hidden))
     right = {key: value for key, value in data.items() if key in known}
     try:
-        yield from _without(record, hidden).model_validate(right, context=context).problems()
+        yield from _without(its, hidden).model_validate(right, context=context).problems()
     except (ValidationError, _HiddenError):
         return
 
 
 @cache
-def _without(record: type[Checked], hidden: frozenset[str]) -> Any:
+def _without(record: Any, hidden: frozenset[str]) -> Any:
     """The partial record of `record` that hides some fields."""
     fields: dict[str, Any] = dict.fromkeys(hidden, (Any, None))
     partial: Any = create_model(record.__name__, __base__=(_Partial, record), **fields)

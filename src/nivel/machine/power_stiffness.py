@@ -7,6 +7,7 @@ from typing import Annotated, Any, Final
 from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
 
 from nivel.machine.coefficient import COORDINATE, COORDINATE_EFFORT, kind_for
+from nivel.machine.given import OneNumber
 from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters, evaluate
 from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle
 from nivel.machine.units.measure import measure
@@ -76,4 +77,4 @@ _SCHEMA: Final = {
 }
 
 # The fields `exponent` and, in records that have one, `coordinate` must stand before a field of this type.
-PowerStiffness = Annotated[float, PlainValidator(_read), WithJsonSchema(_SCHEMA)]
+PowerStiffness = Annotated[OneNumber, PlainValidator(_read), WithJsonSchema(_SCHEMA)]

@@ -20,6 +20,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.machine.example_line import list_line, mapping_line, missing_line
+from nivel.machine.given import RecordClass
 from nivel.machine.signature import PlainSignature, words_of
 from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
 from nivel.wording import shown, unknown_word
@@ -55,7 +56,7 @@ BodyName = Annotated[
 ]
 
 
-class Record(BaseModel):
+class Record(BaseModel, metaclass=RecordClass):
     """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
 
     model_config = ConfigDict(

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Final
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.given import Field, Maybe
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.orientation import AxisSequence
 from nivel.machine.record import Name, unknown_word
@@ -50,10 +51,10 @@ class Sensor(Checked):
     name: Name
     marker: Name | None = Field(default=None, description="whose motion is measured")
     coordinate: CoordinateReference | None = Field(default=None, description="joint coordinate")
-    distance: TwoMarkers | None = Field(default=None, description="of the points of two markers")
-    angle: TwoMarkers | None = Field(default=None, description="of the second marker about the z axis of the first")
+    distance: Maybe[TwoMarkers] = Field(default=None, description="of the points of two markers")
+    angle: Maybe[TwoMarkers] = Field(default=None, description="of the second marker about the z axis of the first")
     force: Name | None = Field(default=None, description="of which an output is measured")
-    value: Measured | None = Field(default=None, description="expression of `time` and symbols")
+    value: Maybe[Measured] = Field(default=None, description="expression of `time` and symbols")
     quantity: _Word | None = Field(default=None, description="what is measured of a marker, a coordinate or a force")
     relative_to: Name | None = Field(
         default=None, description="marker from which, and in whose axes, a marker is seen; default the global frame"

@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator
+from pydantic import field_validator
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
 from nivel.machine.record import Record
 from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
 from nivel.methods import (
@@ -43,7 +44,7 @@ class Penalty(Record):
 
     factor: Annotated[Real, Field(ge=1.0, le=1e14)] | None = None
     alpha: Annotated[Real, Field(gt=0.0)] | None = None
-    omega: Rate | None = None
+    omega: Maybe[Rate] = Field(default=None)
     mu: Annotated[Real, Field(ge=0.0)] = 1.0
     iterations: Annotated[Whole, Field(ge=1, le=1000)] = 30
 
@@ -93,34 +94,36 @@ class SimulationSettings(Checked):
     value of each coordinate so far, or the size of the machine).
     """
 
-    duration: Duration = 1.0
-    step: Duration = 1e-3
-    output_interval: Duration | None = Field(
+    duration: Duration = Field(default=1.0)
+    step: Duration = Field(default=1e-3)
+    output_interval: Maybe[Duration] = Field(
         default=None, description="time between stored results; absent, the run chooses"
     )
-    integrator: Integrator = "rk4"
+    integrator: OneRecord[Integrator] = Field(default="rk4")
     formulation: Formulation = "newton-euler"
     coordinates: Coordinates = "auto"
     stabilisation: Stabilisation = "direct"
     start: Start = Field(
         default="as-given", description="the assembled machine, or the equilibrium where it settles, at rest"
     )
-    free: tuple[CoordinateReference, ...] = Field(
+    free: ManyNames[CoordinateReference] = Field(
         default=(), description="joint coordinates without stiffness that an equilibrium leaves where they are placed"
     )
     rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
-    cut: tuple[str, ...] = Field(default=(), description="joints that stay constraints in relative coordinates")
+    cut: ManyNames[str] = Field(default=(), description="joints that stay constraints in relative coordinates")
     step_control: StepControl = Field(
         default="own", description="fixed steps, or steps chosen for the tolerance; own: as the integrator does"
     )
     tolerance: Tolerance = Field(default=1e-6, description="of integrators that choose their steps")
-    largest_step: Duration | None = Field(default=None, description="of integrators that choose their steps")
-    corrector: Corrector = Field(default=Corrector(), description="of implicit methods")
-    newmark: Newmark = Field(default=Newmark(), description="constants of newmark")
-    hht: HHT = Field(default=HHT(), description="damping of hht")
-    generalised_alpha: GeneralisedAlpha = Field(default=GeneralisedAlpha(), description="damping of generalised-alpha")
-    penalty: Penalty = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
-    baumgarte: Baumgarte | None = Field(
+    largest_step: Maybe[Duration] = Field(default=None, description="of integrators that choose their steps")
+    corrector: OneRecord[Corrector] = Field(default=Corrector(), description="of implicit methods")
+    newmark: OneRecord[Newmark] = Field(default=Newmark(), description="constants of newmark")
+    hht: OneRecord[HHT] = Field(default=HHT(), description="damping of hht")
+    generalised_alpha: OneRecord[GeneralisedAlpha] = Field(
+        default=GeneralisedAlpha(), description="damping of generalised-alpha"
+    )
+    penalty: OneRecord[Penalty] = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
+    baumgarte: Maybe[OneRecord[Baumgarte]] = Field(
         default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"
     )
 

@@ -12,9 +12,10 @@ from abc import abstractmethod
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, model_validator
 
 from nivel.machine.colour import Colour
+from nivel.machine.given import Field, ManyCorners, Maybe, OneRecord, ThreeNumbers, TwoNumbers
 from nivel.machine.orientation import Orientation
 from nivel.machine.polygon import bad_outline
 from nivel.machine.record import Record
@@ -25,7 +26,7 @@ Along = Literal["x", "y", "z"]
 _NEAR: Final = 1e-9  # [m] two end points closer than this have no direction
 
 _FROM = Field(
-    default=None, alias="from", description="global point where the body x axis starts; then the body needs no position"
+    default=None, key="from", description="global point where the body x axis starts; then the body needs no position"
 )
 _TO = Field(default=None, description="global point to which the body x axis points")
 _CENTRE = Field(default=None, description="centre of the shape in the body frame; default the origin")
@@ -42,9 +43,9 @@ class _Coloured(Record):
 class _Between(_Coloured):
     """A shape that may be laid between two points."""
 
-    from_: Position | None = _FROM
-    to: Position | None = _TO
-    centre: Position | None = _CENTRE
+    from_: Maybe[Position] = _FROM
+    to: Maybe[Position] = _TO
+    centre: Maybe[Position] = _CENTRE
 
     @model_validator(mode="after")
     def _whole(self) -> _Between:
@@ -72,9 +73,9 @@ class Box(_Between):
     """A block: `size` along the body x, y, z axes; or `from`, `to`, `width` (along y) and `height` (along z)."""
 
     type: Literal["box"] = "box"
-    size: tuple[PositiveLength, PositiveLength, PositiveLength] | None = None
-    width: PositiveLength | None = None
-    height: PositiveLength | None = None
+    size: Maybe[ThreeNumbers[PositiveLength]] = Field(default=None)
+    width: Maybe[PositiveLength] = Field(default=None)
+    height: Maybe[PositiveLength] = Field(default=None)
 
     def _extent(self) -> dict[str, object]:
         return {"size": self.size}
@@ -95,7 +96,7 @@ class Cylinder(_Between):
 
     type: Literal["cylinder"] = "cylinder"
     radius: PositiveLength
-    length: PositiveLength | None = None
+    length: Maybe[PositiveLength] = Field(default=None)
     along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
@@ -115,7 +116,7 @@ class Tube(_Between):
     type: Literal["tube"] = "tube"
     outer_radius: PositiveLength
     inner_radius: PositiveLength
-    length: PositiveLength | None = None
+    length: Maybe[PositiveLength] = Field(default=None)
     along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
@@ -138,7 +139,7 @@ class Capsule(_Between):
 
     type: Literal["capsule"] = "capsule"
     radius: PositiveLength
-    length: PositiveLength | None = Field(
+    length: Maybe[PositiveLength] = Field(
         default=None, description="of the straight part, between the centres of the balls"
     )
     along: Along | None = Field(default=None, description="body axis; default x")
@@ -152,7 +153,7 @@ class Capsule(_Between):
         return self
 
 
-Corner = Annotated[tuple[Length, Length], BeforeValidator(listed)]
+Corner = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
 
 
 class Extrusion(_Between):
@@ -162,10 +163,10 @@ class Extrusion(_Between):
     """
 
     type: Literal["extrusion"] = "extrusion"
-    outline: Annotated[tuple[Corner, ...], BeforeValidator(listed)] = Field(
+    outline: Annotated[ManyCorners[Corner], BeforeValidator(listed)] = Field(
         description="corners in their order, at least three; lines between them do not cross"
     )
-    length: PositiveLength | None = None
+    length: Maybe[PositiveLength] = Field(default=None)
     along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
@@ -190,10 +191,10 @@ class Mesh(_Coloured):
     type: Literal["mesh"] = "mesh"
     file: str = Field(default="", description="STL, OBJ or glTF file, relative to the folder of the machine file")
     unit: PositiveLength = Field(default=1.0, description="length of one unit of the file")
-    position: Position | None = Field(
+    position: Maybe[Position] = Field(
         default=None, description="of the file's origin in the body frame; default the origin"
     )
-    orientation: Orientation | None = Field(
+    orientation: Maybe[OneRecord[Orientation]] = Field(
         default=None, description="of the file's axes in the body frame; default not turned"
     )
     surface: str | None = Field(default=None, description="the triangles, filled when the file is read")
@@ -219,7 +220,7 @@ class Sphere(_Coloured):
 
     type: Literal["sphere"] = "sphere"
     radius: PositiveLength
-    centre: Position | None = _CENTRE
+    centre: Maybe[Position] = _CENTRE
 
 
 Shape = Annotated[Box | Cylinder | Capsule | Tube | Sphere | Extrusion | Mesh, Field(discriminator="type")]

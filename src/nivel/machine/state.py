@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar
 
-from pydantic import Field
-
 from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.record import Name
 from nivel.machine.time_function import Measured
 from nivel.machine.units.quantity import ANY, Duration, Quantity
@@ -22,14 +21,16 @@ class State(Checked):
     collection: ClassVar[str] = "states"
 
     name: Name
-    start: Annotated[float, Quantity(ANY)] = Field(default=0.0, description="value at t = 0, before the first sample")
-    rate: Measured | None = Field(default=None, description="ẋ per second: expression of `time` and symbols")
-    update: Measured | None = Field(
+    start: Annotated[OneNumber, Quantity(ANY)] = Field(
+        default=0.0, description="value at t = 0, before the first sample"
+    )
+    rate: Maybe[Measured] = Field(default=None, description="ẋ per second: expression of `time` and symbols")
+    update: Maybe[Measured] = Field(
         default=None, description="value after each sample: expression of `time` and symbols"
     )
-    every: Duration | None = Field(default=None, description="time between samples; the first one is at t = 0")
+    every: Maybe[Duration] = Field(default=None, description="time between samples; the first one is at t = 0")
     event: Name | None = Field(default=None, description="event at which a sample is taken")
-    scale: Annotated[float, Quantity(ANY, positive=True)] | None = Field(
+    scale: Maybe[Annotated[OneNumber, Quantity(ANY, positive=True)]] = Field(
         default=None, description="size of values that matter, by which errors are measured; default |start|, or 1"
     )
     units: str = Field(default="", description="SI unit of the value, for people")

@@ -6,13 +6,14 @@ numbers in the text of an expression and those that a law is called with.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Final
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from nivel.machine.given import Given, Validated
 from nivel.machine.python_law import PythonLaw, read_python_law
 from nivel.machine.table import Table, read_table
 from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Node, Parameters, fold, render, varies
@@ -35,6 +36,18 @@ from nivel.machine.units.quantity import (
 )
 
 TimeFunction = float | Table | Expression | PythonLaw
+SomeFunction = float | str | Mapping[str, Any] | Table | Expression | PythonLaw  # what is read as one
+
+OneFunction = Given[TimeFunction, TimeFunction, SomeFunction]
+ThreeFunctions = Given[
+    tuple[Validated, Validated, Validated], tuple[TimeFunction, TimeFunction, TimeFunction], Sequence[SomeFunction]
+]
+FourFunctions = Given[
+    tuple[Validated, Validated, Validated, Validated],
+    tuple[TimeFunction, TimeFunction, TimeFunction, TimeFunction],
+    Sequence[SomeFunction] | Mapping[str, Any],
+]
+ManyFunctions = Given[tuple[Validated, ...], tuple[TimeFunction, ...], Sequence[SomeFunction]]
 
 MOTION_RESULTS: Final = 3  # what a law that drives returns: value, rate, acceleration
 _RATES: Final = {"length": "velocity", "angle": "angular velocity"}
@@ -179,7 +192,7 @@ class Varying:
 
 
 def varying(kind: Kind, local: Collection[str] = (), *, smooth: bool = False) -> Varying:
-    """The annotation of a field that may vary: ``Annotated[TimeFunction, varying("force", local=("length", "rate"))]``.
+    """The annotation of a field that may vary: ``Annotated[OneFunction, varying("force", local=("length", "rate"))]``.
 
     kind : a key of KINDS, or several of which one must fit, or ANY
     local : symbols that have a meaning in this field, of LOCAL_SYMBOLS
@@ -231,12 +244,12 @@ def _table_schemas(motion: bool) -> list[dict[str, Any]]:
     ]
 
 
-ForceComponent = Annotated[TimeFunction, varying("force")]
-TorqueComponent = Annotated[TimeFunction, varying("torque")]
-Measured = Annotated[TimeFunction, varying(ANY)]
+ForceComponent = Annotated[OneFunction, varying("force")]
+TorqueComponent = Annotated[OneFunction, varying("torque")]
+Measured = Annotated[OneFunction, varying(ANY)]
 
 # Laws of springs: what the spring measures has a name of its own.
-SpringForce = Annotated[TimeFunction, varying("force", local=("length", "rate"))]
-SpringTorque = Annotated[TimeFunction, varying("torque", local=("angle", "rate"))]
+SpringForce = Annotated[OneFunction, varying("force", local=("length", "rate"))]
+SpringTorque = Annotated[OneFunction, varying("torque", local=("angle", "rate"))]
 # Laws of contacts: overlap and its rate at each point that touches.
-ContactForce = Annotated[TimeFunction, varying("force", local=("depth", "rate"))]
+ContactForce = Annotated[OneFunction, varying("force", local=("depth", "rate"))]

@@ -31,7 +31,7 @@ from nivel.machine.settings import (
     Stabilisation,
     Tolerance,
 )
-from nivel.machine.units.quantity import Duration, fault, listed
+from nivel.machine.units.quantity import fault, listed
 from nivel.results.comparison.comparison import Method
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against
@@ -70,7 +70,7 @@ class Axes(Record):
     coordinates: Several[Coordinates] = None
     rotations: Several[Rotations] = None
     stabilisations: Several[Stabilisation] = None
-    steps: Several[Duration] = None
+    steps: Several[float] = None
     tolerances: Several[Tolerance] = None
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.axes import no_direction
 from nivel.machine.beams.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
@@ -21,6 +21,7 @@ from nivel.machine.beams.beam_section import (
 )
 from nivel.machine.beams.section import Material
 from nivel.machine.checked import Checked, Place, Problem, superfluous
+from nivel.machine.given import Field, Given, ManyPlaces, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.record import GROUND, Name
 from nivel.machine.units.quantity import (
     Angle,
@@ -45,9 +46,9 @@ REPRESENTED: Final = 1e-6  # share by which sections may miss what a model can r
 OTHERS: Final = "or take `model: ancf-beam` or `geometrically-exact`"
 FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
 
-Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
-Offset = Annotated[tuple[Length, Length], BeforeValidator(listed)]
-Time = Annotated[float, Quantity("time")]
+Points = Annotated[ManyPlaces[Position], BeforeValidator(listed)]
+Offset = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
+Time = Annotated[OneNumber, Quantity("time")]
 
 
 class Beam(Checked):
@@ -62,18 +63,18 @@ class Beam(Checked):
     tagged = {"section": 1}  # noqa: RUF012
 
     name: Name
-    from_: Position = Field(alias="from", description="where it starts, global")
+    from_: Position = Field(key="from", description="where it starts, global")
     to: Position = Field(description="where it ends, global")
-    via: Position | None = Field(default=None, description="a point on the way: the beam is an arc of a circle")
+    via: Maybe[Position] = Field(default=None, description="a point on the way: the beam is an arc of a circle")
     through: Points = Field(default=(), description="points on the way: the beam is a smooth curve through them")
-    up: Direction | None = Field(
+    up: Maybe[Direction] = Field(
         default=None, description="the z axes of its sections are as near to this as they can be"
     )
     twist: Angle = Field(
         default=0.0, description="turn of the last section about the beam, against the first, unstressed"
     )
-    section: BeamSectionRecord
-    material: Material | None = None
+    section: OneRecord[BeamSectionRecord]
+    material: Maybe[OneRecord[Material]] = Field(default=None)
     centroid: Offset = Field(
         default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam"
     )
@@ -98,7 +99,9 @@ class Beam(Checked):
         description="of rotations in an element: relative to a node of it, or total, which is not objective",
     )
     damping: Time = Field(default=0.0, description="stress from a rate of strain, over that from the strain")
-    stations: dict[Name, Scalar] = Field(default={}, description="name: share of the length, between 0 and 1")
+    stations: Given[dict[Name, Scalar], dict[str, float], Mapping[str, float | str]] = Field(
+        default={}, description="name: share of the length, between 0 and 1"
+    )
     velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")
     angular_velocity: AngularVelocityVector = Field(default=(0.0, 0.0, 0.0), description="as a rigid body, global axes")
 

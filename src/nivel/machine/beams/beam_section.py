@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.beams.section import Material, SectionRecord, Values
 from nivel.machine.beams.section_properties import section_of
@@ -25,6 +25,7 @@ from nivel.machine.beams.six_by_six import (
     symmetry_and_sign,
 )
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.given import Field, OneNumber, ThreeNumbers, TwoNumbers
 from nivel.machine.units.quantity import Length, Quantity, listed
 
 Array = NDArray[np.float64]
@@ -35,9 +36,9 @@ if TYPE_CHECKING:
 else:
     Stiffness = six_by_six(("force", ("force", "torque"), "bending stiffness"))
 
-MassPerLength = Annotated[float, Quantity("mass per length", positive=True)]
-InertiaPerLength = Annotated[float, Quantity("inertia per length", positive=True)]
-Offset = Annotated[tuple[Length, Length], BeforeValidator(listed)]
+MassPerLength = Annotated[OneNumber, Quantity("mass per length", positive=True)]
+InertiaPerLength = Annotated[OneNumber, Quantity("inertia per length", positive=True)]
+Offset = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
 
 
 class GeneralSection(Checked):
@@ -48,7 +49,7 @@ class GeneralSection(Checked):
         description="[EA, GA_y, GA_z, GJ, EI_y, EI_z], or 6×6 rows for stretch, two shears, twist, two curvatures"
     )
     mass: MassPerLength
-    inertia: Annotated[tuple[InertiaPerLength, InertiaPerLength, InertiaPerLength], BeforeValidator(listed)] = Field(
+    inertia: Annotated[ThreeNumbers[InertiaPerLength], BeforeValidator(listed)] = Field(
         description="of a unit of length about the x, y and z axes through the mass centre"
     )
     mass_centre: Offset = Field(default=(0.0, 0.0), description="y and z from the line of the beam")
@@ -86,7 +87,10 @@ def missing_shear_areas(section: object) -> tuple[str, ...]:
 
 
 def beam_section(
-    section: SectionRecord | GeneralSection, material: Material | None, centroid: Offset, shear_centre: Offset
+    section: SectionRecord | GeneralSection,
+    material: Material | None,
+    centroid: tuple[float, float],
+    shear_centre: tuple[float, float],
 ) -> BeamSection:
     """The section in numbers; with offsets from the line of the beam: y and z of the centroid, which is the mass centre too, and of the
     shear centre."""
@@ -107,7 +111,7 @@ def beam_section(
     )
 
 
-def _moved(stiffness: Array, centroid: Offset, shear_centre: Offset) -> Array:
+def _moved(stiffness: Array, centroid: tuple[float, float], shear_centre: tuple[float, float]) -> Array:
     """Stiffness for strains at the line of the beam: stretch is that of the centroid, shears are those of the shear centre."""
     at_centres = np.eye(6)
     at_centres[0, 4], at_centres[0, 5] = centroid[1], -centroid[0]

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import SectionLength
+from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Density, Quantity, Scalar
 
-Stress = Annotated[float, Quantity("pressure", positive=True)]
-Area = Annotated[float, Quantity("area", positive=True)]
-SecondMoment = Annotated[float, Quantity("second moment of area", positive=True)]
+Stress = Annotated[OneNumber, Quantity("pressure", positive=True)]
+Area = Annotated[OneNumber, Quantity("area", positive=True)]
+SecondMoment = Annotated[OneNumber, Quantity("second moment of area", positive=True)]
 
 SLIP = "a slip of a unit?"
 # [Pa], [kg/m³] nothing is as soft and as heavy
@@ -109,10 +108,10 @@ class Values(Checked):
     iy: SecondMoment
     iz: SecondMoment
     torsion: SecondMoment
-    shear_area_y: Area | None = Field(default=None, description="for forces along y; default: no shear deformation")
-    shear_area_z: Area | None = Field(default=None, description="for forces along z; default: no shear deformation")
-    stress_y: SectionLength | None = Field(default=None, description="distance of the outermost fibres along y")
-    stress_z: SectionLength | None = Field(default=None, description="distance of the outermost fibres along z")
+    shear_area_y: Maybe[Area] = Field(default=None, description="for forces along y; default: no shear deformation")
+    shear_area_z: Maybe[Area] = Field(default=None, description="for forces along z; default: no shear deformation")
+    stress_y: Maybe[SectionLength] = Field(default=None, description="distance of the outermost fibres along y")
+    stress_z: Maybe[SectionLength] = Field(default=None, description="distance of the outermost fibres along z")
 
 
 SectionRecord = Annotated[Circle | Tube | Rectangle | Box | IBeam | Values, Field(discriminator="type")]

@@ -4,7 +4,7 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field, GetCoreSchemaHandler
+from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
 from nivel.machine.control.algebra import DeadZone, Gain, Limit, Lookup, SignalBlock, Sum, Switch
@@ -25,6 +25,7 @@ from nivel.machine.control.pid import Pid
 from nivel.machine.control.profile import Trapezoid, Waypoints
 from nivel.machine.control.state_machine import StateMachine
 from nivel.machine.control.user_block import UserBlock
+from nivel.machine.given import Field
 
 BLOCKS: list[type[Block]] = [
     SignalBlock,

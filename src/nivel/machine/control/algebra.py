@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import beyond, limited
 from nivel.machine.control.part import Part
+from nivel.machine.given import Field, Maybe
 from nivel.machine.table import Interpolation, Table
+from nivel.machine.time_function import ManyFunctions
 from nivel.machine.units.formula import formula
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import listed
@@ -59,10 +61,10 @@ class Sum(Block):
     """Σ factor · input."""
 
     type: Literal["sum"] = "sum"
-    inputs: Annotated[tuple[Input, ...], BeforeValidator(listed)] = Field(
+    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field(
         description="expressions of `time` and symbols"
     )
-    factors: Numbers | None = Field(default=None, description="one for each input; default 1")
+    factors: Maybe[Numbers] = Field(default=None, description="one for each input; default 1")
 
     def computation(self) -> tuple[Part, ...]:
         names = [f"input_{k + 1}" for k in range(len(self.inputs))]

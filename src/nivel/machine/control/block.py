@@ -8,22 +8,23 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import NotNegative
 from nivel.machine.control.part import VALUE, Part, PartFunction
+from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, TwoNumbers
 from nivel.machine.record import Name, entry
 from nivel.machine.time_function import Measured
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import ANY, Duration, Quantity, listed, of_one_kind
 
 Input = Annotated[Measured, BeforeValidator(of_one_kind)]
-Number = Annotated[float, Quantity(ANY)]
-PositiveNumber = Annotated[float, Quantity(ANY, positive=True)]
-Numbers = Annotated[tuple[Number, ...], BeforeValidator(listed)]
-Pair = Annotated[tuple[Number, Number], BeforeValidator(listed)]
-NotNegativeTime = Annotated[float, Quantity("time"), NotNegative]
+Number = Annotated[OneNumber, Quantity(ANY)]
+PositiveNumber = Annotated[OneNumber, Quantity(ANY, positive=True)]
+Numbers = Annotated[ManyNumbers[Number], BeforeValidator(listed)]
+Pair = Annotated[TwoNumbers[Number], BeforeValidator(listed)]
+NotNegativeTime = Annotated[OneNumber, Quantity("time"), NotNegative]
 
 COMPUTED: Final = "computed"  # a value before its latency
 MOST_DELAYED: Final = 200  # samples that wait
@@ -51,13 +52,13 @@ class Block(Checked):
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
-    sample_time: Duration | None = Field(
+    sample_time: Maybe[Duration] = Field(
         default=None, description="time between samples; without it the block is continuous"
     )
     offset: NotNegativeTime = Field(default=0.0, description="time of the first sample")
     latency: NotNegativeTime = Field(default=0.0, description="from a sample to the change of the value")
     units: str = Field(default="", description="SI unit of the value, for people")
-    scale: PositiveNumber | None = Field(
+    scale: Maybe[PositiveNumber] = Field(
         default=None, description="size of values that matter, by which errors of continuous states are measured"
     )
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.control.algebra import refuse_order
 from nivel.machine.control.block import Block, Input, Number, Pair, PositiveNumber
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part
+from nivel.machine.given import Field, Maybe
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration
 
@@ -25,18 +24,18 @@ class Cascade(Block):
     quantities = ("value", "error", "wished_speed", "speed_error", "integral")
 
     type: Literal["cascade"] = "cascade"
-    reference: Input | None = Field(default=None, description="commanded position r")
-    measured: Input | None = Field(default=None, description="position y")
+    reference: Maybe[Input] = Field(default=None, description="commanded position r")
+    measured: Maybe[Input] = Field(default=None, description="position y")
     measured_speed: Input = Field(description="its rate ẏ")
     speed_reference: Input = Field(
         default=0.0, description="commanded speed, or with a `reference` its rate, fed forward"
     )
-    position_gain: PositiveNumber | None = Field(default=None, description="speed per position error, 1/s")
+    position_gain: Maybe[PositiveNumber] = Field(default=None, description="speed per position error, 1/s")
     speed_gain: PositiveNumber = Field(description="value per speed error")
-    integral_time: Duration | None = Field(default=None, description="T; without it there is no integral")
-    speed_limit: PositiveNumber | None = Field(default=None, description="greatest magnitude of the commanded speed")
-    feedforward: Input | None = Field(default=None, description="what is added before the limits, such as a weight")
-    limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
+    integral_time: Maybe[Duration] = Field(default=None, description="T; without it there is no integral")
+    speed_limit: Maybe[PositiveNumber] = Field(default=None, description="greatest magnitude of the commanded speed")
+    feedforward: Maybe[Input] = Field(default=None, description="what is added before the limits, such as a weight")
+    limits: Maybe[Pair] = Field(default=None, description="lower and upper limit of the value")
     start: Number = Field(default=0.0, description="value of the integral at the start")
 
     def computation(self) -> tuple[Part, ...]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.algebra import OfInput, refuse_order
@@ -16,13 +16,15 @@ from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.linear_system import LinearSystem, of_transfer_function, sampled, steady_state
 from nivel.machine.control.part import VALUE, Part
+from nivel.machine.given import Field, ManyRows, Maybe, OneNumber
 from nivel.machine.record import entry
+from nivel.machine.time_function import ManyFunctions
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration, Quantity, listed
 
-Frequency = Annotated[float, Quantity("frequency", positive=True)]
-Damping = Annotated[float, Quantity("number", positive=True)]
-Matrix = Annotated[tuple[Numbers, ...], BeforeValidator(listed)]
+Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
+Damping = Annotated[OneNumber, Quantity("number", positive=True)]
+Matrix = Annotated[ManyRows[Numbers], BeforeValidator(listed)]
 MOST_STATES = 40
 
 
@@ -99,9 +101,9 @@ class LowPass(OfOneVariable):
     """What is slow in the input: 1/(τ s + 1), or ω²/(s² + 2 ζ ω s + ω²) with a damping ratio ζ."""
 
     type: Literal["low-pass"] = "low-pass"
-    time_constant: Duration | None = Field(default=None, description="τ, of the first order")
-    frequency: Frequency | None = Field(default=None, description="corner frequency")
-    damping: Damping | None = Field(
+    time_constant: Maybe[Duration] = Field(default=None, description="τ, of the first order")
+    frequency: Maybe[Frequency] = Field(default=None, description="corner frequency")
+    damping: Maybe[Damping] = Field(
         default=None, description="damping ratio ζ; it makes the filter one of second order"
     )
 
@@ -120,8 +122,8 @@ class HighPass(OfOneVariable):
     """What is fast in the input: s/(s + ω)."""
 
     type: Literal["high-pass"] = "high-pass"
-    time_constant: Duration | None = Field(default=None, description="1/ω")
-    frequency: Frequency | None = Field(default=None, description="corner frequency")
+    time_constant: Maybe[Duration] = Field(default=None, description="1/ω")
+    frequency: Maybe[Frequency] = Field(default=None, description="corner frequency")
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return (1.0, 0.0), (1.0, corner(self.time_constant, self.frequency))
@@ -168,16 +170,16 @@ class StateSpace(Block):
     """ẋ = A x + B u, y = C x + D u of several inputs u; `NAME.value` is the first of y, `NAME.y2` the second, …"""
 
     type: Literal["state-space"] = "state-space"
-    inputs: Annotated[tuple[Input, ...], BeforeValidator(listed)] = Field(
+    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field(
         description="expressions of `time` and symbols"
     )
     A: Matrix = Field(description="rows; one state each")
     B: Matrix = Field(description="rows; one for each state, with a column for each input")
     C: Matrix = Field(description="rows; one for each output, with a column for each state")
-    D: Matrix | None = Field(
+    D: Maybe[Matrix] = Field(
         default=None, description="rows; one for each output, with a column for each input; default zero"
     )
-    start: Numbers | None = Field(default=None, description="states at the start; default zero")
+    start: Maybe[Numbers] = Field(default=None, description="states at the start; default zero")
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:
@@ -227,7 +229,7 @@ class Integrator(OfInput):
 
     type: Literal["integrator"] = "integrator"
     gain: Number = Field(default=1.0)
-    limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
+    limits: Maybe[Pair] = Field(default=None, description="lower and upper limit of the value")
     start: Number = Field(default=0.0, description="value at the start")
 
     def computation(self) -> tuple[Part, ...]:

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem
 from nivel.machine.control.algebra import OfInput
 from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
 from nivel.machine.control.part import Part
+from nivel.machine.given import Field, Maybe
 from nivel.machine.units.formula import formula
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration
@@ -71,12 +70,12 @@ class RateLimit(OfInput):
     """The input, followed no faster than a rate."""
 
     type: Literal["rate-limit"] = "rate-limit"
-    rate: PositiveNumber | None = Field(default=None, description="greatest change per second, up and down")
-    rates: Pair | None = Field(default=None, description="in place of `rate`: fastest fall (negative) and fastest rise")
-    time_constant: Duration | None = Field(
+    rate: Maybe[PositiveNumber] = Field(default=None, description="greatest change per second, up and down")
+    rates: Maybe[Pair] = Field(default=None, description="in place of `rate`: fastest fall (negative) and fastest rise")
+    time_constant: Maybe[Duration] = Field(
         default=None, description="of a continuous one, with which it follows slow inputs"
     )
-    start: Number | None = Field(default=None, description="value before the first sample; default the input then")
+    start: Maybe[Number] = Field(default=None, description="value before the first sample; default the input then")
 
     def computation(self) -> tuple[Part, ...]:
         fall, rise = self.rates or (-(self.rate or 0.0), self.rate or 0.0)

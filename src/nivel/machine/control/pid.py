@@ -6,13 +6,12 @@ import math
 from collections.abc import Iterator
 from typing import Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.control.algebra import refuse_order
 from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part
+from nivel.machine.given import Field, Maybe
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration
 
@@ -27,19 +26,19 @@ class Pid(Block):
     quantities = ("value", "error", "integral", "unlimited")
 
     type: Literal["pid"] = "pid"
-    input: Input | None = Field(default=None, description="the error, set-point less measured value")
-    reference: Input | None = Field(default=None, description="the set-point r, in place of `input`; with `measured`")
-    measured: Input | None = Field(default=None, description="the measured value y, in place of `input`")
+    input: Maybe[Input] = Field(default=None, description="the error, set-point less measured value")
+    reference: Maybe[Input] = Field(default=None, description="the set-point r, in place of `input`; with `measured`")
+    measured: Maybe[Input] = Field(default=None, description="the measured value y, in place of `input`")
     kp: Number = Field(default=0.0, description="proportional gain")
     ki: Number = Field(default=0.0, description="integral gain, per second")
     kd: Number = Field(default=0.0, description="derivative gain, seconds")
-    limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
-    feedforward: Input | None = Field(default=None, description="what is added before the limits")
+    limits: Maybe[Pair] = Field(default=None, description="lower and upper limit of the value")
+    feedforward: Maybe[Input] = Field(default=None, description="what is added before the limits")
     set_point_weight: Number = Field(default=1.0, description="β, the share of the set-point in the proportional part")
-    filter_time: NotNegativeTime | None = Field(
+    filter_time: Maybe[NotNegativeTime] = Field(
         default=None, description="time constant of the derivative's filter; default a tenth of kd/kp"
     )
-    tracking_time: Duration | None = Field(
+    tracking_time: Maybe[Duration] = Field(
         default=None, description="with which the integral is led back at a limit; default √(kp/ki · kd/kp), or kp/ki"
     )
     start: Number = Field(default=0.0, description="value of the integral at the start")

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.part import Part, PartFunction
+from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.table import Table
 from nivel.machine.units.arithmetic import Call, Node, Operation, Time
 from nivel.machine.units.arithmetic import Number as Constant
@@ -19,7 +20,7 @@ from nivel.machine.units.expression import expression_of
 from nivel.machine.units.formula import Formula, formula
 from nivel.machine.units.quantity import Quantity, listed
 
-Times = Annotated[tuple[Annotated[float, Quantity("time")], ...], BeforeValidator(listed)]
+Times = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("time")]], BeforeValidator(listed)]
 
 # A top speed held for less than this share of speeding up is not held at all.
 ROUND_OFF = 1e-9
@@ -33,7 +34,7 @@ class Trapezoid(Block):
     type: Literal["trapezoid"] = "trapezoid"
     first: Number = Field(default=0.0, description="value before")
     last: Number = Field(description="value after")
-    begin: Annotated[float, Quantity("time")] = Field(default=0.0, description="time at which it starts to move")
+    begin: Annotated[OneNumber, Quantity("time")] = Field(default=0.0, description="time at which it starts to move")
     speed: PositiveNumber = Field(description="greatest speed, per second")
     acceleration: PositiveNumber = Field(description="of speeding up and slowing down, per second squared")
 

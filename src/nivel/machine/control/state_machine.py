@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.part import Part, PartFunction
+from nivel.machine.given import Field, Given, Maybe
 from nivel.machine.record import Name, Record, entry, unknown_word
+from nivel.machine.time_function import SomeFunction, TimeFunction
 from nivel.machine.units.arithmetic import Call, Node, Operation, Signal
 from nivel.machine.units.arithmetic import Number as Constant
 from nivel.machine.units.formula import Formula, formula
@@ -40,7 +42,9 @@ class Transition(Record):
     """To another state, as soon as all conditions hold."""
 
     to: Name
-    when: Annotated[tuple[Condition, ...], BeforeValidator(_conditions)]
+    when: Annotated[
+        Given[tuple[Condition, ...], tuple[TimeFunction, ...], str | Sequence[str]], BeforeValidator(_conditions)
+    ]
 
 
 class StateOutput(Record):
@@ -54,11 +58,15 @@ class MachineState(Record):
     """One state: its value, what else it puts out, and where it leads."""
 
     name: Name
-    value: Input | None = Field(default=None, description="default its number, from 0")
-    outputs: Annotated[tuple[StateOutput, ...], _named("name", "value")] = Field(
-        default=(), description="further values by name, which are zero in states that do not give them"
-    )
-    next: Annotated[tuple[Transition, ...], _named("to", "when")] = Field(
+    value: Maybe[Input] = Field(default=None, description="default its number, from 0")
+    outputs: Annotated[
+        Given[tuple[StateOutput, ...], tuple[StateOutput, ...], Mapping[str, SomeFunction] | Sequence[StateOutput]],
+        _named("name", "value"),
+    ] = Field(default=(), description="further values by name, which are zero in states that do not give them")
+    next: Annotated[
+        Given[tuple[Transition, ...], tuple[Transition, ...], Mapping[str, str | Sequence[str]] | Sequence[Transition]],
+        _named("to", "when"),
+    ] = Field(
         default=(), description="state → condition, or list of conditions that all hold; the first that holds is taken"
     )
 
@@ -69,7 +77,10 @@ class StateMachine(Block):
     quantities = ("value", "state", "time")
 
     type: Literal["state-machine"] = "state-machine"
-    states: Annotated[tuple[MachineState, ...], _named("name", "")]
+    states: Annotated[
+        Given[tuple[MachineState, ...], tuple[MachineState, ...], Mapping[str, Any] | Sequence[MachineState]],
+        _named("name", ""),
+    ]
     start: Name | None = Field(default=None, description="default the first state")
 
     @classmethod

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationInfo
+from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, names_in
 from nivel.machine.control.part import VALUE, Part
+from nivel.machine.given import Field, Given
 from nivel.machine.python_law import PythonLaw, read_python_law, returned_count
 from nivel.machine.record import Name, Record, entry
 from nivel.machine.units.quantity import fault, parameters_of, shown
@@ -32,7 +33,7 @@ class UserState(Record):
     """A state of a user's block."""
 
     name: Name
-    start: Number = 0.0
+    start: Number = Field(default=0.0)
 
 
 class UserBlock(Block):
@@ -42,9 +43,10 @@ class UserBlock(Block):
     law: Annotated[Any, BeforeValidator(_read_law)] = Field(
         description="function of `time`, symbols (also `NAME.STATE`) and numbers"
     )
-    states: Annotated[tuple[UserState, ...], BeforeValidator(_listed)] = Field(
-        default=(), description="name → value at the start"
-    )
+    states: Annotated[
+        Given[tuple[UserState, ...], tuple[UserState, ...], Mapping[str, float | str] | Sequence[UserState]],
+        BeforeValidator(_listed),
+    ] = Field(default=(), description="name → value at the start")
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field, GetCoreSchemaHandler
+from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
 from nivel.machine.forces.between import Between, BetweenMarkers, End, Ends, GlobalPoint
@@ -25,6 +25,7 @@ from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
+from nivel.machine.given import Field
 
 FORCES: list[type[ForceElement]] = [
     PointForce,

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from pydantic import Field
-
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.forces.element import ForceElement
+from nivel.machine.given import Field, Maybe, TwoNames, TwoPlaces
 from nivel.machine.marker import Marker, TwoMarkers
 from nivel.machine.record import BodyName
 from nivel.machine.units.quantity import Position
@@ -39,11 +38,9 @@ class BetweenMarkers(ForceElement):
 class Ends(Checked):
     """Two `markers`, or two `points` (global, as placed) of two `bodies`."""
 
-    markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
-    bodies: tuple[BodyName, BodyName] | None = Field(
-        default=None, description="first and second body, in place of `markers`"
-    )
-    points: tuple[Position, Position] | None = Field(
+    markers: Maybe[TwoMarkers] = Field(default=None, description="on the first and second body: names or markers")
+    bodies: Maybe[TwoNames[BodyName]] = Field(default=None, description="first and second body, in place of `markers`")
+    points: Maybe[TwoPlaces[Position]] = Field(
         default=None, description="where it acts on the first body and on the second, global, as placed"
     )
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.beams.six_by_six import Array, Diagonal, Matrix, full_matrix, six_by_six, symmetry_and_sign
 from nivel.machine.checked import Problem
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.given import Field
 
 # kinds of the blocks: force by way, force by angle (and torque by way), torque by angle
 if TYPE_CHECKING:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Angles, CoordinateEffort, CoordinateValue, Forces, Lengths, Torques
+from nivel.machine.given import Field, ManyNumbers
 from nivel.machine.units.quantity import listed
 
 
@@ -17,7 +18,7 @@ class Characteristic(Checked):
 
     column: ClassVar[str]  # the field that holds the efforts
 
-    deflections: tuple[float, ...]
+    deflections: ManyNumbers[Any]
 
     @property
     def points(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -61,9 +62,9 @@ class EffortTable(Characteristic):
 
     column = "efforts"
 
-    deflections: Annotated[tuple[CoordinateValue, ...], BeforeValidator(listed)] = Field(
+    deflections: Annotated[ManyNumbers[CoordinateValue], BeforeValidator(listed)] = Field(
         description="coordinate - free_value, increasing"
     )
-    efforts: Annotated[tuple[CoordinateEffort, ...], BeforeValidator(listed)] = Field(
+    efforts: Annotated[ManyNumbers[CoordinateEffort], BeforeValidator(listed)] = Field(
         description="with which the spring resists"
     )

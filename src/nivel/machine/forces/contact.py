@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Final, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import (
     DampingPerLoad,
@@ -19,6 +17,7 @@ from nivel.machine.coefficient import (
     Restitution,
 )
 from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, Maybe, TwoNames, TwoRecords
 from nivel.machine.marker import MarkerPlace
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.record import GROUND, BodyName, Record
@@ -50,35 +49,35 @@ class Contact(ForceElement):
     body: BodyName | None = Field(
         default=None, description="that touches the `plane`; its shape is sphere, box, cylinder, extrusion or mesh"
     )
-    plane: MarkerPlace | None = Field(
+    plane: Maybe[MarkerPlace] = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"
     )
-    bodies: tuple[BodyName, BodyName] | None = Field(
+    bodies: Maybe[TwoNames[BodyName]] = Field(
         default=None,
         description="two spheres, or two of the shapes box, extrusion and mesh, in place of `body` and `plane`",
     )
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
-    stiffness: PowerStiffness | None = Field(default=None, description="force by depth ** exponent")
-    materials: tuple[Material, Material] | None = Field(
+    stiffness: Maybe[PowerStiffness] = Field(default=None, description="force by depth ** exponent")
+    materials: Maybe[TwoRecords[Material]] = Field(
         default=None, description="of the first body and the second or the plane; for spheres, in place of `stiffness`"
     )
-    foundation_modulus: FoundationModulus | None = Field(
+    foundation_modulus: Maybe[FoundationModulus] = Field(
         default=None,
         description="pressure by depth where two bodies of the shapes box, extrusion and mesh touch, in place of `stiffness`",
     )
-    damping: DampingPerLoad | None = Field(
+    damping: Maybe[DampingPerLoad] = Field(
         default=None,
         description="of a `foundation_modulus`: the pressure is times 1 + damping · speed of approach; 0 loses no energy",
     )
-    restitution: Restitution | None = Field(
+    restitution: Maybe[Restitution] = Field(
         default=None, description="speed after the impact by the speed before it; 1 loses no energy"
     )
-    law: ContactForce | None = Field(
+    law: Maybe[ContactForce] = Field(
         default=None,
         description="the normal force at a point that touches, in place of `stiffness` and `restitution`; may use `depth` and `rate`",
     )
     friction: NotNegativeNumber = Field(default=0.0, description="coefficient of Coulomb friction")
-    friction_transition_speed: PositiveSpeed | None = Field(
+    friction_transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="friction goes as tanh(sliding speed / friction_transition_speed)"
     )
 

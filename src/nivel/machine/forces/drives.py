@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import (
@@ -19,22 +19,23 @@ from nivel.machine.coefficient import (
 from nivel.machine.coordinate_function import CoordinateEffortFunction
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
 
-Gear = Annotated[float, OfCoordinate(("turning per length", "number"), "positive")]
-Resistance = Annotated[float, Quantity("resistance"), NotNegative]
-Inductance = Annotated[float, Quantity("inductance"), NotNegative]
-TorqueConstant = Annotated[float, Quantity("torque per current", positive=True)]
-RotorInertia = Annotated[float, Quantity("inertia"), NotNegative]
-NotNegativeTorque = Annotated[float, Quantity("torque"), NotNegative]
-PositiveTorque = Annotated[float, Quantity("torque", positive=True)]
-Voltage = Annotated[TimeFunction, varying("voltage")]
-PositiveVoltage = Annotated[float, Quantity("voltage", positive=True)]
-PositiveCurrent = Annotated[float, Quantity("current", positive=True)]
-PositiveTurning = Annotated[float, Quantity("angular velocity", positive=True)]
-NotNegativeTime = Annotated[float, Quantity("time"), NotNegative]
-Speeds = Annotated[tuple[AngularVelocity, ...], BeforeValidator(listed)]
+Gear = Annotated[OneNumber, OfCoordinate(("turning per length", "number"), "positive")]
+Resistance = Annotated[OneNumber, Quantity("resistance"), NotNegative]
+Inductance = Annotated[OneNumber, Quantity("inductance"), NotNegative]
+TorqueConstant = Annotated[OneNumber, Quantity("torque per current", positive=True)]
+RotorInertia = Annotated[OneNumber, Quantity("inertia"), NotNegative]
+NotNegativeTorque = Annotated[OneNumber, Quantity("torque"), NotNegative]
+PositiveTorque = Annotated[OneNumber, Quantity("torque", positive=True)]
+Voltage = Annotated[OneFunction, varying("voltage")]
+PositiveVoltage = Annotated[OneNumber, Quantity("voltage", positive=True)]
+PositiveCurrent = Annotated[OneNumber, Quantity("current", positive=True)]
+PositiveTurning = Annotated[OneNumber, Quantity("angular velocity", positive=True)]
+NotNegativeTime = Annotated[OneNumber, Quantity("time"), NotNegative]
+Speeds = Annotated[ManyNumbers[AngularVelocity], BeforeValidator(listed)]
 
 
 class TorqueSpeed(Checked):
@@ -88,8 +89,8 @@ class DcMotor(Drive):
     voltage: Voltage = Field(description="at the winding")
     torque_constant: TorqueConstant = Field(description="K, N m/A, which is V s/rad too")
     inductance: Inductance = Field(default=0.0, description="L; zero: the current follows at once")
-    voltage_limit: PositiveVoltage | None = Field(default=None, description="greatest magnitude of the voltage")
-    current_limit: PositiveCurrent | None = Field(default=None, description="greatest magnitude of the current")
+    voltage_limit: Maybe[PositiveVoltage] = Field(default=None, description="greatest magnitude of the voltage")
+    current_limit: Maybe[PositiveCurrent] = Field(default=None, description="greatest magnitude of the current")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -103,11 +104,13 @@ class ServoMotor(Drive):
     type: Literal["servo-motor"] = "servo-motor"
     effort: CoordinateEffortFunction = Field(description="command, as an effort on the coordinate, without losses")
     time_constant: NotNegativeTime = Field(default=1e-3, description="of the current loop; 0: at once")
-    torque_constant: TorqueConstant | None = Field(default=None, description="N m/A, for the current and its losses")
-    torque_limit: PositiveTorque | None = Field(
+    torque_constant: Maybe[TorqueConstant] = Field(default=None, description="N m/A, for the current and its losses")
+    torque_limit: Maybe[PositiveTorque] = Field(
         default=None, description="greatest magnitude of the torque at the shaft"
     )
-    torque_speed: TorqueSpeed | None = Field(default=None, description="the same over the speed of the shaft")
+    torque_speed: Maybe[OneRecord[TorqueSpeed]] = Field(
+        default=None, description="the same over the speed of the shaft"
+    )
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

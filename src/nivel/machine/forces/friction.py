@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import (
     CoordinateDamping,
@@ -20,6 +18,7 @@ from nivel.machine.coefficient import (
 )
 from nivel.machine.coordinate_reference import CoordinateReference, kind_of
 from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
 
 
@@ -37,23 +36,23 @@ class Friction(ForceElement):
     coordinate: CoordinateReference
     model: Literal["coulomb", "stiction", "lugre"]
     coefficient: PositiveNumber = Field(description="of kinetic friction")
-    static_coefficient: PositiveNumber | None = Field(default=None, description="default `coefficient`")
-    stribeck_speed: PositiveSpeed | None = Field(
+    static_coefficient: Maybe[PositiveNumber] = Field(default=None, description="default `coefficient`")
+    stribeck_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="at which static friction has mostly become kinetic"
     )
-    transition_speed: PositiveSpeed | None = Field(
+    transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="of the coulomb model: friction goes as tanh(speed / transition_speed)"
     )
     viscous: CoordinateDamping = Field(default=0.0, description="effort per rate of the coordinate")
-    bristle_stiffness: StiffnessPerLoad | None = Field(default=None, description="of the lugre model, per normal load")
+    bristle_stiffness: Maybe[StiffnessPerLoad] = Field(default=None, description="of the lugre model, per normal load")
     bristle_damping: DampingPerLoad = Field(default=0.0, description="of the lugre model, per normal load")
-    normal_load: PositiveForce | None = Field(default=None, description="in place of the joint's own reaction")
+    normal_load: Maybe[PositiveForce] = Field(default=None, description="in place of the joint's own reaction")
     preload: NotNegativeForce = Field(default=0.0, description="added to the load by the reaction")
-    radius: PositiveLength | None = Field(
+    radius: Maybe[PositiveLength] = Field(
         default=None, description="of the pin; of a displacement, arm on which a torque about the axis loads it"
     )
     collar_radius: NotNegativeLength = Field(default=0.0, description="at which the axial reaction rubs, of an angle")
-    bearing_length: PositiveLength | None = Field(
+    bearing_length: Maybe[PositiveLength] = Field(
         default=None, description="over which a bending moment M loads the bearing by 2 M / bearing_length"
     )
 

@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import NotNegativeNumber
 from nivel.machine.forces.element import ForceElement
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.given import Field, OneNumber
+from nivel.machine.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import ANY, Quantity, listed
 
-Varied = Annotated[TimeFunction, varying(ANY)]
-Place = Annotated[TimeFunction, varying("length")]
-Frequency = Annotated[float, Quantity("frequency", positive=True)]
+Varied = Annotated[OneFunction, varying(ANY)]
+Place = Annotated[OneFunction, varying("length")]
+Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
 
 
 class Hand(ForceElement):
@@ -32,12 +33,10 @@ class Hand(ForceElement):
     body_number: Varied = Field(
         description="which body: its number in the order of the file, from 0; none where there is no such one"
     )
-    point: Annotated[tuple[Place, Place, Place], BeforeValidator(listed)] = Field(
-        description="of the body, in its frame"
-    )
-    towards: Annotated[tuple[Place, Place, Place], BeforeValidator(listed)] = Field(description="in space, global axes")
+    point: Annotated[ThreeFunctions[Place], BeforeValidator(listed)] = Field(description="of the body, in its frame")
+    towards: Annotated[ThreeFunctions[Place], BeforeValidator(listed)] = Field(description="in space, global axes")
     frequency: Frequency = Field(default=1.5, description="of the chosen body alone")
-    damping_ratio: NotNegativeNumber = 0.7
+    damping_ratio: NotNegativeNumber = Field(default=0.7)
 
     def problems(self) -> Iterator[Problem]:
         if isinstance(self.pull, int | float) and self.pull == 0:

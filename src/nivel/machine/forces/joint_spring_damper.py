@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import (
@@ -22,6 +22,7 @@ from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.characteristic import EffortTable
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.forces.spring import problems_of_spring
+from nivel.machine.given import Field, Maybe, OneRecord
 
 _check_columns = columns_of_coordinate({"deflections": COORDINATE, "efforts": COORDINATE_EFFORT})
 
@@ -36,14 +37,14 @@ class JointSpringDamper(ForceElement):
 
     type: Literal["joint-spring-damper"] = "joint-spring-damper"
     coordinate: CoordinateReference
-    stiffness: CoordinateStiffness | None = None
-    damping: CoordinateDamping = 0.0
+    stiffness: Maybe[CoordinateStiffness] = Field(default=None)
+    damping: CoordinateDamping = Field(default=0.0)
     free_value: CoordinateValue = Field(default=0.0, description="of the coordinate where the spring has no effort")
     preload: CoordinateEffort = Field(default=0.0, description="added to the effort that resists")
-    table: Annotated[EffortTable | None, BeforeValidator(_check_columns)] = Field(
+    table: Annotated[Maybe[OneRecord[EffortTable]], BeforeValidator(_check_columns)] = Field(
         default=None, description="of the spring, in place of `stiffness`"
     )
-    law: CoordinateLaw | None = Field(default=None, description="the effort that resists; may use `value` and `rate`")
+    law: Maybe[CoordinateLaw] = Field(default=None, description="the effort that resists; may use `value` and `rate`")
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_spring(self, "free_value")

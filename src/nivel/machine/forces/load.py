@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.forces.element import ForceElement
+from nivel.machine.given import Field, Maybe
 from nivel.machine.record import GROUND, BodyName, Name
-from nivel.machine.time_function import ForceComponent, TorqueComponent
+from nivel.machine.time_function import ForceComponent, ThreeFunctions, TorqueComponent
 from nivel.machine.units.quantity import Position, listed
 
 Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]
@@ -23,9 +24,9 @@ class PointForce(ForceElement):
 
     type: Literal["force"] = "force"
     body: BodyName | None = None
-    position: Position | None = Field(default=None, description="of the point, in the body frame; default the origin")
+    position: Maybe[Position] = Field(default=None, description="of the point, in the body frame; default the origin")
     marker: Name | None = Field(default=None, description="the point, in place of `body` and `position`")
-    vector: Annotated[tuple[ForceComponent, ForceComponent, ForceComponent], BeforeValidator(listed)]
+    vector: Annotated[ThreeFunctions[ForceComponent], BeforeValidator(listed)]
     axes: Axes = "global"
 
     def problems(self) -> Iterator[Problem]:
@@ -46,7 +47,7 @@ class Torque(ForceElement):
 
     type: Literal["torque"] = "torque"
     body: BodyName
-    vector: Annotated[tuple[TorqueComponent, TorqueComponent, TorqueComponent], BeforeValidator(listed)]
+    vector: Annotated[ThreeFunctions[TorqueComponent], BeforeValidator(listed)]
     axes: Axes = "global"
 
     def problems(self) -> Iterator[Problem]:

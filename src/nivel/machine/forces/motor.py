@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import PositiveEffort, PositiveGain
 from nivel.machine.coordinate_function import CoordinateEffortFunction, CoordinateSpeed
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, Maybe
 
 
 class Motor(ForceElement):
@@ -24,10 +23,10 @@ class Motor(ForceElement):
 
     type: Literal["motor"] = "motor"
     coordinate: CoordinateReference
-    effort: CoordinateEffortFunction | None = Field(default=None, description="force or torque")
-    speed: CoordinateSpeed | None = Field(default=None, description="held with the effort gain · (speed - rate)")
-    gain: PositiveGain | None = Field(default=None, description="effort per missing speed")
-    limit: PositiveEffort | None = Field(default=None, description="greatest magnitude of the effort")
+    effort: Maybe[CoordinateEffortFunction] = Field(default=None, description="force or torque")
+    speed: Maybe[CoordinateSpeed] = Field(default=None, description="held with the effort gain · (speed - rate)")
+    gain: Maybe[PositiveGain] = Field(default=None, description="effort per missing speed")
+    limit: Maybe[PositiveEffort] = Field(default=None, description="greatest magnitude of the effort")
 
     def problems(self) -> Iterator[Problem]:
         if self.effort is None and self.speed is None:

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
-from nivel.machine.time_function import ForceComponent, SpringForce
+from nivel.machine.given import Field, Maybe
+from nivel.machine.time_function import ForceComponent, SpringForce, ThreeFunctions
 from nivel.machine.units.quantity import listed
 
-Vector = Annotated[tuple[ForceComponent, ForceComponent, ForceComponent], BeforeValidator(listed)]
+Vector = Annotated[ThreeFunctions[ForceComponent], BeforeValidator(listed)]
 
 
 class PairForce(Between):
@@ -24,10 +25,10 @@ class PairForce(Between):
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "length", "rate")
 
     type: Literal["pair-force"] = "pair-force"
-    magnitude: SpringForce | None = Field(
+    magnitude: Maybe[SpringForce] = Field(
         default=None, description="along the line, pushing apart; may use `length` and `rate`"
     )
-    vector: Vector | None = Field(default=None, description="on the second point, opposite on the first")
+    vector: Maybe[Vector] = Field(default=None, description="on the second point, opposite on the first")
     axes: Literal["global", "first"] = Field(
         default="global", description="axes of the vector: global, or those of the first marker"
     )

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Damping, Stiffness
 from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.marker import Marker, MarkerPlace
+from nivel.machine.given import Field, ManyNames, ManyPlaces, Maybe
+from nivel.machine.marker import ManyMarkers, Marker
 from nivel.machine.record import BodyName
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Position, PositiveLength, listed
 
-Speed = Annotated[TimeFunction, varying("velocity")]
+Speed = Annotated[OneFunction, varying("velocity")]
 
 
 class Rope(ForceElement):
@@ -30,20 +31,20 @@ class Rope(ForceElement):
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch")
 
     type: Literal["rope"] = "rope"
-    markers: Annotated[tuple[MarkerPlace, ...], BeforeValidator(listed)] | None = Field(
+    markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
         default=None,
         description="ends, and pulleys between them, in order: names or markers; a marker may stand there again",
     )
-    bodies: Annotated[tuple[BodyName, ...], BeforeValidator(listed)] | None = Field(
+    bodies: Annotated[Maybe[ManyNames[BodyName]], BeforeValidator(listed)] = Field(
         default=None, description="one for each point, in place of `markers`; a body may stand there again"
     )
-    points: Annotated[tuple[Position, ...], BeforeValidator(listed)] | None = Field(
+    points: Annotated[Maybe[ManyPlaces[Position]], BeforeValidator(listed)] = Field(
         default=None, description="ends, and pulleys between them, in order: global, as placed"
     )
     stiffness: Stiffness = Field(description="of the whole rope")
     damping: Damping = Field(default=0.0, description="of the whole rope")
     length: PositiveLength = Field(description="unstressed, at the start")
-    speed: Speed | None = Field(default=None, description="by which a winch pays rope out, negative: hauls it in")
+    speed: Maybe[Speed] = Field(default=None, description="by which a winch pays rope out, negative: hauls it in")
 
     @property
     def ends(self) -> tuple[End, ...]:

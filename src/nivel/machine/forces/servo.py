@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.coefficient import CoordinateDamping, CoordinateIntegral, CoordinateStiffness, PositiveEffort
 from nivel.machine.coordinate_function import CoordinatePosition
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, Maybe
 
 
 class Servo(ForceElement):
@@ -26,4 +25,4 @@ class Servo(ForceElement):
     stiffness: CoordinateStiffness = Field(description="effort per error (proportional gain)")
     damping: CoordinateDamping = Field(default=0.0, description="effort per rate of the error (derivative gain)")
     integral: CoordinateIntegral = Field(default=0.0, description="effort per error and second (integral gain)")
-    limit: PositiveEffort | None = Field(default=None, description="greatest magnitude of the effort")
+    limit: Maybe[PositiveEffort] = Field(default=None, description="greatest magnitude of the effort")

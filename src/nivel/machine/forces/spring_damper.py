@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import Damping, ForceValue, NotNegativeLength, Stiffness
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.characteristic import ForceTable
 from nivel.machine.forces.element import OUTPUTS
 from nivel.machine.forces.spring import problems_of_spring
+from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.time_function import SpringForce
 
 
@@ -25,12 +24,12 @@ class SpringDamper(Between):
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "length", "rate")
 
     type: Literal["spring-damper"] = "spring-damper"
-    stiffness: Stiffness | None = None
-    damping: Damping = 0.0
-    free_length: NotNegativeLength | None = Field(default=None, description="at which the spring has no force")
+    stiffness: Maybe[Stiffness] = Field(default=None)
+    damping: Damping = Field(default=0.0)
+    free_length: Maybe[NotNegativeLength] = Field(default=None, description="at which the spring has no force")
     preload: ForceValue = Field(default=0.0, description="added to the tension")
-    table: ForceTable | None = Field(default=None, description="of the spring, in place of `stiffness`")
-    law: SpringForce | None = Field(default=None, description="the tension; may use `length` and `rate`")
+    table: Maybe[OneRecord[ForceTable]] = Field(default=None, description="of the spring, in place of `stiffness`")
+    law: Maybe[SpringForce] = Field(default=None, description="the tension; may use `length` and `rate`")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

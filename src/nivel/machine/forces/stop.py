@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import CoordinateValue, Exponent, Restitution
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, Maybe
 from nivel.machine.power_stiffness import PowerStiffness
 
 
@@ -21,8 +20,8 @@ class Stop(ForceElement):
 
     type: Literal["stop"] = "stop"
     coordinate: CoordinateReference
-    lower: CoordinateValue | None = Field(default=None, description="end of the way on the negative side")
-    upper: CoordinateValue | None = Field(default=None, description="end of the way on the positive side")
+    lower: Maybe[CoordinateValue] = Field(default=None, description="end of the way on the negative side")
+    upper: Maybe[CoordinateValue] = Field(default=None, description="end of the way on the positive side")
     exponent: Exponent = Field(default=1.0, description="of the depth")
     stiffness: PowerStiffness
     restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")

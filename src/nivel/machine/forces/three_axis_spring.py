@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import Damping, ForceValue, Stiffness
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.given import Field, ThreeNumbers
 from nivel.machine.units.quantity import Position, listed
 
-ThreeStiffnesses = Annotated[tuple[Stiffness, Stiffness, Stiffness], BeforeValidator(listed)]
-ThreeDampings = Annotated[tuple[Damping, Damping, Damping], BeforeValidator(listed)]
-ThreeForces = Annotated[tuple[ForceValue, ForceValue, ForceValue], BeforeValidator(listed)]
+ThreeStiffnesses = Annotated[ThreeNumbers[Stiffness], BeforeValidator(listed)]
+ThreeDampings = Annotated[ThreeNumbers[Damping], BeforeValidator(listed)]
+ThreeForces = Annotated[ThreeNumbers[ForceValue], BeforeValidator(listed)]
 
 
 class ThreeAxisSpring(Between):

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import TorqueValue, TorsionalDamping, TorsionalStiffness
 from nivel.machine.forces.between import BetweenMarkers
 from nivel.machine.forces.characteristic import TorqueTable
 from nivel.machine.forces.element import OUTPUTS
 from nivel.machine.forces.spring import problems_of_spring
+from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.time_function import SpringTorque
 from nivel.machine.units.quantity import Angle
 
@@ -29,12 +28,12 @@ class TorsionalSpringDamper(BetweenMarkers):
     turns: ClassVar[bool] = True
 
     type: Literal["torsional-spring-damper"] = "torsional-spring-damper"
-    stiffness: TorsionalStiffness | None = None
-    damping: TorsionalDamping = 0.0
+    stiffness: Maybe[TorsionalStiffness] = Field(default=None)
+    damping: TorsionalDamping = Field(default=0.0)
     free_angle: Angle = Field(default=0.0, description="at which the spring has no torque")
     preload: TorqueValue = Field(default=0.0, description="added to the torque that resists")
-    table: TorqueTable | None = Field(default=None, description="of the spring, in place of `stiffness`")
-    law: SpringTorque | None = Field(default=None, description="the torque that resists; may use `angle` and `rate`")
+    table: Maybe[OneRecord[TorqueTable]] = Field(default=None, description="of the spring, in place of `stiffness`")
+    law: Maybe[SpringTorque] = Field(default=None, description="the torque that resists; may use `angle` and `rate`")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

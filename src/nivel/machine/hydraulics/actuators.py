@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import (
@@ -23,11 +23,12 @@ from nivel.machine.coefficient import (
 )
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.between import Ends
+from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.hydraulics.component import Component, Rating
 from nivel.machine.record import Name
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 
-StopStiffness = Annotated[float, Quantity(("stiffness", "torsional stiffness"), positive=True)]
+StopStiffness = Annotated[OneNumber, Quantity(("stiffness", "torsional stiffness"), positive=True)]
 DEAD_SHARE = 0.02  # of the swept volume, that is left at the end of the stroke where nothing is said
 MOST_STAGES = 5
 
@@ -37,10 +38,10 @@ class PistonFriction(Checked):
 
     sliding: NotNegativeForce = Field(default=0.0, description="without pressure")
     by_pressure: NotNegativeNumber = Field(default=0.0, description="friction over the force of the pressure, by seals")
-    static: Annotated[float, Quantity("number")] = Field(default=1.0, description="static over sliding friction")
+    static: Annotated[OneNumber, Quantity("number")] = Field(default=1.0, description="static over sliding friction")
     stribeck_speed: PositiveSpeed = Field(default=0.02, description="v_s: speed over which the static part falls")
     transition_speed: PositiveSpeed = Field(default=0.004, description="v_t: speed over which it changes its sign")
-    viscous: Damping = 0.0
+    viscous: Damping = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         if self.static < 1.0:
@@ -65,20 +66,20 @@ class Actuator(Component):
     late: ClassVar[tuple[str, ...]] = ("force", "power", "friction")
     gases: ClassVar[bool] = True
 
-    dead_volume_A: Volume | None = Field(
+    dead_volume_A: Maybe[Volume] = Field(
         default=None, description="of A, with its hose, at the start of the stroke; default 2 % of what is swept"
     )
-    dead_volume_B: Volume | None = Field(
+    dead_volume_B: Maybe[Volume] = Field(
         default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
     )
-    wall_modulus: Pressure | None = Field(default=None, description="as of a volume, of dead volumes with their hoses")
-    heat_conductance: ThermalConductance | None = Field(
+    wall_modulus: Maybe[Pressure] = Field(default=None, description="as of a volume, of dead volumes with their hoses")
+    heat_conductance: Maybe[ThermalConductance] = Field(
         default=None, description="of gases: of the walls of each chamber; default: none"
     )
-    start_A: Pressure | None = Field(
+    start_A: Maybe[Pressure] = Field(
         default=None, description="pressure in A at the start; default: what carries the load"
     )
-    start_B: Pressure | None = Field(
+    start_B: Maybe[Pressure] = Field(
         default=None, description="pressure in B at the start; default: what carries the load"
     )
     stop_stiffness: StopStiffness = Field(default=2e8, description="of the ends of the stroke")
@@ -102,13 +103,13 @@ class HydraulicCylinder(Ends, Actuator):
 
     type: Literal["cylinder"] = "cylinder"
     piston: PositiveLength = Field(description="diameter")
-    rod: Annotated[float, Quantity("length")] = Field(default=0.0, description="diameter")
+    rod: Annotated[OneNumber, Quantity("length")] = Field(default=0.0, description="diameter")
     stroke: PositiveLength
     retracted_length: PositiveLength = Field(description="distance of its ends at the start of the stroke")
     acting: Literal["double", "single"] = "double"
-    friction: PistonFriction | None = None
-    cushion_A: Cushion | None = Field(default=None, description="at the start of the stroke")
-    cushion_B: Cushion | None = Field(default=None, description="at the end of the stroke")
+    friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
+    cushion_A: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the start of the stroke")
+    cushion_B: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the end of the stroke")
 
     @property
     def chambers(self) -> tuple[str, ...]:
@@ -142,11 +143,11 @@ class TelescopicCylinder(Ends, Actuator):
     nodes: ClassVar[tuple[str, ...]] = (".A",)
 
     type: Literal["telescopic-cylinder"] = "telescopic-cylinder"
-    stages: Annotated[tuple[PositiveLength, ...], BeforeValidator(listed)] = Field(description="diameters, falling")
-    strokes: Annotated[tuple[PositiveLength, ...], BeforeValidator(listed)] = Field(description="of each stage")
+    stages: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(description="diameters, falling")
+    strokes: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(description="of each stage")
     transition: PositiveLength = Field(default=5e-3, description="stroke over which one stage passes to the next")
     retracted_length: PositiveLength = Field(description="distance of its ends at the start of the stroke")
-    friction: PistonFriction | None = None
+    friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
 
     @property
     def chambers(self) -> tuple[str, ...]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import Pressure, Share, SonicConductance, VolumeFlow
+from nivel.machine.given import Field, Maybe
 from nivel.machine.record import Name, unknown_word
 from nivel.machine.units.quantity import fault, shown
 
@@ -77,10 +78,10 @@ def problem_of_share(key: str, value: object, least: float) -> Iterator[Problem]
 class Rating(Checked):
     """What a catalogue states of a restriction: of liquids `flow` at `pressure_drop`, of gases the numbers of ISO 6358."""
 
-    flow: VolumeFlow | None = Field(default=None, description="through one edge, fully open, at `pressure_drop`")
-    pressure_drop: Pressure | None = Field(default=None, description="at which `flow` is measured")
-    sonic_conductance: SonicConductance | None = Field(default=None, description="of gases: C of ISO 6358")
-    critical_ratio: Share | None = Field(default=None, description="of gases: b of ISO 6358; default 0.3")
+    flow: Maybe[VolumeFlow] = Field(default=None, description="through one edge, fully open, at `pressure_drop`")
+    pressure_drop: Maybe[Pressure] = Field(default=None, description="at which `flow` is measured")
+    sonic_conductance: Maybe[SonicConductance] = Field(default=None, description="of gases: C of ISO 6358")
+    critical_ratio: Maybe[Share] = Field(default=None, description="of gases: b of ISO 6358; default 0.3")
 
     @property
     def is_of_gas(self) -> bool:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Final, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Frequency, Leakage, PositiveNumber, Share
+from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Rated, problem_of_share
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, fault
 
 Ways = Literal["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"]
@@ -69,15 +70,15 @@ class DirectionalValve(Rated):
 
     type: Literal["directional-valve"] = "directional-valve"
     ways: Ways = Field(description="ports and positions: 2/2, 3/2, 4/2, 4/3, 5/2 or 5/3")
-    command: Annotated[TimeFunction, varying("number")] = Field(description="position asked for")
-    overlap: Annotated[float, Quantity("number"), AfterValidator(_overlap)] = Field(
+    command: Annotated[OneFunction, varying("number")] = Field(description="position asked for")
+    overlap: Annotated[OneNumber, Quantity("number"), AfterValidator(_overlap)] = Field(
         default=0.0, description="share of the stroke before an edge opens; negative: edges are open at the centre"
     )
     rounding: Share = Field(default=0.02, description="share of the stroke over which an edge begins to open")
     centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 or 5/3 valve")
-    frequency: Frequency | None = Field(default=None, description="natural frequency of the spool; default: no lag")
+    frequency: Maybe[Frequency] = Field(default=None, description="natural frequency of the spool; default: no lag")
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
-    rate_limit: Rate | None = Field(default=None, description="greatest speed of the spool, full strokes per second")
+    rate_limit: Maybe[Rate] = Field(default=None, description="greatest speed of the spool, full strokes per second")
     leakage: Leakage = Field(default=0.0, description="of each edge")
 
     @property

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Discriminator, Field, GetCoreSchemaHandler, Tag
+from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import CoreSchema
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
+from nivel.machine.given import Field, OneNumber
 from nivel.machine.record import Name, entry
 from nivel.machine.units.quantity import Density, Quantity
 
@@ -25,13 +26,11 @@ class Fluid(Checked):
     collection: ClassVar[str] = "fluids"
 
     name: Name
-    type: Literal["liquid"] = Field(
-        default="liquid", description="need not be given", json_schema_extra={"optional": True}
-    )
+    type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
     density: Density = Field(default=870.0, description="of the liquid at atmospheric pressure")
     bulk_modulus: Pressure = Field(default=1.5e9, description="of the liquid at atmospheric pressure")
     bulk_modulus_slope: NotNegativeNumber = Field(default=10.0, description="what it grows by with the pressure")
-    air: Annotated[float, Quantity("number", positive=True)] = Field(
+    air: Annotated[OneNumber, Quantity("number", positive=True)] = Field(
         default=0.005, description="undissolved air: its share of the volume at atmospheric pressure"
     )
     gas_exponent: Exponent = Field(default=1.4, description="polytropic exponent of the air: 1.4 fast, 1 slow")
@@ -60,7 +59,7 @@ class Gas(Checked):
     name: Name
     type: Literal["ideal-gas"] = "ideal-gas"
     density: Density = Field(default=1.185, description="at 20 °C and 1 bar")
-    heat_capacity_ratio: Annotated[float, Quantity("number")] = Field(
+    heat_capacity_ratio: Annotated[OneNumber, Quantity("number")] = Field(
         default=1.4, description="c_p over c_v, of gas whose temperature is a state"
     )
     temperature: Temperature = Field(default=293.15, description="of tanks, of walls, and of all gas at the start")

@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
 from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Component, problem_of_share
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, Quantity, Whole
 
-Speed = Annotated[TimeFunction, varying("angular velocity")]
-Setting = Annotated[TimeFunction, varying("number")]
-PositiveAngularVelocity = Annotated[float, Quantity("angular velocity", positive=True)]
+Speed = Annotated[OneFunction, varying("angular velocity")]
+Setting = Annotated[OneFunction, varying("number")]
+PositiveAngularVelocity = Annotated[OneNumber, Quantity("angular velocity", positive=True)]
 COULOMB_SHARE = 0.6  # of the friction at the nominal point, that does not depend on the speed
 
 
@@ -28,9 +27,7 @@ class FlowSource(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "power")
 
     type: Literal["flow-source"] = "flow-source"
-    flow: Annotated[TimeFunction, varying("volume flow")] = Field(
-        description="at the density of the side it comes from"
-    )
+    flow: Annotated[OneFunction, varying("volume flow")] = Field(description="at the density of the side it comes from")
 
 
 class RotaryMachine(Component):
@@ -46,8 +43,8 @@ class RotaryMachine(Component):
     ratio: PositiveNumber = Field(default=1.0, description="turns of the shaft per turn of the joint")
     volumetric_efficiency: Share = Field(default=1.0, description="at the nominal point")
     mechanical_efficiency: Share = Field(default=1.0, description="at the nominal point")
-    nominal_pressure: Pressure | None = Field(default=None, description="difference of pressure of the efficiencies")
-    nominal_speed: PositiveAngularVelocity | None = Field(default=None, description="speed of the efficiencies")
+    nominal_pressure: Maybe[Pressure] = Field(default=None, description="difference of pressure of the efficiencies")
+    nominal_speed: Maybe[PositiveAngularVelocity] = Field(default=None, description="speed of the efficiencies")
     leakage: Leakage = Field(
         default=0.0, description="flow over the difference of pressure, beside that of the efficiency"
     )
@@ -95,14 +92,14 @@ class Pump(RotaryMachine):
     functions: ClassVar[tuple[str, ...]] = ("speed", "setting")
 
     type: Literal["pump"] = "pump"
-    speed: Speed | None = Field(default=None, description="of its shaft, in place of `coordinate`")
+    speed: Maybe[Speed] = Field(default=None, description="of its shaft, in place of `coordinate`")
     setting: Setting = Field(default=1.0, description="share of the displacement")
-    margin: Pressure | None = Field(default=None, description="load sensing: held between B and LS")
+    margin: Maybe[Pressure] = Field(default=None, description="load sensing: held between B and LS")
     control_range: Pressure = Field(
         default=10e5, description="load sensing: pressure error at which it moves at full speed"
     )
     response: Duration = Field(default=0.08, description="load sensing: time from empty to full")
-    cut_off: Pressure | None = Field(default=None, description="load sensing: greatest pressure at B")
+    cut_off: Maybe[Pressure] = Field(default=None, description="load sensing: greatest pressure at B")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
 from nivel.machine.coefficient import Volume as VolumeSize
+from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.record import Name
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
 
 ATMOSPHERE = 101325.0  # Pa
-VaryingPressure = Annotated[TimeFunction, varying("pressure")]
+VaryingPressure = Annotated[OneFunction, varying("pressure")]
 
 
 class Volume(Component):
@@ -28,13 +29,13 @@ class Volume(Component):
 
     type: Literal["volume"] = "volume"
     volume: VolumeSize
-    wall_modulus: Pressure | None = Field(
+    wall_modulus: Maybe[Pressure] = Field(
         default=None, description="pressure over the relative growth of the volume; default: rigid walls"
     )
-    heat_conductance: ThermalConductance | None = Field(
+    heat_conductance: Maybe[ThermalConductance] = Field(
         default=None, description="of gases: heat through the walls over the difference of temperature; default: none"
     )
-    start: Pressure | None = Field(default=None, description="pressure at the start; default: that of a steady circuit")
+    start: Maybe[Pressure] = Field(default=None, description="pressure at the start; default: that of a steady circuit")
     fluid: Name | None = Field(default=None, description="default: the only one")
 
 
@@ -69,12 +70,12 @@ class Accumulator(Component):
     volume: VolumeSize = Field(description="of the gas at its precharge")
     precharge: Pressure = Field(description="pressure of the gas without oil, absolute")
     gas_exponent: Exponent = Field(default=1.3, description="polytropic exponent of the gas")
-    dead_volume: VolumeSize | None = Field(
+    dead_volume: Maybe[VolumeSize] = Field(
         default=None, description="of oil when it is empty; default 2 % of the volume"
     )
     flow: VolumeFlow = Field(description="through the inlet at `pressure_drop`")
     pressure_drop: Pressure = Field(description="at which `flow` is measured")
-    start: Pressure | None = Field(default=None, description="pressure at the start; default: that of a steady circuit")
+    start: Maybe[Pressure] = Field(default=None, description="pressure at the start; default: that of a steady circuit")
     fluid: Name | None = Field(default=None, description="default: the only one")
 
 
@@ -85,7 +86,7 @@ class LoadSensing(Component):
     early: ClassVar[tuple[str, ...]] = ("pressure",)
 
     type: Literal["load-sensing"] = "load-sensing"
-    valves: Annotated[tuple[Name, ...], BeforeValidator(listed)] = Field(description="directional valves of 4/3 ways")
+    valves: Annotated[ManyNames[Name], BeforeValidator(listed)] = Field(description="directional valves of 4/3 ways")
     lag: Duration = Field(default=0.01, description="time constant")
     opens_within: Share = Field(default=0.05, description="opening of a valve at which its load is wholly sensed")
 

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Leakage, Pressure, Share, Truth
+from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Component, Rating, problem_of_share
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength
 
-Opening = Annotated[TimeFunction, varying("number")]
+Opening = Annotated[OneFunction, varying("number")]
 
 
 class Orifice(Rating, Component):
@@ -25,8 +24,8 @@ class Orifice(Rating, Component):
     late: ClassVar[tuple[str, ...]] = ("flow",)
 
     type: Literal["orifice"] = "orifice"
-    diameter: PositiveLength | None = None
-    discharge_coefficient: Share = 0.65
+    diameter: Maybe[PositiveLength] = Field(default=None)
+    discharge_coefficient: Share = Field(default=0.65)
     leakage: Leakage = Field(default=0.0, description="flow over the difference of pressure, laminar")
     opening: Opening = Field(default=1.0, description="from 0, closed, to 1")
     transition: Pressure = Field(default=0.5e5, description="difference of pressure below which the root is rounded")

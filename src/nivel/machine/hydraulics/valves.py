@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import (
     Leakage,
@@ -17,10 +15,11 @@ from nivel.machine.coefficient import (
     Truth,
     VolumeFlow,
 )
+from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
-from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.time_function import OneFunction, varying
 
-VaryingPressure = Annotated[TimeFunction, varying("pressure")]
+VaryingPressure = Annotated[OneFunction, varying("pressure")]
 
 
 class CheckValve(Rated):
@@ -36,9 +35,9 @@ class CheckValve(Rated):
         default=0.5e5, description="difference of pressure at which it begins to open"
     )
     opening_range: Pressure = Field(default=3e5, description="difference of pressure from there to fully open")
-    pilot_ratio: PositiveNumber | None = Field(default=None, description="area of the pilot over that of the seat")
+    pilot_ratio: Maybe[PositiveNumber] = Field(default=None, description="area of the pilot over that of the seat")
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
-    leakage: Leakage = 0.0
+    leakage: Leakage = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -59,7 +58,7 @@ class ReliefValve(Rated):
     opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open")
     opening_range: Pressure = Field(description="difference of pressure from there to fully open")
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
-    leakage: Leakage = 0.0
+    leakage: Leakage = Field(default=0.0)
 
 
 class CounterbalanceValve(Rated):
@@ -78,13 +77,13 @@ class CounterbalanceValve(Rated):
     pilot_ratio: PositiveNumber = Field(default=3.0, description="R")
     vented: Truth = Field(default=False, description="whether the pressure at V does not act on it")
     lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
-    check_flow: VolumeFlow | None = Field(default=None, description="of the check valve; default `flow`")
-    check_pressure_drop: Pressure | None = Field(
+    check_flow: Maybe[VolumeFlow] = Field(default=None, description="of the check valve; default `flow`")
+    check_pressure_drop: Maybe[Pressure] = Field(
         default=None, description="of the check valve; default `pressure_drop`"
     )
-    check_opens_at: NotNegativePressure = 0.5e5
-    check_opening_range: Pressure = 4e5
-    leakage: Leakage = 0.0
+    check_opens_at: NotNegativePressure = Field(default=0.5e5)
+    check_opening_range: Pressure = Field(default=4e5)
+    leakage: Leakage = Field(default=0.0)
 
     @property
     def check_conductance(self) -> float:
@@ -106,7 +105,7 @@ class ReducingValve(Rated):
     pressure: VaryingPressure = Field(description="at A, absolute, at which it is closed")
     opening_range: Pressure = Field(default=5e5, description="pressure below that at which it is fully open")
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
-    leakage: Leakage = 0.0
+    leakage: Leakage = Field(default=0.0)
 
 
 class Compensator(Rated):
@@ -123,4 +122,4 @@ class Compensator(Rated):
     margin: VaryingPressure = Field(default=7e5, description="held between A and LS")
     opening_range: Pressure = Field(default=6e5, description="from closed to fully open")
     lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
-    leakage: Leakage = 0.0
+    leakage: Leakage = Field(default=0.0)

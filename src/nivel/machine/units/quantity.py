@@ -1,6 +1,6 @@
 """Numbers as people write them: `0.25`, `10 cm`, `30 rpm`, `2*length + 5 mm`. Fields of records hold them as SI floats.
 
-The field types at the end (`Length`, `Mass`, …) are floats to the type checker. When a record is made they read a
+The field types at the end (`Length`, `Mass`, …) are floats to the type checker that reads them. When a record is made they read a
 number, which is SI, or a text with units and arithmetic, whose dimension must be the field's. Parameters of a machine
 file come in through the validation context: ``{"parameters": {"radius": Number(0.25)}}``.
 """
@@ -18,6 +18,7 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from nivel.arguments import plain
+from nivel.machine.given import OneNumber, ThreeNumbers
 from nivel.machine.units.arithmetic import (
     LOCAL_SYMBOLS,
     ExpressionError,
@@ -326,21 +327,21 @@ def _no_truth(value: Any) -> Any:
 
 Real = Annotated[float, BeforeValidator(_no_truth)]  # without units
 Whole = Annotated[int, BeforeValidator(_no_truth)]
-Scalar = Annotated[float, Quantity("number")]
-Length = Annotated[float, Quantity("length")]
-PositiveLength = Annotated[float, Quantity("length", positive=True)]
-Mass = Annotated[float, Quantity("mass", positive=True)]
-Density = Annotated[float, Quantity("density", positive=True)]
-Duration = Annotated[float, Quantity("time", positive=True)]
-Angle = Annotated[float, Quantity("angle")]
-Velocity = Annotated[float, Quantity("velocity")]
-AngularVelocity = Annotated[float, Quantity("angular velocity")]
-Acceleration = Annotated[float, Quantity("acceleration")]
-InertiaComponent = Annotated[float, Quantity("inertia")]
-Rate = Annotated[float, Quantity("rate", positive=True)]
+Scalar = Annotated[OneNumber, Quantity("number")]
+Length = Annotated[OneNumber, Quantity("length")]
+PositiveLength = Annotated[OneNumber, Quantity("length", positive=True)]
+Mass = Annotated[OneNumber, Quantity("mass", positive=True)]
+Density = Annotated[OneNumber, Quantity("density", positive=True)]
+Duration = Annotated[OneNumber, Quantity("time", positive=True)]
+Angle = Annotated[OneNumber, Quantity("angle")]
+Velocity = Annotated[OneNumber, Quantity("velocity")]
+AngularVelocity = Annotated[OneNumber, Quantity("angular velocity")]
+Acceleration = Annotated[OneNumber, Quantity("acceleration")]
+InertiaComponent = Annotated[OneNumber, Quantity("inertia")]
+Rate = Annotated[OneNumber, Quantity("rate", positive=True)]
 
-Direction = Annotated[tuple[Scalar, Scalar, Scalar], BeforeValidator(listed)]
-Position = Annotated[tuple[Length, Length, Length], BeforeValidator(listed)]
-VelocityVector = Annotated[tuple[Velocity, Velocity, Velocity], BeforeValidator(listed)]
-AngularVelocityVector = Annotated[tuple[AngularVelocity, AngularVelocity, AngularVelocity], BeforeValidator(listed)]
-AccelerationVector = Annotated[tuple[Acceleration, Acceleration, Acceleration], BeforeValidator(listed)]
+Direction = Annotated[ThreeNumbers[Scalar], BeforeValidator(listed)]
+Position = Annotated[ThreeNumbers[Length], BeforeValidator(listed)]
+VelocityVector = Annotated[ThreeNumbers[Velocity], BeforeValidator(listed)]
+AngularVelocityVector = Annotated[ThreeNumbers[AngularVelocity], BeforeValidator(listed)]
+AccelerationVector = Annotated[ThreeNumbers[Acceleration], BeforeValidator(listed)]

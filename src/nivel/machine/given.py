@@ -1,0 +1,119 @@
+"""Fields of records for the type checker: what one reads there, and what may be given for it.
+
+A mass reads as a number and may be given as a number or a text with a unit: ``Given[Mass, float, float | str]``. The type
+checker sees a descriptor with these two types, from which it knows the arguments of the record. When the program runs,
+such an annotation is the first of the three types, by which pydantic reads the value. A field that may be absent is
+``Maybe[…]`` of what it holds else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, dataclass_transform
+
+import pydantic
+from pydantic import BaseModel
+
+Validated = TypeVar("Validated")
+Read_co = TypeVar("Read_co", covariant=True)
+Written_contra = TypeVar("Written_contra", contravariant=True)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from pydantic._internal._model_construction import ModelMetaclass
+
+    MYPY = False  # which mypy takes to be true
+
+    class Given(Generic[Validated, Read_co, Written_contra]):
+        """A field that pydantic reads as `Validated`: of type `Read_co` in the record, made from a `Written_contra`."""
+
+        def __get__(self, record: object, owner: Any) -> Read_co: ...
+        def __set__(self, record: object, value: Written_contra) -> None: ...
+
+    Its = TypeVar("Its")
+    Made = TypeVar("Made")
+    AnyGiven = TypeVar("AnyGiven", bound=Given[Any, Any, Any])
+
+    class Maybe(Generic[AnyGiven]):
+        """The field `AnyGiven`, or None."""
+
+        def __get__(self: Maybe[Given[Any, Its, Any]], record: object, owner: Any) -> Its | None: ...
+
+        if MYPY:  # it cannot tell `Made` in the arguments of a record
+
+            def __set__(self, record: object, value: Any) -> None: ...  # pyright: ignore[reportRedeclaration]
+
+        else:
+
+            def __set__(self: Maybe[Given[Any, Any, Made]], record: object, value: Made | None) -> None: ...
+
+    OneRecord = Given[Validated, Validated, Validated | Mapping[str, Any]]
+    SomeNumbers = Sequence[float | str] | NDArray[Any]
+    SomeRows = Sequence[SomeNumbers] | NDArray[Any]
+
+    def Field(
+        *,
+        default: Any = ...,
+        key: str | None = None,
+        description: str | None = None,
+        discriminator: str | None = None,
+        ge: float | None = None,
+        gt: float | None = None,
+        le: float | None = None,
+        lt: float | None = None,
+        min_length: int | None = None,
+        max_length: int | None = None,
+        strict: bool | None = None,
+        optional: bool = False,
+    ) -> Any:
+        """Default and meaning of a field.
+
+        key : by which a machine file has it, where that is no name in Python. optional : its word in the schema need not be given.
+        """
+
+else:
+
+    class Given:
+        def __class_getitem__(cls, types):
+            return types[0]
+
+    class _Itself:
+        def __class_getitem__(cls, kind):
+            return kind
+
+    class Maybe:
+        def __class_getitem__(cls, kind):
+            return kind | None
+
+    OneRecord = _Itself
+    SomeNumbers = SomeRows = Any
+    ModelMetaclass = type(BaseModel)
+
+    def Field(*, key=None, optional=False, **words):
+        extra = {"json_schema_extra": {"optional": True}} if optional else {}
+        return pydantic.Field(**words, **extra, **({} if key is None else {"alias": key}))
+
+
+OneNumber = Given[float, float, float | str]
+TwoNumbers = Given[tuple[Validated, Validated], tuple[float, float], SomeNumbers]
+ThreeNumbers = Given[tuple[Validated, Validated, Validated], tuple[float, float, float], SomeNumbers]
+FourNumbers = Given[tuple[Validated, Validated, Validated, Validated], tuple[float, float, float, float], SomeNumbers]
+ManyNumbers = Given[tuple[Validated, ...], tuple[float, ...], SomeNumbers]
+TwoPlaces = Given[tuple[Validated, Validated], tuple[tuple[float, float, float], tuple[float, float, float]], SomeRows]
+ThreeRows = Given[
+    tuple[Validated, Validated, Validated],
+    tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]],
+    SomeRows,
+]
+ManyPlaces = Given[tuple[Validated, ...], tuple[tuple[float, float, float], ...], SomeRows]
+ManyCorners = Given[tuple[Validated, ...], tuple[tuple[float, float], ...], SomeRows]
+ManyRows = Given[tuple[Validated, ...], tuple[tuple[float, ...], ...], SomeRows]
+TwoNames = Given[tuple[Validated, Validated], tuple[str, str], Sequence[str]]
+ManyNames = Given[tuple[Validated, ...], tuple[str, ...], Sequence[str]]
+ManyRecords = Given[tuple[Validated, ...], tuple[Validated, ...], Sequence[Validated | Mapping[str, Any]]]
+TwoRecords = Given[tuple[Validated, Validated], tuple[Validated, Validated], Sequence[Validated | Mapping[str, Any]]]
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(Field, pydantic.PrivateAttr))
+class RecordClass(ModelMetaclass):
+    """The class of classes of records: tells the type checker that their fields are keywords, and never change."""

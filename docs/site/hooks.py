@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from cheat_sheet import SHEET_STYLE, cheat_sheet
 from gallery import crane_at_work, gallery
+from notebooks import notebook_page
 from reference import command_page, key_page
 
 ROOT = Path(__file__).parents[2]
@@ -61,6 +62,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for place in sorted(_files_linked()):
         add(f"files/{place}", (ROOT / place).read_bytes())
     pictures = os.environ.get("NIVEL_SITE_PICTURES", "1") == "1"
+    for path in sorted((ROOT / "docs" / "notebooks").glob("*.ipynb")):
+        text, shown = notebook_page(path, executed=pictures)
+        add(f"notebooks/{path.stem}.md", text)
+        for name, picture in shown.items():
+            add(f"notebooks/{name}", picture)
     page, drawn = gallery(pictures)
     add("gallery.md", page)
     for name, text in drawn.items():

@@ -24,6 +24,7 @@ LIBRARIES: Final = {
     "imageio_ffmpeg": Library("ffmpeg", "film"),
     "matplotlib": Library("matplotlib", "plot"),
     "meshio": Library("meshio", "flex"),
+    "pandas": Library("pandas", ""),
     "PIL": Library("pillow", "film"),
     "skfem": Library("scikit-fem", "flex"),
     "websockets": Library("websockets", ""),

@@ -19,7 +19,7 @@ EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "mechanisms" / "sim
 def test_a_notebook_shows_a_motion_that_plays(tmp_path):
     cells = [
         f"import nivel\nresult = nivel.load({str(EXAMPLE)!r}).simulate(duration=0.5)",
-        "result.view()",
+        "result.animate()",
         "result.view(result, height=300)",
     ]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import (
     BeforeValidator,
-    Field,
     ModelWrapValidatorHandler,
     ValidationError,
     ValidationInfo,

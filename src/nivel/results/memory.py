@@ -27,13 +27,14 @@ class MemoryContents:
         self.variables, self.coordinates = resolved(header)
         self.attributes = attributes
         self.frame_count = len(frames)
-        self._frames = frames
+        self.header = header
+        self.frames = frames
 
     def read(self, name: str, where: tuple[slice | int, ...] = ()) -> NDArray[np.float64]:
         if name == "time":
-            return self._frames[:, 0][where or ...].copy()
+            return self.frames[:, 0][where or ...].copy()
         variable = self.variables[name]
-        block = self._frames[:, variable.columns].reshape(self.frame_count, *shape_of(variable, self.coordinates))
+        block = self.frames[:, variable.columns].reshape(self.frame_count, *shape_of(variable, self.coordinates))
         return np.array(block[where or ...])
 
 

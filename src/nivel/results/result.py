@@ -18,6 +18,7 @@ from nivel.results.frames.names import Selection, selections, unknown_name
 from nivel.results.frames.occurrence import Occurrence, from_json
 from nivel.results.frames.row_units import own_units
 from nivel.results.frames.stored import StoredContents, understood
+from nivel.results.frames.tabulated import Column, Rows, Tabulated
 from nivel.results.trust.estimate import ATTRIBUTE, Estimate
 from nivel.results.trust.trust import Facts, assess
 from nivel.results.trust.verdicts import Trust
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from nivel.view.inline import Inline
 
 
-class Result:
+class Result(Tabulated):
     """What a run computed, read from its file or memory when asked for.
 
     `result["crank.position"]` is an xarray array with units; `result.array("crank.position")` the plain numpy array of
@@ -235,6 +236,28 @@ class Result:
 
         return data_array(self, name)
 
+    def keys(self) -> tuple[str, ...]:
+        """The names that ``result[…]`` takes, as `names`."""
+        return self.names
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Everything as one xarray dataset: `dataset`."""
+        return self.dataset
+
+    def _rows(self, select: list[str]) -> Rows:
+        from nivel.results.frames.csv_table import columns
+
+        its = {name: Column(self.array(name), self.units(name)) for name in columns(self, select)}
+        return Rows("time", Column(self.time, "s"), its)
+
+    @checked_arguments
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write the result file, which `nivel.open_result` and `nivel report` read. Raises ModelError where it exists and `force` is
+        not given."""
+        from nivel.results.saved import save
+
+        return save(self._contents, path, force=force)
+
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """Everything as one xarray dataset; read from the file when used where the run is over."""
@@ -280,11 +303,15 @@ class Result:
         return write_report(self, path)
 
     @checked_arguments
-    def view(self, *others: Result, height: int = 520) -> Inline:
-        """Animation of the motion in a notebook; `others` are drawn transparently over it. height : in pixels."""
+    def animate(self, *others: Result, height: int = 520) -> Inline:
+        """Animation of the motion in a notebook, in the viewer; `others` are drawn transparently over it. height : in pixels."""
         from nivel.view.inline import Inline
 
         return Inline([self, *others], height)
+
+    def view(self, *others: Result, height: int = 520) -> Inline:
+        """As `animate`."""
+        return self.animate(*others, height=height)
 
     @checked_arguments
     def export_scene(self, path: str | os.PathLike[str], *others: Result) -> Path:

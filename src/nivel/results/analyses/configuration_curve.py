@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.frames.dataset_file import write_dataset
+from nivel.results.frames.tabulated import Tabulated
 
 if TYPE_CHECKING:
     import xarray
@@ -28,7 +26,7 @@ class Turning:
 
 
 @dataclass(frozen=True)
-class ConfigurationCurve:
+class ConfigurationCurve(Tabulated):
     """values (T, m) [rad, m] of the joint coordinates `names` at the places `arc` (T,), the way of all bodies in machine lengths and rad.
 
     closed : it comes back to where it began. coordinate : whose turning points are given. crossed : places at which another curve of
@@ -56,10 +54,6 @@ class ConfigurationCurve:
         return xarray.Dataset(
             values, coords={"arc": self.arc}, attrs={"machine": self.machine, "closed": int(self.closed)}
         )
-
-    def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
-        """Write the curve as NetCDF. Raises ModelError where the file exists and `force` is not given."""
-        return write_dataset(self.to_xarray(), path, force=force)
 
     def summary(self) -> dict[str, Any]:
         """For programs."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.results.comparison.comparison_files import write_text
-from nivel.results.frames.dataset_file import write_dataset
+from nivel.results.frames.tabulated import Tabulated
 
 if TYPE_CHECKING:
     import xarray
@@ -25,7 +25,7 @@ NAMED = 4  # states in a sentence
 
 
 @dataclass(frozen=True)
-class Efforts:
+class Efforts(Tabulated):
     """effort (T, m) [N, N m] on the coordinates of the actuators, positive where it drives them up; rate (T, m) of these coordinates.
 
     missing (T,) : effort on the joint coordinate `missing_at` that would do most of what no actuator gives; missing_share (T,) of the
@@ -143,10 +143,6 @@ class Efforts:
             "missing_at": self.missing_at,
             "statements": self.statements(),
         }
-
-    def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
-        """Write the histories as NetCDF. Raises ModelError where the file exists and `force` is not given."""
-        return write_dataset(self.to_xarray(), path, force=force)
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page: efforts, power, peaks and work."""

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.results.comparison.comparison_files import write_text
-from nivel.results.frames.dataset_file import write_dataset
+from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 
 if TYPE_CHECKING:
     import xarray
 
     from nivel.results.result import Result
+    from nivel.view.inline import Inline
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -69,7 +70,7 @@ class Mode:
 
 
 @dataclass(frozen=True)
-class LinearModel:
+class LinearModel(Tabulated):
     """δẋ = A δx + B δu, δy = C δx + D δu about a state of a machine at `time` [s].
 
     states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
@@ -217,6 +218,22 @@ class LinearModel:
         facts = {"machine": self.name, "about": self.about, "time": self.time, "steady": int(self.steady)}
         return xarray.Dataset(values, coords=coordinates, attrs=facts)
 
+    def _rows(self, select: list[str]) -> Rows:
+        """The modes, one a row."""
+        modes = self.modes
+        columns = {
+            "eigenvalue_real": Column([each.eigenvalue.real for each in modes], "1/s"),
+            "eigenvalue_imag": Column([each.eigenvalue.imag for each in modes], "1/s"),
+            "natural_frequency": Column([each.natural_frequency for each in modes], "Hz"),
+            "damping_ratio": Column([each.damping_ratio for each in modes], "1"),
+            "kind": Column([each.kind for each in modes], ""),
+        }
+        return Rows("mode", Column([each.number for each in modes], ""), chosen(columns, select))
+
+    def animate(self, number: int = 1, *, height: int = 520) -> Inline:
+        """Animation of mode `number` in a notebook. height : in pixels. Raises ModelError where there is no such mode."""
+        return self.mode(number).animate(height=height)
+
     def mode(self, number: int) -> Result:
         """Mode `number` (from 1) as an animated motion: a period of a second, an amplitude that can be seen.
 
@@ -251,10 +268,6 @@ class LinearModel:
                 for each in (self.modes if self.steady else ())
             ],
         }
-
-    def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
-        """Write everything as NetCDF, for `xarray.open_dataset`. Raises ModelError where the file exists and `force` is not given."""
-        return write_dataset(self.to_xarray(), path, force=force)
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page of the analysis: eigenvalues, modes, frequency response."""

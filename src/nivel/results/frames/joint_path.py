@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.results.frames.tabulated import Tabulated
 
 if TYPE_CHECKING:
     import xarray
@@ -20,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class JointPath:
+class JointPath(Tabulated):
     """values (T, n) of the tree's `coordinates` at times (T,) [s]; independent : those that were searched for.
 
     error (T, 2) : of position [m] and orientation [rad]; reached (T,) : whether both are round-off. manipulability : √det(J Jᵀ) and
@@ -39,6 +40,10 @@ class JointPath:
     smallest_singular_value: Array
     limits: tuple[tuple[str, ...], ...]
     starts: NDArray[np.int64]
+
+    def keys(self) -> tuple[str, ...]:
+        """Names of the joint coordinates."""
+        return self.coordinates
 
     def __getitem__(self, name: str) -> Array:
         """(T,) of a joint coordinate. Raises ModelError for one that is not known."""

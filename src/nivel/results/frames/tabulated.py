@@ -1,0 +1,104 @@
+"""Results by name: what all of them offer in notebooks and programs, whatever they are results of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fnmatch import fnmatchcase
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from nivel.arguments import checked_arguments
+from nivel.errors import Fault, ModelError
+from nivel.extras import needed
+from nivel.results.frames.dataset_file import write_dataset
+from nivel.wording import unknown_word
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+
+class Column(NamedTuple):
+    """The numbers of one column, and their SI unit; "1" or nothing where they have none."""
+
+    values: Any
+    units: str
+
+
+class Rows(NamedTuple):
+    """A table: what stands before its rows, by its name, and its columns by name."""
+
+    name: str
+    index: Column
+    columns: Mapping[str, Column]
+
+
+class Tabulated:
+    """Something with numbers by name: `keys()`, completion of names in notebooks, `save(path)`, `to_dataframe()`."""
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Everything, with names and units."""
+        raise NotImplementedError
+
+    def keys(self) -> tuple[str, ...]:
+        """The names that ``[…]`` takes."""
+        return tuple(str(name) for name in self.to_xarray().data_vars)
+
+    def __getitem__(self, name: str) -> Any:
+        """The numbers of this name with their units. Raises ModelError with the nearest name where there is none."""
+        if name not in self.keys():
+            raise ModelError(Fault("", 0, 0, "", unknown_word(str(name), list(self.keys()), "name")))
+        return self.to_xarray()[name]
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.keys())
+
+    @checked_arguments
+    def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
+        """Write everything as NetCDF. Raises ModelError where the file exists and `force` is not given."""
+        return write_dataset(self.to_xarray(), path, force=force)
+
+    @checked_arguments
+    def to_dataframe(self, select: Iterable[str] = ()) -> pandas.DataFrame:
+        """A pandas table with one column per number; ``table.attrs["units"]`` has the SI units by column.
+
+        select : names or patterns (`*.effort`) of columns; default all. Raises ModelError where there is no such column.
+        """
+        frames = needed("pandas", "tables need")
+        rows = self._rows([select] if isinstance(select, str) else list(select))
+        index = frames.Index(rows.index.values, name=rows.name)
+        table = frames.DataFrame({name: each.values for name, each in rows.columns.items()}, index=index)
+        table.attrs["units"] = {rows.name: rows.index.units} | {name: each.units for name, each in rows.columns.items()}
+        return table
+
+    def _rows(self, select: list[str]) -> Rows:
+        """The table of `to_dataframe`: everything over the first dimension of the dataset."""
+        data = self.to_xarray()
+        along = str(next(iter(data.data_vars.values())).dims[0])
+        columns: dict[str, Column] = {}
+        for name, array in data.data_vars.items():
+            if array.dims[:1] == (along,) and array.ndim == 1:
+                columns[str(name)] = Column(array.to_numpy(), str(array.attrs.get("units", "")))
+            elif array.dims[:1] == (along,) and array.ndim == 2:
+                labels = [str(each) for each in data[array.dims[1]].to_numpy()]
+                units = str(array.attrs.get("units", "")).split(", ")
+                each_unit = units if len(units) == len(labels) else units[:1] * len(labels)
+                for k, (label, unit) in enumerate(zip(labels, each_unit, strict=True)):
+                    columns[f"{label}.{name}"] = Column(array.to_numpy()[:, k], unit)
+        units = str(data[along].attrs.get("units", "s" if along == "time" else ""))
+        return Rows(along, Column(data[along].to_numpy(), units), chosen(columns, select))
+
+
+def chosen(columns: Mapping[str, Column], select: list[str]) -> dict[str, Column]:
+    """The columns of these names or patterns, in the order asked for; all where nothing is. Raises ModelError for unknown ones."""
+    found: dict[str, Column] = {}
+    faults = []
+    for entry in select:
+        its = {name: each for name, each in columns.items() if name == entry or fnmatchcase(name, entry)}
+        found |= its
+        if not its:
+            faults.append(Fault("", 0, 0, "select", unknown_word(entry, list(columns), "name")))
+    if faults:
+        raise ModelError(faults)
+    return found if select else dict(columns)

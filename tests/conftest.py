@@ -22,6 +22,12 @@ def pytest_collection_modifyitems(items):
 
 
 @pytest.fixture
+def verified(monkeypatch):
+    """Runs are verified unless they say otherwise, as they are outside of the tests."""
+    monkeypatch.setitem(Machine.simulate.__wrapped__.__kwdefaults__, "verify", True)
+
+
+@pytest.fixture
 def rng():
     return np.random.default_rng(20031)
 

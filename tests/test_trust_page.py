@@ -27,7 +27,7 @@ def test_the_command_of_the_page_says_its_headline(tmp_path, monkeypatch):
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_the_program_of_the_page_runs(monkeypatch, capsys):
+def test_the_program_of_the_page_runs(verified, monkeypatch, capsys):
     (program,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
     mpl.use("Agg")
     monkeypatch.chdir(ROOT)

@@ -1,8 +1,9 @@
 """Results of every kind by name, as files and as tables of pandas."""
 
-import nivel
 import numpy as np
 import pytest
+
+import nivel
 from example_files import EXAMPLES
 from nivel.results.frames.tabulated import Tabulated
 

@@ -309,6 +309,7 @@ class Result(Tabulated):
 
         return Inline([self, *others], height)
 
+    @checked_arguments
     def view(self, *others: Result, height: int = 520) -> Inline:
         """As `animate`."""
         return self.animate(*others, height=height)

@@ -173,7 +173,7 @@ def test_curves_are_grouped_by_unit(result):
 
 def test_plots_without_matplotlib_say_what_to_install(result, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(ModelError, match=r"pip install nivel\[plot\]"):
+    with pytest.raises(ModelError, match=r"pip install 'nivel\[plot\]'"):
         result.plot("hinge.angle")
 
 

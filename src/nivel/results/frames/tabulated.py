@@ -30,7 +30,7 @@ class Rows(NamedTuple):
     """A table: what stands before its rows, by its name, and its columns by name."""
 
     name: str
-    index: Column
+    along: Column
     columns: Mapping[str, Column]
 
 
@@ -67,9 +67,9 @@ class Tabulated:
         """
         frames = needed("pandas", "tables need")
         rows = self._rows([select] if isinstance(select, str) else list(select))
-        index = frames.Index(rows.index.values, name=rows.name)
+        index = frames.Index(rows.along.values, name=rows.name)
         table = frames.DataFrame({name: each.values for name, each in rows.columns.items()}, index=index)
-        table.attrs["units"] = {rows.name: rows.index.units} | {name: each.units for name, each in rows.columns.items()}
+        table.attrs["units"] = {rows.name: rows.along.units} | {name: each.units for name, each in rows.columns.items()}
         return table
 
     def _rows(self, select: list[str]) -> Rows:

@@ -28,14 +28,15 @@ BESIDE = ("README.md", "NOTATION.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURI
 PAGES = sorted([*DOCS.rglob("*.md"), *(ROOT / name for name in BESIDE)])
 # pages that are made when the site is built
 MADE = {
+    "benchmarks.md",
     "changelog.md",
     "cheat-sheet.md",
-    "contributing.md",
-    "keys.md",
     "command-line.md",
-    "notation.md",
-    "benchmarks.md",
+    "contributing.md",
     "gallery.md",
+    "keys.md",
+    "notation.md",
+    "notebooks/first-steps.md",
 }
 WRITTEN_HERE = [
     "index.md",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
@@ -126,13 +126,16 @@ def command(
     _refuse_other_kinds(tables)
     page = None if no_report else report or tables[0].with_suffix(".html")
     _refuse_to_replace(tables, page, force, Path(machine))
+    words: dict[str, Any] = {  # not yet known to be words of settings
+        "integrators": integrators,
+        "formulations": formulations,
+        "coordinates": coordinates,
+        "rotations": rotations,
+        "stabilisations": stabilisations,
+    }
     with progress_listener(quiet) as listener:
         comparison = loaded.compare(
-            integrators=integrators,
-            formulations=formulations,
-            coordinates=coordinates,
-            rotations=rotations,
-            stabilisations=stabilisations,
+            **words,
             steps=steps,
             tolerances=tolerances,
             duration=duration,

@@ -20,6 +20,7 @@ from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.changes import changed
+from nivel.machine.given import Field, Given
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import Record
 from nivel.machine.settings import (
@@ -31,7 +32,7 @@ from nivel.machine.settings import (
     Stabilisation,
     Tolerance,
 )
-from nivel.machine.units.quantity import fault, listed
+from nivel.machine.units.quantity import Duration, fault, listed
 from nivel.results.comparison.comparison import Method
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against
@@ -70,7 +71,7 @@ class Axes(Record):
     coordinates: Several[Coordinates] = None
     rotations: Several[Rotations] = None
     stabilisations: Several[Stabilisation] = None
-    steps: Several[float] = None
+    steps: Given[Several[Duration], Several[float], Any] = Field(default=None)
     tolerances: Several[Tolerance] = None
 
 

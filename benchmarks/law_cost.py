@@ -19,7 +19,7 @@ from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
 from nivel.machine import Body, MachineRecord, SimulationSettings, SpringDamper
-from nivel.machine.marker import Marker
+from nivel.machine.core.marker import Marker
 from nivel.system.laws.laws import law_address
 
 SPRINGS, STEPS, REPEATS = 100, 2000, 15

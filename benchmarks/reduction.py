@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from nivel.flexible.body_file import read_body, write_body
+from nivel.flexible.body.body_file import read_body, write_body
 from nivel.flexible.reduce import reduce
 
 BOOM = Path(__file__).parent.parent / "examples" / "flexible" / "crane-boom.yaml"

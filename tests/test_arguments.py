@@ -11,12 +11,12 @@ import pytest
 import nivel
 import synthetic_run as pendulum
 from nivel.api import Machine
-from nivel.arguments import checked_arguments
 from nivel.errors import ModelError
 from nivel.results import Memory, Result
 from nivel.results.comparison.comparison import Comparison, Row
 from nivel.results.stress.recovered import RecoveredBody
 from nivel.results.trust.trust import Facts, assess
+from nivel.words.arguments import checked_arguments
 from wrong_values import ODD, WRONG, told_or_done
 
 ARM = {"name": "arm", "mass": 1, "inertia": [1, 1, 1]}
@@ -208,6 +208,6 @@ def test_the_signature_stays_what_it_was():
 
 
 def test_checking_arguments_loads_no_compiler():
-    code = "import sys, nivel.arguments; print(*{'numba', 'numpy', 'pydantic'} & set(sys.modules))"
+    code = "import sys, nivel.words.arguments; print(*{'numba', 'numpy', 'pydantic'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""

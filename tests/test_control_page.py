@@ -11,7 +11,7 @@ from nivel.api import Machine
 from nivel.files import parse_machine
 from nivel.machine.control import BLOCKS
 from nivel.machine.control.block import Block
-from nivel.machine.record import field_words
+from nivel.machine.core.record import field_words
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "control.md").read_text(encoding="utf-8")

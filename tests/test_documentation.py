@@ -33,21 +33,21 @@ from nivel.machine import (
 from nivel.machine.beams import section as sections
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import GeneralSection
+from nivel.machine.bodies.inertia import Inertia
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere, Tube
+from nivel.machine.core.orientation import SEQUENCES, Orientation
+from nivel.machine.core.record import field_words
 from nivel.machine.forces import FORCES
-from nivel.machine.inertia import Inertia
-from nivel.machine.input import Gamepad, Input, Keys
-from nivel.machine.orientation import SEQUENCES, Orientation
-from nivel.machine.python_law import KEYS as LAW_KEYS
-from nivel.machine.record import field_words
-from nivel.machine.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
+from nivel.machine.laws.python_law import KEYS as LAW_KEYS
+from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
 from nivel.machine.settings import Baumgarte
-from nivel.machine.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere, Tube
-from nivel.machine.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
+from nivel.machine.signals.input import Gamepad, Input, Keys
+from nivel.machine.signals.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
 from nivel.machine.units.arithmetic import CONSTANTS, FUNCTIONS, ExpressionError, Number
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.unit import UNITS
-from nivel.system.joints import JOINTS
+from nivel.system.joints.joints import JOINTS
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"

@@ -97,7 +97,7 @@ simulation: {duration: 1, step: 1 ms, coordinates: absolute}
 """
 FOLLOW = """
 import numpy as np, nivel
-from nivel.machine.orientation import matrix_from_euler_parameters as matrix
+from nivel.machine.core.orientation import matrix_from_euler_parameters as matrix
 result = nivel.load("pair.yaml").simulate()
 theta = result.array("orientation")
 A, B = (np.array([matrix(p) for p in theta[:, k]]) for k in (0, 1))

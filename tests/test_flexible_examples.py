@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 import nivel
 from lanes import tail
 from models import bar, needs, reduced
-from nivel.flexible.body_file import write_body
+from nivel.flexible.body.body_file import write_body
 from nivel.flexible.reduce import reduce
 from simulating import simulate
 

@@ -12,9 +12,9 @@ from click import Context
 
 from models import needs
 from nivel.cli import main
-from nivel.flexible.body_file import write_body
-from nivel.flexible.model_file import TOP_WORDS, parse_model, read_model
-from nivel.flexible.records import (
+from nivel.flexible.body.body_file import write_body
+from nivel.flexible.model.model_file import TOP_WORDS, parse_model, read_model
+from nivel.flexible.model.records import (
     FORMATS,
     BeamRecord,
     Frame,
@@ -24,10 +24,10 @@ from nivel.flexible.records import (
     Reduction,
     ShapeFunction,
 )
+from nivel.flexible.model.solid_records import Part, Solid
 from nivel.flexible.reduce import reduce, reduce_model
-from nivel.flexible.solid_records import Part, Solid
 from nivel.machine.beams.section import Material, SectionRecord
-from nivel.machine.record import field_words
+from nivel.machine.core.record import field_words
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "flexible-bodies.md").read_text(encoding="utf-8")

@@ -43,7 +43,7 @@ def test_an_example_runs_green(path):
 
 def test_the_boom_of_the_crane_bends_by_one_word(tmp_path):
     """Bent or rigid it stands on the same pressure, of nearly the same weight."""
-    from nivel.flexible.body_file import write_body
+    from nivel.flexible.body.body_file import write_body
     from nivel.flexible.reduce import reduce
 
     folder = tmp_path / "hydraulics"

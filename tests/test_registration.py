@@ -10,12 +10,13 @@ from nivel.integrate.loop import workspace
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.integrate.variable_order import variable_workspace
 from nivel.machine.forces import FORCES as RECORDS
-from nivel.machine.joint import JOINT_COORDINATES, JointType
+from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import SimulationSettings
 from nivel.methods import CHOOSING, EITHER, known_words
 from nivel.motion.catalogue import FORMULATIONS
+from nivel.results.pages import MAKERS, page_maker
 from nivel.system.forces import FORCES
-from nivel.system.joints import JOINTS
+from nivel.system.joints.joints import JOINTS
 
 
 def words(setting):
@@ -51,3 +52,8 @@ def test_multistep_methods_get_the_rows_and_numbers_that_they_use():
 
 def test_forces_have_the_types_that_the_builder_knows():
     assert {record.model_fields["type"].default for record in RECORDS} == set(FORCES)
+
+
+@pytest.mark.parametrize("page", MAKERS)
+def test_every_page_of_a_result_has_a_maker(page):
+    assert callable(page_maker(page))

@@ -16,7 +16,8 @@ from nivel.errors import ModelError
 from nivel.files.outline import FORMAT as MACHINE_FORMAT
 from nivel.files.reader import parse_machine
 from nivel.files.schema import schema
-from nivel.flexible import body_file, model_file
+from nivel.flexible.body import body_file
+from nivel.flexible.model import model_file
 from nivel.live import recording
 from nivel.results import Result, Store
 from nivel.results.frames import result_format

@@ -55,7 +55,7 @@ def _block(section: str, records: list[type]) -> str:
 
 def _joints(record: Any) -> str:
     """Joints by type: what places them, what size they need, and their coordinates."""
-    from nivel.machine.joint import JOINT_KINDS
+    from nivel.machine.joints.joint import JOINT_KINDS
 
     lines = []
     for name, kind in JOINT_KINDS.items():
@@ -94,7 +94,7 @@ def _keys(record: Any, names: list[str]) -> str:
 
 def _key(name: str, field: Any) -> str:
     """A key with its unit, or with its few words."""
-    from nivel.machine.signature import words_of
+    from nivel.machine.laws.signature import words_of
 
     key = escape(field.alias or name)
     words = words_of(field)

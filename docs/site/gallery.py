@@ -34,7 +34,7 @@ def with_bodies(folder: Path) -> Path:
     """A copy of the examples in `folder`, with the bodies that the flexible ones need. The body of a solid needs gmsh: without it its
     machine has no picture."""
     import nivel
-    from nivel.flexible.body_file import write_body
+    from nivel.flexible.body.body_file import write_body
     from nivel.flexible.reduce import reduce
 
     copy = folder / "examples"

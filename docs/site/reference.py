@@ -40,7 +40,7 @@ def sections() -> dict[str, list[type]]:
     from nivel.machine.forces import FORCES
     from nivel.machine.hydraulics import COMPONENTS
     from nivel.machine.hydraulics.fluid import Fluid, Gas
-    from nivel.machine.references import SECTIONS
+    from nivel.machine.uses.references import SECTIONS
 
     # what is told apart by its type when it is read does not stand in the annotation
     kinds: dict[str, list[type]] = {
@@ -100,7 +100,7 @@ def _parts(record: type) -> Iterator[type]:
 
 
 def _table(record: Any, section: str, level: int) -> list[str]:
-    from nivel.machine.signature import words_of
+    from nivel.machine.laws.signature import words_of
 
     kind = kind_of(record)
     alone = bool(record.collection)  # an element is known by its type, a part of one by its name

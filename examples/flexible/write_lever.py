@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from nivel.flexible.frame_source import frame_model
-from nivel.flexible.model_file import parse_model
+from nivel.flexible.model.frame_source import frame_model
+from nivel.flexible.model.model_file import parse_model
 
 FRAME = """
 format: 1

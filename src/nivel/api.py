@@ -23,7 +23,6 @@ from nivel.analysis.plan.compilation import (
 from nivel.analysis.plan.plan import Plan, methods_of, plan_run
 from nivel.analysis.plan.settings import waiting_time
 from nivel.analysis.progress.listener import Listener
-from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
@@ -48,7 +47,8 @@ from nivel.machine import (
 )
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.model import Model
-from nivel.wording import shown
+from nivel.words.arguments import checked_arguments
+from nivel.words.wording import shown
 
 if TYPE_CHECKING:
     import xarray
@@ -443,7 +443,7 @@ class Machine(Model):
         """
         from nivel.analysis.kinematics.refusals import refuse_what_bends
         from nivel.analysis.kinematics.settings import kinematics_settings
-        from nivel.analysis.plan.neutral import neutral
+        from nivel.analysis.plan.equations_only import neutral
 
         given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
         settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
@@ -547,11 +547,11 @@ class Machine(Model):
         prescribe the coordinates of the actuators.
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be reached.
         """
+        from nivel.analysis.inverse.friction_efforts import acting_drivers, driven_alone, efforts_of_drivers, rubs
         from nivel.analysis.inverse.refusals import refuse_for_inverse
-        from nivel.analysis.inverse.rubbing import acting_drivers, driven_alone, efforts_of_drivers, rubs
         from nivel.analysis.inverse.settings import inverse_settings
         from nivel.analysis.inverse.trajectory import along_trajectory
-        from nivel.analysis.plan.neutral import neutral
+        from nivel.analysis.plan.equations_only import neutral
 
         given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
         if motion is not None and trajectory is not None:
@@ -589,7 +589,7 @@ class Machine(Model):
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
-        from nivel.analysis.plan.neutral import neutral
+        from nivel.analysis.plan.equations_only import neutral
 
         with self._faults_in_file():
             refuse_jumps(self.record)
@@ -597,7 +597,7 @@ class Machine(Model):
             methods = methods_of(plain, "newton-euler", chosen)
         build(linear_entries(methods), listener)
         from nivel.analysis.inverse.mechanics import Mechanics
-        from nivel.analysis.run.moment import at_start
+        from nivel.analysis.run.prepared_state import at_start
 
         with self._faults_in_file():
             return Mechanics(plain, at_start(methods))
@@ -673,7 +673,7 @@ class Machine(Model):
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.linearise.settings import linearise_settings
-        from nivel.analysis.plan.neutral import neutral
+        from nivel.analysis.plan.equations_only import neutral
 
         simulation = self.record.simulation
         wanted = simulation.coordinates if coordinates is None else coordinates
@@ -702,7 +702,7 @@ class Machine(Model):
         build(entries, listener)
         # what follows takes longer to import
         from nivel.analysis.linearise.run import linearise
-        from nivel.analysis.run.moment import run_until
+        from nivel.analysis.run.prepared_state import run_until
 
         with self._faults_in_file():
             posture = None if run is None else run_until(run, listener or Listener())
@@ -764,7 +764,7 @@ class Machine(Model):
 
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
-        from nivel.results.frames.target import check_target  # results take long to import
+        from nivel.files.target import check_target
 
         if out is not None:
             sources = [Path(self.origin.file)] if self.origin.file else []

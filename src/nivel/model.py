@@ -10,7 +10,6 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Self, TypeVar
 
-from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
 from nivel.files.known import Known
@@ -38,11 +37,12 @@ from nivel.machine import (
 )
 from nivel.machine.changes import changed
 from nivel.machine.control import ControlBlock
+from nivel.machine.core.named import Named, NamedValues
+from nivel.machine.core.record import entry
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
-from nivel.machine.named import Named, NamedValues
-from nivel.machine.record import entry
-from nivel.machine.references import SECTIONS
-from nivel.wording import unknown_word
+from nivel.machine.uses.references import SECTIONS
+from nivel.words.arguments import checked_arguments
+from nivel.words.wording import unknown_word
 
 Element = TypeVar("Element", bound=Record)
 

@@ -10,7 +10,7 @@ from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import ModelError
 from nivel.machine import AssemblySettings, Body, Joint, MachineRecord, Marker
-from nivel.system.joints import JOINTS, Combination
+from nivel.system.joints.joints import JOINTS, Combination
 
 
 def test_data_rounded_to_a_millimetre_are_closed():
@@ -77,7 +77,7 @@ def _by_markers(machine):
 
 
 def _as_marker(machine, side):
-    from nivel.system.joint_frames import joint_frames
+    from nivel.system.joints.joint_frames import joint_frames
 
     body, point, axes = joint_frames(machine, machine.joints[0])[side]
     return Marker(body=body, position=tuple(point), orientation={"matrix": axes.tolist()})

@@ -10,7 +10,7 @@ from nivel.analysis.plan.settings import complete
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine import Body, MachineRecord, SimulationSettings
-from nivel.system.joints import JOINTS
+from nivel.system.joints.joints import JOINTS
 
 
 def test_facts_of_the_slider_crank():

@@ -7,7 +7,7 @@ import machines
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
 from nivel.machine import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
-from nivel.machine.time_function import Expression, PythonLaw, Table
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from preparing import prepare
 from running import run
 

@@ -8,7 +8,7 @@ from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import ModelError
 from nivel.machine import AssemblySettings, Body, Driver, Joint, MachineRecord, Marker
-from nivel.machine.time_function import Expression
+from nivel.machine.laws.time_function import Expression
 from running import run
 
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])

@@ -9,7 +9,7 @@ import nivel.api
 from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.extras import LIBRARIES, is_installed, require
-from nivel.flexible import solid_source
+from nivel.flexible.model import solid_source
 from nivel.native import library, workers
 from nivel.results import Result
 from nivel.view import browser, capture

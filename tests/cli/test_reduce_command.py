@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
-from nivel.flexible.body_file import read_body
+from nivel.flexible.body.body_file import read_body
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "flexible"
 BAR = str(EXAMPLES / "pendulum-bar.yaml")

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 import nivel
 from models import bar, needs, reduced
 from nivel.cli import main
-from nivel.flexible.body_file import write_body
+from nivel.flexible.body.body_file import write_body
 
 MACHINE = """
 format: 1

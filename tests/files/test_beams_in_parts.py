@@ -6,7 +6,7 @@ import pytest
 from nivel.errors import ModelError
 from nivel.files import read_machine
 from nivel.machine import rotation_matrix
-from nivel.machine.orientation import Orientation
+from nivel.machine.core.orientation import Orientation
 
 PART = """\
 format: 1

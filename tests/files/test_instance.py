@@ -10,9 +10,9 @@ from nivel.files import read_machine
 from nivel.files.instance import MENTIONS, renamed
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine import Body, Driver, Expression, Joint, Marker, PointForce, PythonLaw, Sensor, Table
-from nivel.machine.coupling import Belt, Gear, LinearCoupling, Rack
 from nivel.machine.forces import FORCES
-from nivel.machine.references import SECTIONS
+from nivel.machine.joints.coupling import Belt, Gear, LinearCoupling, Rack
+from nivel.machine.uses.references import SECTIONS
 
 RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, Driver, *FORCES, Sensor)
 TEXTS = {

@@ -13,7 +13,7 @@ from nivel.errors import ModelError
 from nivel.files import parse_machine, read_mesh, write_machine
 from nivel.files.mesh_file import NotReadError, parse
 from nivel.machine import mass_properties
-from nivel.machine.surface import enclosed, surface_arrays
+from nivel.machine.bodies.surface import enclosed, surface_arrays
 from solid_meshes import box_mesh
 
 VERTICES, TRIANGLES = box_mesh(2.0, 3.0, 4.0)

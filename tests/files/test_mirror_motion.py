@@ -8,7 +8,7 @@ from nivel.files import parse_machine
 from nivel.files.placed import placed
 from nivel.files.placement import Placement
 from nivel.machine import Orientation
-from nivel.machine.references import SECTIONS
+from nivel.machine.uses.references import SECTIONS
 
 TURNED = Orientation(euler=(0.3, 0.7, -1.0), sequence="zxz")
 PLACEMENTS = {
@@ -140,7 +140,7 @@ def machine_of(name):
 
 def height(machine):
     from nivel.machine import placement
-    from nivel.machine.orientation import matrix_from_euler_parameters
+    from nivel.machine.core.orientation import matrix_from_euler_parameters
 
     position, parameters = placement(machine.bodies[0])
     return float((position + matrix_from_euler_parameters(parameters) @ machine.markers[0].position)[2])

@@ -21,9 +21,9 @@ from nivel.machine import (
     mass_properties,
     placement,
 )
-from nivel.machine.joint import JOINT_KINDS
-from nivel.machine.orientation import matrix_from_euler_parameters, rotation_matrix
-from nivel.machine.references import SECTIONS
+from nivel.machine.core.orientation import matrix_from_euler_parameters, rotation_matrix
+from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.uses.references import SECTIONS
 
 TURNED = Orientation(euler=(0.3, 0.7, -1.0), sequence="zxz")
 PLACEMENTS = {

@@ -5,10 +5,10 @@ import pytest
 from nivel.files import schema
 from nivel.files.outline import FILE_WORDS
 from nivel.machine import Beam, Body, Box, Joint, MachineRecord, Sensor, SimulationSettings
-from nivel.machine.coupling import Belt, Gear, LinearCoupling, Rack
+from nivel.machine.core.record import field_words
 from nivel.machine.forces import FORCES
-from nivel.machine.record import field_words
-from nivel.machine.references import SECTIONS
+from nivel.machine.joints.coupling import Belt, Gear, LinearCoupling, Rack
+from nivel.machine.uses.references import SECTIONS
 
 SCHEMA = schema()
 OF_FILES = {"Body": {"mass_properties"}}  # keys that only files have

@@ -7,9 +7,9 @@ import yaml
 
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_machine
-from nivel.flexible.model_file import read_model
-from nivel.lines_to_write import LINES
-from nivel.vocabulary import SAME, translated
+from nivel.flexible.model.model_file import read_model
+from nivel.words.lines_to_write import LINES
+from nivel.words.vocabulary import SAME, translated
 
 BASE = """\
 format: 1

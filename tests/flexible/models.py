@@ -4,7 +4,7 @@ from importlib import import_module
 
 import pytest
 
-from nivel.flexible.model_file import parse_model
+from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.reduce import reduce_model
 
 STEEL = "steel: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}"

@@ -9,7 +9,7 @@ import pytest
 
 import nivel
 from models import bar, reduced
-from nivel.flexible.body_file import write_body
+from nivel.flexible.body.body_file import write_body
 from simulating import simulate
 from test_pendulum import TIMES, TIPS
 

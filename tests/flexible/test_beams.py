@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.flexible.beam import Beam, end_stress, geometric_stiffness, mass_matrix, mass_points, stiffness
+from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_matrix, mass_points, stiffness
 from nivel.machine.beams.section import Box, Circle, IBeam, Material, Rectangle, Tube, Values
 from nivel.machine.beams.section_properties import section_of
 

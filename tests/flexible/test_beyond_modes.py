@@ -5,7 +5,7 @@ import pytest
 
 import simulating
 from models import bar, reduced
-from nivel.flexible.body_file import write_body
+from nivel.flexible.body.body_file import write_body
 
 LENGTH, HEIGHT, MODULUS, DENSITY = 2.0, 0.03, 210e9, 7850.0
 SPEED = 0.5 * float(np.sqrt(MODULUS * 0.02**2 / 12 / DENSITY)) * (1.87510407 / LENGTH) ** 2  # half the lowest frequency

@@ -9,8 +9,8 @@ import xarray as xr
 
 from models import bar, block, needs, reduced
 from nivel.errors import ModelError
-from nivel.flexible.body_file import read_body, read_findings, write_body
-from nivel.flexible.invariants import UNITS
+from nivel.flexible.body.body_file import read_body, read_findings, write_body
+from nivel.flexible.body.invariants import UNITS
 from pace import free_share
 
 
@@ -81,7 +81,7 @@ def test_large_body_is_read_in_a_moment(beam, tmp_path):
     """As a boom of 70 000 freedoms with 32 modes: 23 000 nodes with stress."""
     from dataclasses import replace
 
-    from nivel.flexible.body import StressModes
+    from nivel.flexible.body.body import StressModes
 
     body = beam[0]
     n = len(body.eigenvalues)

@@ -7,8 +7,8 @@ import scipy.sparse as sp
 
 from models import STEEL, bar, block, needs, reduced
 from nivel.errors import ModelError
-from nivel.flexible.beam import Beam, mass_matrix, stiffness
-from nivel.flexible.model_file import parse_model
+from nivel.flexible.model.beam import Beam, mass_matrix, stiffness
+from nivel.flexible.model.model_file import parse_model
 from nivel.machine.beams.section import Material, Rectangle
 from nivel.machine.beams.section_properties import section_of
 

@@ -207,7 +207,7 @@ def test_friction_is_that_of_an_implicit_method(steel):
 
 def test_a_stiff_body_moves_like_a_rigid_one(steel):
     """In the middle of a machine of rigid bodies."""
-    from nivel.flexible.body_file import read_body
+    from nivel.flexible.body.body_file import read_body
 
     body = read_body(steel / "beam.nc")
     record = machine("stiff", [beam(steel, "a", (0, 0, 0))], [hinge("r", "ground", "a", 0.0)])

@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 from models import bar, reduced
 from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
 from nivel.errors import ModelError
-from nivel.flexible import reference
-from nivel.flexible.body_file import write_body
+from nivel.flexible.body import reference
+from nivel.flexible.body.body_file import write_body
 from nivel.machine import (
     Body,
     Driver,

@@ -16,8 +16,8 @@ from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import StaticsSettings
-from nivel.flexible import reference
-from nivel.flexible.body_file import read_body
+from nivel.flexible.body import reference
+from nivel.flexible.body.body_file import read_body
 from nivel.machine import PointForce, SimulationSettings
 from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare

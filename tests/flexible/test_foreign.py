@@ -15,7 +15,7 @@ from nivel.flexible.foreign.mesh import read_mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
 from nivel.flexible.foreign.triplet_files import read_abaqus
-from nivel.flexible.model_file import parse_model
+from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.source import source_model
 
 # numbers of the nodes of the files: with holes, and not in the order of the model
@@ -307,7 +307,7 @@ def test_solid_of_calculix_is_that_of_nivel(solid):
     for name in ("I1", "I2", "I7"):
         np.testing.assert_allclose(getattr(body.invariants, name), getattr(expected.invariants, name), atol=1e-9)
     np.testing.assert_allclose(np.abs(body.invariants.I9), np.abs(expected.invariants.I9), atol=1e-5)
-    from nivel.flexible.recovery import stress, von_mises
+    from nivel.flexible.body.recovery import stress, von_mises
 
     q = np.zeros((2, len(body.eigenvalues)))
     q[0, 4], q[1, 4] = 1e-3, 1e-3

@@ -6,7 +6,7 @@ import pytest
 import nivel
 from models import bar, reduced
 from nivel.errors import ModelError
-from nivel.flexible.body_file import write_body
+from nivel.flexible.body.body_file import write_body
 
 MACHINE = """format: 1
 gravity: [0, -9.81, 0]

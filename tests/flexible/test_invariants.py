@@ -4,12 +4,9 @@ import numpy as np
 import pytest
 
 from models import bar, block, needs
-from nivel.flexible.free_body import FreeBody
-from nivel.flexible.invariants import of_points, tilde
-from nivel.flexible.mass import PointMass, lumped
-from nivel.flexible.mass_invariants import invariants
-from nivel.flexible.model_file import parse_model
-from nivel.flexible.reference import (
+from nivel.flexible.body.invariants import of_points, tilde
+from nivel.flexible.body.mass_invariants import invariants
+from nivel.flexible.body.reference import (
     direct_mass_matrix,
     gravity_force,
     mass_matrix,
@@ -18,8 +15,11 @@ from nivel.flexible.reference import (
     transformation,
     with_euler_parameters,
 )
+from nivel.flexible.model.mass import PointMass, lumped
+from nivel.flexible.model.model_file import parse_model
+from nivel.flexible.reduction.free_body import FreeBody
+from nivel.flexible.reduction.ties import with_interfaces
 from nivel.flexible.source import source_model
-from nivel.flexible.ties import with_interfaces
 
 SOLID = block(
     length=0.6,
@@ -152,7 +152,7 @@ def test_invariants_of_two_points_by_hand():
 
 def test_general_mass_matrix_keeps_what_energy_needs(rng):
     """A beam's mass known as a matrix only: exact inertia and modal mass, and I8 - I8ᵀ = -(I4)~, I5 antisymmetric."""
-    from nivel.flexible.mass import MatrixMass
+    from nivel.flexible.model.mass import MatrixMass
 
     located = parse_model(bar(tip=(1.0, 0.4, -0.3), elements=6))
     model, _ = source_model(located, lambda *_: None)

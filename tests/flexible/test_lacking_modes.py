@@ -5,9 +5,9 @@ import pytest
 
 import simulating
 from models import bar, block, needs, reduced
-from nivel.flexible.body_file import read_body, write_body
+from nivel.flexible.body.body_file import read_body, write_body
+from nivel.results.scales import rotated
 from nivel.results.trust.basis import response
-from nivel.results.trust.scales import rotated
 
 LENGTH, WIDTH, HEIGHT, MODULUS, DENSITY = 2.0, 0.02, 0.03, 210e9, 7850.0
 EI = MODULUS * HEIGHT * WIDTH**3 / 12  # bent along y
@@ -112,7 +112,7 @@ def test_the_mesh_of_a_frame_is_judged_by_one_that_is_twice_as_fine():
 def test_a_mesh_whose_strain_is_even_has_no_error():
     """A linear field of displacements has the same strain everywhere, whatever the elements."""
     needs("gmsh", "skfem", "meshio")
-    from nivel.flexible.model_file import parse_model
+    from nivel.flexible.model.model_file import parse_model
     from nivel.flexible.source import source_model
 
     model, _ = source_model(parse_model(block(size=0.1)), lambda _text, _share: None)

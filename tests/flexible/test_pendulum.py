@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from nivel.flexible.body.reference import gravity_force, mass_matrix, quadratic_velocity, stiffening
 from nivel.flexible.reduce import reduce
-from nivel.flexible.reference import gravity_force, mass_matrix, quadratic_velocity, stiffening
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "flexible" / "pendulum-bar.yaml"
 HIGHEST, STEP = 200.0, 5e-4  # [Hz], [s] of Runge and Kutta's method: ω h < 0.7

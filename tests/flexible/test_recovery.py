@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from models import bar, needs, reduced
 from nivel.errors import ModelError
-from nivel.flexible.rainflow import counted, rainflow, reversals
-from nivel.flexible.recovery import (
+from nivel.flexible.body.rainflow import counted, rainflow, reversals
+from nivel.flexible.body.recovery import (
     BLOCK,
     displacement,
     envelope,
@@ -25,7 +25,7 @@ from nivel.flexible.recovery import (
     stress,
     von_mises,
 )
-from nivel.flexible.vtk import write_modes, write_motion
+from nivel.flexible.body.vtk import write_modes, write_motion
 
 L, B, H, E = 2.0, 0.02, 0.03, 210e9
 
@@ -83,7 +83,7 @@ def test_displacement_of_the_tip(cantilever, bent):
 
 def test_envelope_finds_the_moment_also_across_blocks(cantilever, bent, monkeypatch):
     """The worst state of a history of a thousand moments, read in blocks of a few."""
-    monkeypatch.setattr("nivel.flexible.recovery.BLOCK", 6 * len(cantilever.stress.station_node) * 7)
+    monkeypatch.setattr("nivel.flexible.body.recovery.BLOCK", 6 * len(cantilever.stress.station_node) * 7)
     assert 6 * len(cantilever.stress.station_node) * 7 < BLOCK
     size = np.sin(np.linspace(0, 20, 1000)) * np.linspace(0, 1, 1000)
     found = envelope(cantilever, np.outer(size, bent))

@@ -9,8 +9,8 @@ from checking import check
 from nivel.analysis.plan.beam_facts import beam_facts
 from nivel.errors import ModelError
 from nivel.machine import Beam
-from nivel.system.beam_elements import skew
-from nivel.system.beam_segments import segments_of
+from nivel.system.beams.elements import skew
+from nivel.system.beams.segments import segments_of
 from preparing import prepare
 from simulating import machine, simulate
 

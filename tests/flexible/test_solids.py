@@ -8,12 +8,12 @@ import pytest
 
 from models import STEEL, bar, block, needs, reduced
 from nivel.errors import ModelError
-from nivel.flexible.free_body import FreeBody
-from nivel.flexible.inertia_loads import inertia_loads
-from nivel.flexible.model_file import parse_model
-from nivel.flexible.recovery import hot_spots, stress, von_mises
+from nivel.flexible.body.recovery import hot_spots, stress, von_mises
+from nivel.flexible.model.model_file import parse_model
+from nivel.flexible.reduction.free_body import FreeBody
+from nivel.flexible.reduction.inertia_loads import inertia_loads
+from nivel.flexible.reduction.ties import with_interfaces
 from nivel.flexible.source import source_model
-from nivel.flexible.ties import with_interfaces
 
 needs("gmsh", "skfem")
 
@@ -110,7 +110,7 @@ def test_static_deflection_and_stress_of_a_cantilever(cantilever):
 
 def test_stress_of_a_rotating_bar(cantilever):
     """σ = ρ ω² (L² - x²) / 2 about z through the clamped end; the modal force is Q_v of the invariants."""
-    from nivel.flexible.reference import quadratic_velocity
+    from nivel.flexible.body.reference import quadratic_velocity
 
     omega = np.array([0, 0, 100.0])
     n = len(cantilever.eigenvalues)
@@ -130,7 +130,7 @@ def test_stress_of_a_rotating_bar(cantilever):
 def test_inertia_modes_carry_the_static_answer_to_inertia():
     """Without them ten normal modes, few of which stretch the bar, miss the stress at its root."""
     body, _ = reduced(block(interfaces=ROOT, reduction="modes: 4, reference: root"))
-    from nivel.flexible.reference import quadratic_velocity
+    from nivel.flexible.body.reference import quadratic_velocity
 
     n = len(body.eigenvalues)
     force = quadratic_velocity(body.invariants, np.eye(3), np.array([0, 0, 100.0]), np.zeros(n), np.zeros(n))[6:]
@@ -148,7 +148,7 @@ def test_strain_energy_of_stresses_is_that_of_the_stiffness(rng):
     elements = model.elements
     nodes = u[elements.freedoms[elements.nodes]][..., 0]
     energy = 0.0
-    from nivel.flexible.tetrahedra import elasticity
+    from nivel.flexible.model.tetrahedra import elasticity
 
     D = elasticity(elements.material)
     for gradients, volume in elements.points:

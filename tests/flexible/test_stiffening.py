@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models import bar, block, needs, reduced
-from nivel.flexible.reference import quadratic_velocity, stiffening
+from nivel.flexible.body.reference import quadratic_velocity, stiffening
 
 L, B, H, E, RHO = 2.0, 0.02, 0.03, 210e9, 7850.0
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from models import bar, reduced
-from nivel.flexible.invariants import tilde
-from nivel.flexible.reference import (
+from nivel.flexible.body.invariants import tilde
+from nivel.flexible.body.reference import (
     damping_force,
     elastic_force,
     kinetic_energy,

@@ -11,9 +11,9 @@ from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
 from nivel.machine import JOINT_COORDINATES, MachineRecord
 from nivel.machine.control import BLOCKS
+from nivel.machine.core.index import SECTIONS
 from nivel.machine.forces import FORCES
 from nivel.machine.hydraulics import COMPONENTS
-from nivel.machine.index import SECTIONS
 
 MACHINE = MachineRecord(**EVERYTHING)
 PARTS = 16

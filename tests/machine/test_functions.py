@@ -7,8 +7,8 @@ from everything import EVERYTHING
 
 from nivel.machine import MachineRecord
 from nivel.machine.control.block import Block
-from nivel.machine.functions import functions_of
-from nivel.machine.record import Record
+from nivel.machine.core.record import Record
+from nivel.machine.laws.functions import functions_of
 from nivel.machine.units.expression import Expression
 
 MACHINE = MachineRecord(**EVERYTHING)

@@ -5,7 +5,7 @@ import pytest
 from nivel.errors import ModelError
 from nivel.live.source import control, gauge
 from nivel.machine import Input, Sensor
-from nivel.wording import label_of
+from nivel.words.wording import label_of
 
 PRESSURE = {"name": "lift-cylinder", "value": "time", "units": "bar"}
 

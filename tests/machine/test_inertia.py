@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from nivel.errors import ModelError
 from nivel.machine import Body, Box, Cylinder, Sphere, Tube, mass_properties
-from nivel.machine.inertia import impossible, point_mass_inertia
-from nivel.machine.solids import volume
+from nivel.machine.bodies.inertia import impossible, point_mass_inertia
+from nivel.machine.bodies.solids import volume
 
 lengths = st.floats(0.01, 10)
 DENSITY = 7850.0

@@ -6,8 +6,8 @@ import pytest
 from refusals import refused
 
 from nivel.machine import JOINT_COORDINATES, Joint, JointType
-from nivel.machine.coordinate_reference import COORDINATE_KINDS
-from nivel.machine.joint import JOINT_KINDS, CoordinateRates, CoordinateValues
+from nivel.machine.joints.joint import JOINT_KINDS, CoordinateRates, CoordinateValues
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 
 PAIR = {"bodies": ("crank", "rod")}
 MARKERS = {"markers": ({"body": "crank"}, {"body": "rod"})}

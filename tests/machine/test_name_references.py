@@ -19,8 +19,8 @@ from nivel.machine import (
     find_symbol,
     resolve,
 )
-from nivel.machine.coordinate_reference import UnknownCoordinateError
-from nivel.machine.symbols import UnknownSymbolError
+from nivel.machine.laws.symbols import UnknownSymbolError
+from nivel.machine.uses.coordinate_reference import UnknownCoordinateError
 
 JOINTS = (
     {"name": "hinge", "type": "revolute", "markers": ("base", "eye")},

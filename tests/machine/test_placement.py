@@ -18,8 +18,8 @@ from nivel.machine import (
     placement,
     rotation_matrix,
 )
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.placement import VERTICAL, frame_between, most_perpendicular
+from nivel.machine.core.orientation import matrix_from_euler_parameters
+from nivel.machine.core.placement import VERTICAL, frame_between, most_perpendicular
 
 vectors = st.tuples(*[st.floats(-10, 10)] * 3).map(np.array).filter(lambda v: np.linalg.norm(v) > 1e-2)
 

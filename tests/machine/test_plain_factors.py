@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nivel.machine.time_function import read_time_function
+from nivel.machine.laws.time_function import read_time_function
 from nivel.machine.units.arithmetic import ExpressionError, Number
 from nivel.machine.units.dimension import BASES, KINDS, NONE, dimension, known, power, product
 from nivel.machine.units.expression import Expression

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from nivel.errors import ModelError
+from nivel.machine.core.record import Record
 from nivel.machine.forces import PointForce
-from nivel.machine.record import Record
-from nivel.machine.time_function import ForceComponent, PythonLaw, SpringForce, TimeFunction, varying
+from nivel.machine.laws.time_function import ForceComponent, PythonLaw, SpringForce, TimeFunction, varying
 from nivel.machine.units.arithmetic import Number
 
 AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]

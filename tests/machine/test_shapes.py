@@ -18,9 +18,9 @@ from nivel.machine import (
     Sphere,
     mass_properties,
 )
-from nivel.machine.orientation import rotation_matrix
-from nivel.machine.solids import centroid, squared_gyration, volume
-from nivel.machine.surface import enclosed, surface_arrays, surface_text, why_open
+from nivel.machine.bodies.solids import centroid, squared_gyration, volume
+from nivel.machine.bodies.surface import enclosed, surface_arrays, surface_text, why_open
+from nivel.machine.core.orientation import rotation_matrix
 from solid_meshes import ball_mesh, box_mesh
 
 sizes = st.floats(0.05, 3.0)

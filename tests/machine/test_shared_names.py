@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine.forces import PointForce, Torque
+from nivel.machine.laws.table import Table
 from nivel.machine.parameters import resolve
-from nivel.machine.table import Table
 from nivel.machine.units.arithmetic import ExpressionError, Number, bind, evaluate
 from nivel.machine.units.dimension import dimension
 from nivel.machine.units.expression import Expression

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from nivel.errors import ModelError
-from nivel.machine.record import Record
-from nivel.machine.time_function import (
+from nivel.machine.core.record import Record
+from nivel.machine.laws.time_function import (
     Expression,
     ForceComponent,
     Measured,

@@ -8,7 +8,7 @@ import nivel
 from example_files import EXAMPLES, RIGID
 from nivel.errors import ModelError
 from nivel.machine.forces import FORCES
-from nivel.machine.references import SECTIONS
+from nivel.machine.uses.references import SECTIONS
 
 LEG = """
 format: 1

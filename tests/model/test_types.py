@@ -15,7 +15,7 @@ import pytest
 
 import nivel
 import nivel.machine
-from nivel.machine.record import Record
+from nivel.machine.core.record import Record
 from nivel.machine.units.quantity import Quantity
 
 SCRIPTS = Path(__file__).parent / "typed"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nivel.looks.joints import LINKS, sliding_axes, turning_axes
-from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_KINDS
 from nivel.report.force_drawing import planes
 from nivel.report.picture import machine_picture
 from nivel.report.symbols import SIGNS, joint_icon, joint_sign

@@ -164,3 +164,14 @@ def test_no_docstring_of_a_public_name_has_a_home_made_term():
         for _, what in home_made(prose(inspect.getdoc(thing) or ""), HOME_MADE)
     ]
     assert not wrong, "\n".join(wrong)
+
+
+def test_docstrings_of_modules_begin_with_what_the_module_is():
+    """A noun phrase of the textbooks, and no question."""
+    question = re.compile(r"(what|how|where|whether|which|when|why|who)\b", re.IGNORECASE)
+    asking = []
+    for path in (ROOT / "src" / "nivel").rglob("*.py"):
+        text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        if question.match(text):
+            asking.append(path)
+    assert not asking

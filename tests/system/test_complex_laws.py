@@ -5,7 +5,7 @@ import pytest
 
 from nivel.kernels.record import program
 from nivel.kernels.record.function import call_law
-from nivel.machine.python_law import PythonLaw
+from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.units.expression import Expression
 from nivel.native.function import leaf
 from nivel.system.laws.analytic_text import analytic_text

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from nivel.files import parse_machine
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.placement import placement
+from nivel.machine.core.orientation import matrix_from_euler_parameters
+from nivel.machine.core.placement import placement
 from nivel.system.build import build
 from nivel.system.scene import scene
 from nivel.system.system import Equations

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from beams import prepared
-from nivel.flexible.body import ReducedBody
-from nivel.system.beam_nodes import with_nodes
+from nivel.flexible.body.body import ReducedBody
+from nivel.system.beams.nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 
 MODELS = ("ancf-cable", "ancf-beam")

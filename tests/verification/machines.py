@@ -4,8 +4,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
-from nivel.machine.joint import JOINT_KINDS
-from nivel.system.joints import JOINTS, generic
+from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.system.joints.joints import JOINTS, generic
 
 GRAVITY = (0.0, -9.81, 0.0)
 

@@ -11,7 +11,7 @@ from nivel.machine import (
     SimulationSettings,
     SpringDamper,
 )
-from nivel.machine.driver import Driver
+from nivel.machine.joints.driver import Driver
 
 GRAVITY = 9.81
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nivel.errors import ModelError
-from nivel.machine.surface import surface_text
+from nivel.machine.bodies.surface import surface_text
 from simulating import G, simulate
 
 SIDE, MASS = 0.04, 0.5

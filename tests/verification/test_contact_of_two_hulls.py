@@ -7,7 +7,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 from scipy.spatial.transform import Rotation
 
 from nivel.errors import ModelError
-from nivel.machine.surface import surface_text
+from nivel.machine.bodies.surface import surface_text
 from simulating import G, machine, simulate
 
 K, LENGTH = 1e8, 0.05  # [N/m³], [m]

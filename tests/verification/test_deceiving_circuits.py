@@ -5,7 +5,7 @@ import pytest
 
 from deceiving_circuits import KINDS, parsed
 from nivel import ModelError, SolveError
-from nivel.analysis.loads.corners import corners
+from nivel.analysis.curves.corners import corners
 from nivel.api import Machine
 from test_deceiving import GRID, ROUND_OFF
 

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 import nivel
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.machine.orientation import SEQUENCES
+from nivel.machine.core.orientation import SEQUENCES
 
 TUMBLING = """\
 format: 1

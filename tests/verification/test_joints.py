@@ -16,7 +16,7 @@ from nivel.kernels.bodies.marker import move_markers, place_markers
 from nivel.kernels.bodies.rigid import place_body
 from nivel.kernels.bodies.rolling import CONTACT, rolling
 from nivel.machine import Body, Joint, MachineRecord
-from nivel.machine.joint import JOINT_COORDINATES, JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_KINDS
 from nivel.system.system import parameter_rates
 from running import run
 

@@ -10,8 +10,8 @@ import nivel
 from browsing import chromium, drawn, watched
 from models import bar, reduced
 from nivel.errors import ModelError
-from nivel.flexible.body_file import write_body
-from nivel.flexible.picture import moving_surface
+from nivel.flexible.body.body_file import write_body
+from nivel.flexible.body.picture import moving_surface
 from nivel.view.capture import Look, still
 from nivel.view.export import write_scene
 from nivel.view.package import STEPS, Block, from_bytes, unpacked

@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 import nivel
 from browsing import chromium, watched
 from models import bar, reduced
-from nivel.flexible.body_file import write_body
-from nivel.flexible.picture import moving_surface
+from nivel.flexible.body.body_file import write_body
+from nivel.flexible.body.picture import moving_surface
 from nivel.view.export import write_scene
 from nivel.view.package import KINDS, Block
 from nivel.view.playback import SERVED, stage

@@ -82,7 +82,7 @@ class LazyGroup(click.Group):
 
 def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
     """With what an option of other programs is called here."""
-    from nivel.vocabulary import translated
+    from nivel.words.vocabulary import translated
 
     options = problem.ctx.command.params if problem.ctx is not None else []
     ours = [option.removeprefix("--") for each in options for option in each.opts if option.startswith("--")]

@@ -59,7 +59,7 @@ def command(
     from nivel.errors import Fault, ModelError
     from nivel.live.budget import costs, fixed_methods
     from nivel.live.timing import in_a_sentence
-    from nivel.machine.record import unknown_word
+    from nivel.machine.core.record import unknown_word
 
     for name in integrators or ():
         if name not in fixed_methods():

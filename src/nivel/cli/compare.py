@@ -172,7 +172,7 @@ def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
     """Refuse, before anything is run, files that cannot be written or exist and may not be replaced."""
     from nivel.errors import ModelError
-    from nivel.results.frames.target import check_text_target
+    from nivel.files.target import check_text_target
 
     for path in tables:
         check_text_target(path, "table", force=force, sources=[machine])

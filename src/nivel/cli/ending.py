@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from nivel.wording import seconds
+from nivel.words.wording import seconds
 
 if TYPE_CHECKING:
     from rich.console import Console

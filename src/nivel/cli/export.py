@@ -63,9 +63,9 @@ def _write_c_library(machine: str, folder: str, overrides: dict[str, str]) -> No
 def _write_table(result: str, target: str | None, select: tuple[str, ...], force: bool) -> None:
     import sys
 
+    from nivel.files.target import check_target
     from nivel.results import Result
     from nivel.results.frames.csv_table import columns, write_table
-    from nivel.results.frames.target import check_target
 
     if target is None:
         raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER of a machine")

@@ -133,7 +133,7 @@ def _lead(
     """Inverse kinematics: write the table of joint coordinates."""
     from nivel.analysis.inverse.path_file import read_path
     from nivel.errors import Fault, ModelError
-    from nivel.results.frames.target import check_target
+    from nivel.files.target import check_target
 
     if path is None or point is None:
         missing = "path" if path is None else "point"

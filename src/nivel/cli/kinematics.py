@@ -157,7 +157,7 @@ def _tell_range(loaded: Any, options: dict[str, Any], quiet: bool, as_json: bool
 
 def _tell_way(loaded: Any, options: dict[str, Any], target: Path, force: bool, quiet: bool, as_json: bool) -> None:
     """All positions, and where the coordinate turns back."""
-    from nivel.results.frames.target import check_target
+    from nivel.files.target import check_target
 
     _alone(options, ("start", "end", "duration", "positions", "coordinates"), "--through")
     check_target(target, "table", force=force, sources=[])

@@ -101,7 +101,7 @@ def command(
     """
     from nivel.api import load
     from nivel.errors import Fault, ModelError
-    from nivel.results.frames.target import check_target
+    from nivel.files.target import check_target
 
     asked = {"about": about, "inputs": inputs, "outputs": outputs, "coordinates": coordinates}
     if over is not None:

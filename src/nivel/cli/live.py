@@ -93,11 +93,11 @@ def command(
     from nivel.api import load
     from nivel.cli.progress import progress_listener
     from nivel.errors import ModelError
+    from nivel.files.target import check_target
     from nivel.live.datagrams import Datagrams, place_of
     from nivel.live.journal import check_journal, journal_of
     from nivel.live.opening import session_of
     from nivel.live.source import LiveSource
-    from nivel.results.frames.target import check_target
     from nivel.view.opening import Stop, serve
 
     def say(text: str) -> None:

@@ -13,7 +13,7 @@ from nivel.cli.options import file_argument, force_option, json_option, no_repor
 from nivel.cli.progress import progress_stage
 
 if TYPE_CHECKING:
-    from nivel.flexible.findings import Findings
+    from nivel.flexible.checks.findings import Findings
     from nivel.flexible.reduce import Reduction
 
 SHOWN = 15  # modes in the table of the terminal
@@ -64,8 +64,8 @@ def command(
         os.environ.setdefault(variable, "1")
     from nivel.errors import ModelError
     from nivel.files.sources import read_text
-    from nivel.flexible.body_file import write_body
-    from nivel.flexible.model_file import read_model
+    from nivel.flexible.body.body_file import write_body
+    from nivel.flexible.model.model_file import read_model
     from nivel.flexible.reduce import reduce_model
 
     if no_report and report is not None:
@@ -83,7 +83,7 @@ def command(
             stage("writing the report", 1.0)
             write_reduction(reduction.body, reduction.findings, page, force=force)
         if vtk is not None:
-            from nivel.flexible.vtk import write_modes
+            from nivel.flexible.body.vtk import write_modes
 
             write_modes(reduction.body, vtk)
     if as_json:
@@ -94,7 +94,7 @@ def command(
 
 def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force: bool, model: Path) -> None:
     from nivel.errors import ModelError
-    from nivel.results.frames.target import check_target
+    from nivel.files.target import check_target
 
     if page == target:
         raise ModelError(

@@ -48,9 +48,9 @@ def command(
     With another method, step or tolerance the same inputs are simulated again. `nivel view one.nc other.nc` shows both results together.
     """
     from nivel.errors import ModelError
+    from nivel.files.target import check_target
     from nivel.live.recording import read_recording
     from nivel.live.replay import replay, rerun
-    from nivel.results.frames.target import check_target
 
     stored = read_recording(recording)
     if stored.has_code and not allow_code:

@@ -24,7 +24,7 @@ from nivel.cli.options import (
     simulation_options,
 )
 from nivel.cli.progress import progress_listener
-from nivel.wording import set_in_motion
+from nivel.words.wording import set_in_motion
 
 MOST_CHANGES = 3  # moved bodies, and changed velocities, that are listed one by one
 ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not reported
@@ -132,7 +132,7 @@ def beside(target: Path) -> Path:
 def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
     """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
     from nivel.errors import ModelError
-    from nivel.results.frames.target import check_target
+    from nivel.files.target import check_target
 
     if report is not None and report == target:
         raise ModelError(

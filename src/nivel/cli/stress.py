@@ -145,7 +145,7 @@ def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
 
 
 def _refuse_to_replace(targets: tuple[Path | None, ...], force: bool, sources: list[Path]) -> None:
-    from nivel.results.frames.target import check_text_target
+    from nivel.files.target import check_text_target
 
     for path, what in zip(targets, ("table", "table of cycles", "plot", "VTK file"), strict=True):
         if path is not None:

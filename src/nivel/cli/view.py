@@ -131,7 +131,7 @@ def command(
 def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None:
     """Refuse, before anything is computed, files that may not be written, and kinds that are not known."""
     from nivel.errors import Fault, ModelError
-    from nivel.results.frames.target import check_target
+    from nivel.files.target import check_target
     from nivel.view.capture import FILMS
 
     faults = []

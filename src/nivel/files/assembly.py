@@ -15,12 +15,12 @@ from nivel.files.placed import NotRepresentableError, placed
 from nivel.files.placement import Placement
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord, Orientation, Record
+from nivel.machine.core.record import entry, unknown_word
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.parameters import resolve
-from nivel.machine.record import entry, unknown_word
-from nivel.machine.references import SECTIONS
 from nivel.machine.units.arithmetic import Parameters
 from nivel.machine.units.quantity import FAULT, Position, fault, shown
+from nivel.machine.uses.references import SECTIONS
 
 _PREFIX = re.compile(r"([^\W\d_][\w-]*)?")
 

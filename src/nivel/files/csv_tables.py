@@ -14,7 +14,7 @@ from nivel.files.outline import section_of
 from nivel.files.python_laws import WITH_LAWS
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
-from nivel.machine.record import unknown_word
+from nivel.machine.core.record import unknown_word
 from nivel.machine.units.arithmetic import TIME, ExpressionError
 from nivel.machine.units.quantity import ANY, read_quantity, shown
 

@@ -11,7 +11,7 @@ from nivel.errors import Fault, ModelError
 from nivel.files.outline import FORMAT, NAMED, VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.machine.record import Record, unknown_word
+from nivel.machine.core.record import Record, unknown_word
 from nivel.machine.units.quantity import FAULT, fault, shown
 
 TAKEN: Final = tuple(section for section in NAMED if section not in VALUES)

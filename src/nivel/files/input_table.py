@@ -11,10 +11,10 @@ from typing import Final
 from nivel.errors import Fault, ModelError
 from nivel.files.reader import read_text
 from nivel.machine import Input, MachineRecord
-from nivel.machine.coordinate_reference import unknown_name
-from nivel.machine.table import Table
+from nivel.machine.laws.table import Table
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import ANY, Kind, read_quantity
+from nivel.machine.uses.coordinate_reference import unknown_name
 
 # `time`, `lever [deg]`, `lever (deg)`
 HEAD: Final = re.compile(r"\s*(?P<name>[^\[\(]*?)\s*(?:[\[\(](?P<unit>[^\]\)]*)[\]\)])?\s*")

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from nivel.files.substitution import Linear, NotRepresentableError, same, substituted
 from nivel.machine import GROUND, Expression, PythonLaw, Record, Table
-from nivel.machine.record import entry
+from nivel.machine.core.record import entry
 
 # fields that hold names of elements, `JOINT.COORDINATE`, or lists of them; where they hold numbers these stay
 MENTIONS: Final = (

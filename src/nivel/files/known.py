@@ -9,8 +9,8 @@ from typing import Any
 from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.references import SECTIONS
 from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.uses.references import SECTIONS
 
 Element = tuple[str, str]  # section and name
 

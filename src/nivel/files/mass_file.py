@@ -8,7 +8,7 @@ from nivel.errors import ModelError
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Tree, read_tree
-from nivel.machine.record import unknown_word
+from nivel.machine.core.record import unknown_word
 from nivel.machine.units.quantity import shown
 
 KEY: Final = "mass_properties"

@@ -16,9 +16,9 @@ from nivel.errors import ModelError
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources, read_bytes
 from nivel.files.tree import Tree
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.shape import Mesh
-from nivel.machine.surface import MOST_TRIANGLES, Triangles, surface_text
+from nivel.machine.bodies.shape import Mesh
+from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, surface_text
+from nivel.machine.core.orientation import matrix_from_euler_parameters
 
 Array = NDArray[np.float64]
 KINDS: Final = (".stl", ".obj", ".gltf", ".glb")

@@ -7,10 +7,10 @@ from typing import Any, Final
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord
+from nivel.machine.core.record import field_words, unknown_word
 from nivel.machine.example_line import element_line
-from nivel.machine.record import field_words, unknown_word
-from nivel.machine.references import SECTIONS
 from nivel.machine.units.quantity import shown
+from nivel.machine.uses.references import SECTIONS
 
 FORMAT: Final = 1
 VALUES: Final = ("parameters", "functions")  # sections of what has no keys of its own

@@ -10,8 +10,8 @@ from typing import Any
 from nivel.errors import Fault, ModelError
 from nivel.files.outline import FILE_WORDS, TOP_WORDS
 from nivel.files.tree import Path, Tree, read_value
-from nivel.machine.record import unknown_word
-from nivel.machine.references import SECTIONS
+from nivel.machine.core.record import unknown_word
+from nivel.machine.uses.references import SECTIONS
 
 
 def in_order(overrides: Mapping[str, object]) -> tuple[dict[str, object], dict[str, object], dict[str, object]]:

@@ -7,13 +7,41 @@ from typing import Any
 
 from nivel.errors import ModelError
 from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
-from nivel.files.placed_forces import placed_force
-from nivel.files.placed_hydraulics import placed_component
+from nivel.files.placed_forces import placed_ends, placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine import Block, Driver, Event, LinearCoupling, Rack, Record, Sensor, State
-from nivel.machine.record import entry
+from nivel.machine import (
+    Block,
+    Driver,
+    Event,
+    Expression,
+    LinearCoupling,
+    PythonLaw,
+    Rack,
+    Record,
+    Sensor,
+    State,
+    Table,
+)
+from nivel.machine.core.record import entry
+from nivel.machine.forces import Ends
+
+
+def placed_component(component: Any, scene: Scene) -> Any:
+    """`component` in the placed part.
+
+    Raises NotRepresentableError.
+    """
+    coordinate = getattr(component, "coordinate", None)
+    if coordinate is not None and scene.is_opposite(coordinate):
+        raise NotRepresentableError(f"`{coordinate}` changes its sign there")
+    changes = placed_ends(component, scene, with_axes=False) if isinstance(component, Ends) else {}
+    varied = {
+        name: scene.varied(value) for name, value in component if isinstance(value, Expression | PythonLaw | Table)
+    }
+    return component.replace(**changes, **varied) if changes or varied else component
+
 
 Elements = Mapping[str, Sequence[Record]]
 

@@ -25,9 +25,9 @@ from nivel.machine import (
     frame_from_axes,
     placement,
 )
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.solids import axes_of, box_size, length, mesh_surface
-from nivel.machine.surface import surface_text
+from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface
+from nivel.machine.bodies.surface import surface_text
+from nivel.machine.core.orientation import matrix_from_euler_parameters
 
 _SLIDING = (
     "translational",

@@ -23,7 +23,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nivel.machine.orientation import Orientation, euler_parameters_from_matrix, rotation_matrix
+from nivel.machine.core.orientation import Orientation, euler_parameters_from_matrix, rotation_matrix
 
 Array = NDArray[np.float64]
 Triple = tuple[float, float, float]

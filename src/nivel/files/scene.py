@@ -24,7 +24,7 @@ from nivel.machine import (
     marker_frame,
     placement,
 )
-from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.core.orientation import matrix_from_euler_parameters
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
 # coordinates that count the other way in a mirror image: of joints that turn and slide along one axis, and across what a wheel rolls on

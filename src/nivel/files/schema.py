@@ -10,8 +10,8 @@ from nivel.files.include import Include
 from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FORMAT
 from nivel.machine import MachineRecord, Record
-from nivel.machine.references import SECTIONS
-from nivel.machine.time_function import CURVE
+from nivel.machine.laws.time_function import CURVE
+from nivel.machine.uses.references import SECTIONS
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}]}

@@ -13,9 +13,9 @@ from nivel.files.outline import TOP_WORDS
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
 from nivel.machine import MachineRecord, Record
-from nivel.machine.record import field_words
-from nivel.machine.references import SECTIONS
-from nivel.wording import shown, unknown_word
+from nivel.machine.core.record import field_words
+from nivel.machine.uses.references import SECTIONS
+from nivel.words.wording import shown, unknown_word
 
 PARAMETERS = (
     "the machine has no parameters: they belong to machine files, and are worked out when elements are replaced in Python; "

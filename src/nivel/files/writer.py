@@ -10,7 +10,7 @@ import yaml
 from nivel.files.outline import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
 from nivel.machine import Body, Expression, Inertia, MachineRecord, PythonLaw, Record, SimulationSettings, Table
-from nivel.machine.references import SECTIONS
+from nivel.machine.uses.references import SECTIONS
 
 
 def write_machine(record: MachineRecord) -> str:

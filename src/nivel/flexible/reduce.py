@@ -10,24 +10,24 @@ from typing import Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible import checks
-from nivel.flexible.bases import Basis, ModeCount, craig_bampton, free_interface, inertia_modes, normal_only
-from nivel.flexible.body import Interface, ReducedBody, StressModes
-from nivel.flexible.factor import NoStiffnessError, Whole
-from nivel.flexible.findings import Findings, findings_of
-from nivel.flexible.free_body import FreeBody
-from nivel.flexible.given_modes import given_modes
-from nivel.flexible.left_out import LeftOut
-from nivel.flexible.mass import lumped
-from nivel.flexible.mass_invariants import invariants
-from nivel.flexible.mesh_error import mesh_error
-from nivel.flexible.model import AXES, Array, FiniteElementModel
-from nivel.flexible.model_file import Located, read_model
-from nivel.flexible.next_modes import beside_kept, left_out
-from nivel.flexible.orthonormal import Orthonormal, held_at, orthonormal
+from nivel.flexible.body.body import Interface, ReducedBody, StressModes
+from nivel.flexible.body.mass_invariants import invariants
+from nivel.flexible.body.truncated_modes import LeftOut
+from nivel.flexible.checks import checks
+from nivel.flexible.checks.findings import Findings, findings_of
+from nivel.flexible.checks.mesh_error import mesh_error
+from nivel.flexible.model.mass import lumped
+from nivel.flexible.model.model import AXES, Array, FiniteElementModel
+from nivel.flexible.model.model_file import Located, read_model
+from nivel.flexible.reduction.bases import Basis, ModeCount, craig_bampton, free_interface, inertia_modes, normal_only
+from nivel.flexible.reduction.factor import NoStiffnessError, Whole
+from nivel.flexible.reduction.free_body import FreeBody
+from nivel.flexible.reduction.given_modes import given_modes
+from nivel.flexible.reduction.next_modes import beside_kept, left_out
+from nivel.flexible.reduction.orthonormal import Orthonormal, held_at, orthonormal
+from nivel.flexible.reduction.stiffening import stiffening
+from nivel.flexible.reduction.ties import Attachment, with_interfaces
 from nivel.flexible.source import source_model
-from nivel.flexible.stiffening import stiffening
-from nivel.flexible.ties import Attachment, with_interfaces
 
 NO_MODE: Final = "no mode is left but rigid motions: ask for normal modes, name interfaces, or give other shapes"
 

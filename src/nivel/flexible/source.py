@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from nivel.flexible.frame_source import frame_model
-from nivel.flexible.model import FiniteElementModel
-from nivel.flexible.model_file import Located
-from nivel.flexible.selection import NodeSets
+from nivel.flexible.model.frame_source import frame_model
+from nivel.flexible.model.model import FiniteElementModel
+from nivel.flexible.model.model_file import Located
+from nivel.flexible.model.selection import NodeSets
 
 Stage = Callable[[str, float], None]
 
@@ -20,7 +20,7 @@ def source_model(located: Located, say: Stage) -> tuple[FiniteElementModel, Node
     if located.record.frame is not None:
         return frame_model(located), {}
     if located.record.solid is not None:
-        from nivel.flexible.solid_source import solid_model
+        from nivel.flexible.model.solid_source import solid_model
 
         return solid_model(located, say)
     from nivel.flexible.foreign.source import matrix_model

@@ -13,7 +13,7 @@ class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
     chooses_steps : controls its error; optional_control : does so on request, and tells slow errors from vibrations
-    (`nivel.integrate.newmark.error_filter`). implicit : iterates a corrector, by Newton's method on request. residual : needs the
+    (`nivel.integrate.newmark.alpha_error`). implicit : iterates a corrector, by Newton's method on request. residual : needs the
     equations of
     motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for accelerations and multipliers, or
     with `first_order` for the rates of the state; complex_shift : it also solves systems with complex shares of a step. step_residual :

@@ -17,8 +17,8 @@ from nivel.integrate.loop.sink import Header
 from nivel.live.timing import Timing
 from nivel.results.memory import MemoryContents
 from nivel.results.result import Result
+from nivel.results.scales import largest_speed, speed_of_rest
 from nivel.results.trust.circuits import Guard, circuit_items, guard_items
-from nivel.results.trust.scales import largest_speed, speed_of_rest
 from nivel.results.trust.statements import statements
 from nivel.results.trust.trust import Facts, assess
 from nivel.results.trust.verdicts import Item, Threshold, Trust, Verdict, number, worst

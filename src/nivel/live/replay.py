@@ -21,6 +21,7 @@ from nivel.analysis.run.outcome import failure
 from nivel.analysis.run.simulate import close_run
 from nivel.api import Machine
 from nivel.errors import ModelError
+from nivel.files.target import check_target
 from nivel.integrate.loop.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
 from nivel.integrate.loop.run import ACCEPTED, STEP, STOPPED
 from nivel.integrate.loop.sink import Header
@@ -30,7 +31,6 @@ from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
 from nivel.machine import MachineRecord
-from nivel.results.frames.target import check_target
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store

@@ -18,7 +18,7 @@ from nivel.view import frames
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Command, Control, Drive, Gauge, Hold, Note, Package, Status, Take
 from nivel.view.sources import Still, machine_stage
-from nivel.wording import label_of
+from nivel.words.wording import label_of
 
 Array = NDArray[np.float64]
 MOST_GAUGES: Final = 16

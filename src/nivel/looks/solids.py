@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.surface import surface_arrays
+from nivel.machine.bodies.surface import surface_arrays
 
 Array = NDArray[np.float64]
 

@@ -2,12 +2,14 @@
 
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
-from nivel.machine.body import Body
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.inertia import Inertia, MassProperties, mass_properties
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Sphere, Tube
 from nivel.machine.control import Block
-from nivel.machine.coordinate_reference import resolve
-from nivel.machine.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
-from nivel.machine.driver import Driver
-from nivel.machine.event import Event
+from nivel.machine.core.marker import Marker
+from nivel.machine.core.orientation import Orientation, euler_parameters, rotation_matrix
+from nivel.machine.core.placement import frame_from_axes, initial_velocity, marker_frame, placement
+from nivel.machine.core.record import GROUND, Record
 from nivel.machine.forces import (
     Bushing,
     Contact,
@@ -27,21 +29,19 @@ from nivel.machine.forces import (
     Torque,
     TorsionalSpringDamper,
 )
-from nivel.machine.inertia import Inertia, MassProperties, mass_properties
-from nivel.machine.input import Gamepad, Input, Keys
-from nivel.machine.joint import JOINT_COORDINATES, Joint, JointType
+from nivel.machine.joints.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
+from nivel.machine.joints.driver import Driver
+from nivel.machine.joints.joint import JOINT_COORDINATES, Joint, JointType
+from nivel.machine.laws.symbols import find_symbol
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.marker import Marker
-from nivel.machine.orientation import Orientation, euler_parameters, rotation_matrix
-from nivel.machine.placement import frame_from_axes, initial_velocity, marker_frame, placement
-from nivel.machine.record import GROUND, Record
-from nivel.machine.sensor import Sensor
 from nivel.machine.settings import Baumgarte, SimulationSettings
-from nivel.machine.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Sphere, Tube
-from nivel.machine.state import State
-from nivel.machine.symbols import find_symbol
-from nivel.machine.time_function import Expression, PythonLaw, Table, TimeFunction
+from nivel.machine.signals.event import Event
+from nivel.machine.signals.input import Gamepad, Input, Keys
+from nivel.machine.signals.sensor import Sensor
+from nivel.machine.signals.state import State
 from nivel.machine.units.dimension import KINDS
+from nivel.machine.uses.coordinate_reference import resolve
 
 __all__ = [
     "GROUND",

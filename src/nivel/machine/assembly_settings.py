@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Maybe
-from nivel.machine.record import Record
 from nivel.machine.units.quantity import PositiveLength
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from nivel.machine.units.unit import UNITS
-from nivel.vocabulary import plain
+from nivel.words.vocabulary import plain
 
 # of fields that are lists: an entry that shows what is meant
 _LISTS: Final = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
+from nivel.machine.core.index import Place, elements
+from nivel.machine.core.record import entry
 from nivel.machine.hydraulics import COMPONENT_OF
-from nivel.machine.index import Place, elements
-from nivel.machine.record import entry
 
 Faults = Iterator[tuple[Place, str]]
 GAS: Final = "ideal-gas"

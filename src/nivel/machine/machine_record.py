@@ -20,33 +20,33 @@ from pydantic_core import InitErrorDetails
 
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
-from nivel.machine.body import Body
-from nivel.machine.checked import Checked, Problem, lines_of
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.point_masses import problems_of_points
+from nivel.machine.bodies.shape import Mesh, Shape, Sphere
 from nivel.machine.control import ControlBlock
 from nivel.machine.control.problems import problems_of_control
-from nivel.machine.coordinate_uses import with_whole_coordinates
-from nivel.machine.coupling import Coupling
-from nivel.machine.driver import Driver
-from nivel.machine.event import Event
+from nivel.machine.core.checked import Checked, Problem, lines_of
+from nivel.machine.core.index import Index
+from nivel.machine.core.marker import Marker
+from nivel.machine.core.orientation import matrix_from_euler_parameters
+from nivel.machine.core.placement import placement
+from nivel.machine.core.record import entry, restated
 from nivel.machine.forces import Force
-from nivel.machine.functions import MachineFunction, functions_of
 from nivel.machine.given import Field, ManyRecords, OneRecord
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
-from nivel.machine.index import Index
-from nivel.machine.input import Input
-from nivel.machine.interface_uses import problems_of_interfaces
-from nivel.machine.joint import Joint
-from nivel.machine.marker import Marker
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.placement import placement
-from nivel.machine.point_masses import problems_of_points
-from nivel.machine.record import entry, restated
-from nivel.machine.references import reference_faults
-from nivel.machine.sensor import Sensor
+from nivel.machine.joints.coupling import Coupling
+from nivel.machine.joints.driver import Driver
+from nivel.machine.joints.joint import Joint
+from nivel.machine.laws.functions import MachineFunction, functions_of
 from nivel.machine.settings import SimulationSettings
-from nivel.machine.shape import Mesh, Shape, Sphere
-from nivel.machine.state import State
+from nivel.machine.signals.event import Event
+from nivel.machine.signals.input import Input
+from nivel.machine.signals.sensor import Sensor
+from nivel.machine.signals.state import State
 from nivel.machine.units.quantity import AccelerationVector, fault, listed, parameters_of, shown
+from nivel.machine.uses.coordinate_uses import with_whole_coordinates
+from nivel.machine.uses.interface_uses import problems_of_interfaces
+from nivel.machine.uses.references import reference_faults
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
 
-from nivel.machine.coefficient import COORDINATE, COORDINATE_EFFORT, kind_for
+from nivel.machine.core.coefficient import COORDINATE, COORDINATE_EFFORT, kind_for
 from nivel.machine.given import OneNumber
 from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters, evaluate
 from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle

@@ -8,11 +8,11 @@ from typing import Annotated, Literal
 
 from pydantic import field_validator
 
-from nivel.machine.checked import Checked, Problem
-from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.record import Record
 from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
-from nivel.machine.record import Record
 from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 from nivel.methods import (
     CHOOSING,
     EITHER,

@@ -3,7 +3,7 @@
     k_x = f_x + s (G_x k_x + G_s k_s + G_r k_r)        k_r = J o_v + s C (E_x k_x + E_s k_s + E_r k_r)        k_s = J f_q + s k_r
 
 for states x of circuits, coordinates s on which they act and their rates r, with the slopes G of ẋ and E of the efforts e by hand
-(`nivel.kernels.hydraulics.tangent`) and the compliance C = J M⁻¹ Jᵀ of the mechanics (`nivel.motion.unit_efforts`). Then
+(`nivel.kernels.hydraulics.tangent`) and the compliance C = J M⁻¹ Jᵀ of the mechanics (`nivel.motion.compliance`). Then
 
     k_v = o_v + s M⁻¹ Jᵀ e        k_q = f_q + s T k_v
 

@@ -1,4 +1,4 @@
-"""What follows from the independent coordinates, for implicit methods: `nivel.motion.independent` solved for what these leave open."""
+"""Dependent coordinates, for implicit methods: `nivel.motion.independent` solved for what these leave open."""
 
 from __future__ import annotations
 

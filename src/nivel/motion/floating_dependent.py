@@ -1,4 +1,4 @@
-"""What follows from the independent coordinates, for implicit methods, with flexible bodies: as `nivel.motion.dependent`."""
+"""Dependent coordinates, for implicit methods, with flexible bodies: as `nivel.motion.dependent`."""
 
 from __future__ import annotations
 

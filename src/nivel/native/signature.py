@@ -1,4 +1,4 @@
-"""What an entry takes and returns, in words, and how that looks to C.
+"""Signatures of entries: what they take and return, and the same in C.
 
 machine   the address of a record              uint64_t
 twin      the same, its work complex           uint64_t

@@ -1,4 +1,4 @@
-"""What machine code depends on: the text of all modules that an entry's module imports, directly or not."""
+"""Sources on which machine code depends: the text of all modules that an entry's module imports, directly or not."""
 
 from __future__ import annotations
 

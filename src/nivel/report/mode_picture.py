@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.flexible.body import ReducedBody
+from nivel.flexible.body.body import ReducedBody
 from nivel.looks.viewpoint import View, choose_view
 from nivel.report.frame import HEIGHTS, WIDTH, Frame, fit
 from nivel.report.shading import LIGHT, between

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nivel.results.trust.scales import blocks
+from nivel.results.scales import blocks
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from nivel import __version__
-from nivel.flexible.body import ReducedBody
-from nivel.flexible.findings import Findings
+from nivel.flexible.body.body import ReducedBody
+from nivel.flexible.checks.findings import Findings
 from nivel.report.mode_picture import mode_pictures
 from nivel.report.shading import between
 from nivel.results.comparison.comparison_files import write_text

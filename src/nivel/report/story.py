@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from nivel.results.beams.beam_nodes import beam_nodes
 from nivel.results.frames.occurrence import in_words
 from nivel.results.trust.verdicts import Item, Trust, Verdict
-from nivel.wording import set_in_motion
+from nivel.words.wording import set_in_motion
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

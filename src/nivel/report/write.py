@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.files.target import keep_sources
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
@@ -26,7 +27,6 @@ from nivel.report.story import assembly_lines, event_lines, facts, headline, set
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
 from nivel.results.frames.stored import understood
-from nivel.results.frames.target import keep_sources
 from nivel.results.trust.circuits import pressures_at
 from nivel.results.trust.verdicts import RESIDUAL, RULES, THRESHOLDS
 from nivel.view.export import scene_html

@@ -12,17 +12,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.arguments import checked_arguments
 from nivel.results.frames.contents import Contents
 from nivel.results.frames.names import Selection, selections, unknown_name
 from nivel.results.frames.occurrence import Occurrence, from_json
 from nivel.results.frames.row_units import own_units
 from nivel.results.frames.stored import StoredContents, understood
 from nivel.results.frames.tabulated import Column, Rows, Tabulated
+from nivel.results.pages import page_maker
 from nivel.results.trust.estimate import ATTRIBUTE, Estimate
 from nivel.results.trust.trust import Facts, assess
 from nivel.results.trust.verdicts import Trust
 from nivel.system.layout import Variable
+from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
     import xarray
@@ -298,16 +299,12 @@ class Result(Tabulated):
     @checked_arguments
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Write the report as one HTML file that needs no network; an existing file is replaced."""
-        from nivel.report.write import write_report
-
-        return write_report(self, path)
+        return page_maker("report")(self, path)
 
     @checked_arguments
     def animate(self, *others: Result, height: int = 520) -> Inline:
         """Animation of the motion in a notebook, in the viewer; `others` are drawn transparently over it. height : in pixels."""
-        from nivel.view.inline import Inline
-
-        return Inline([self, *others], height)
+        return page_maker("notebook")([self, *others], height)
 
     @checked_arguments
     def view(self, *others: Result, height: int = 520) -> Inline:
@@ -317,9 +314,7 @@ class Result(Tabulated):
     @checked_arguments
     def export_scene(self, path: str | os.PathLike[str], *others: Result) -> Path:
         """Write the motion as one HTML page that opens anywhere and needs no network; an existing file is replaced."""
-        from nivel.view.export import write_scene
-
-        return write_scene([self, *others], path)
+        return page_maker("scene")([self, *others], path)
 
     def reactions(self) -> xarray.Dataset:
         """Peak and RMS force and torque of every joint, and when."""

@@ -7,9 +7,9 @@ from pathlib import Path
 from shutil import copyfile
 
 from nivel.errors import ModelError
+from nivel.files.target import check_target
 from nivel.results.frames.contents import Contents
 from nivel.results.frames.stored import StoredContents
-from nivel.results.frames.target import check_target
 from nivel.results.memory import MemoryContents
 from nivel.results.store import Store
 

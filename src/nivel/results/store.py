@@ -20,11 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
+from nivel.files.target import check_target, status
 from nivel.integrate.loop.sink import Header
 from nivel.results.frames.contents import resolved, shape_of
 from nivel.results.frames.space import Space
 from nivel.results.frames.stored import StoredContents, opened
-from nivel.results.frames.target import check_target, status
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:

@@ -6,10 +6,10 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import Bodies, Markers
-from nivel.machine.body import Body
-from nivel.machine.inertia import mass_properties
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.inertia import mass_properties
+from nivel.machine.core.placement import initial_velocity
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.placement import initial_velocity
 from nivel.system.flexible import flexible_mass
 from nivel.system.tables import Array
 

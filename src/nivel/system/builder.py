@@ -11,17 +11,17 @@ import numpy as np
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.machine.control.part import PartFunction
-from nivel.machine.coordinate_reference import Kind, resolve
+from nivel.machine.core.marker import Marker
 from nivel.machine.forces import End, GlobalPoint
+from nivel.machine.laws.symbols import find_symbol, is_output
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.marker import Marker
-from nivel.machine.symbols import find_symbol, is_output
 from nivel.machine.units.linear_function import LinearFunction
-from nivel.system.circuit import CircuitTable
-from nivel.system.interfaces import marker_place
-from nivel.system.joint_frames import Placed, seen_from
+from nivel.machine.uses.coordinate_reference import Kind, resolve
+from nivel.system.hydraulics.circuit import CircuitTable
+from nivel.system.joints.interfaces import marker_place
+from nivel.system.joints.joint_frames import Placed, seen_from
 from nivel.system.laws.functions import FunctionTable, Signal
-from nivel.system.state_facts import Coupled, StateFact
+from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
 
 GROUND = "ground"

@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible.body import Interface, ReducedBody
-from nivel.flexible.body_file import read_body
-from nivel.flexible.invariants import Invariants
+from nivel.flexible.body.body import Interface, ReducedBody
+from nivel.flexible.body.body_file import read_body
+from nivel.flexible.body.invariants import Invariants
 from nivel.kernels.bodies.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.kernels.record.flexible_record import Flexible, ModalTree
-from nivel.machine.body import Body
-from nivel.machine.inertia import MassProperties
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.gradient_nodes import GradientNode
+from nivel.system.beams.gradient_nodes import GradientNode
 from nivel.system.located import located
 from nivel.system.tables import Array, index_array
 

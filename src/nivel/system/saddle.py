@@ -9,23 +9,23 @@ import numpy as np
 from nivel.kernels.record.record import NONE, Friction, Saddle
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.elimination import plan
-from nivel.system.rows import RowTable
+from nivel.system.joints.rows import RowTable
 from nivel.system.system import Equations
 from nivel.system.tables import index_array, padded
 
 
-def friction_parts(draft: SystemBuilder, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
+def friction_parts(builder: SystemBuilder, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
     """(row, part, marker) of the parts of the extra rows of friction, behind all others."""
     parts: list[tuple[int, int, int]] = []
-    for k, (index, _) in enumerate(draft.frictions):
-        for marker in draft.coordinates.markers(index[0]):
+    for k, (index, _) in enumerate(builder.frictions):
+        for marker in builder.coordinates.markers(index[0]):
             parts.append((row_count + k, len(rows.part_row) + len(parts), marker))
     return parts
 
 
 def saddle_tables(
     rows: RowTable,
-    draft: SystemBuilder,
+    builder: SystemBuilder,
     extra: list[tuple[int, int, int]],
     bodies: int,
     row_count: int,
@@ -33,7 +33,7 @@ def saddle_tables(
 ) -> Saddle:
     """Pattern and work arrays of the saddle-point system. The ground has no blocks; a normalisation block has no part."""
     own = list(zip(rows.part_row, range(len(rows.part_row)), rows.part_marker, strict=True))
-    body_of = draft.markers.body
+    body_of = builder.markers.body
     blocks = [(row, part, marker, body_of[marker]) for row, part, marker in own if body_of[marker] != bodies]
     if equations.normalisation:
         blocks += [(len(rows.names) + body, NONE, 0, body) for body in range(bodies)]
@@ -73,16 +73,16 @@ def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
 
 
 def friction_tables(
-    draft: SystemBuilder, saddle: Saddle, extra: list[tuple[int, int, int]], row_count: int
+    builder: SystemBuilder, saddle: Saddle, extra: list[tuple[int, int, int]], row_count: int
 ) -> Friction:
-    count = len(draft.frictions)
+    count = len(builder.frictions)
     of_row = saddle.block[:, 0]
     first = [
         int(np.searchsorted(of_row[saddle.blocks[0] :], row_count + k) + saddle.blocks[0]) for k in range(count + 1)
     ]
     return Friction(
-        columns=padded([index for index, _ in draft.frictions], NONE).astype(np.uint32),
-        number=padded([numbers for _, numbers in draft.frictions], 0.0),
+        columns=padded([index for index, _ in builder.frictions], NONE).astype(np.uint32),
+        number=padded([numbers for _, numbers in builder.frictions], 0.0),
         part=index_array([min(part for row, part, _ in extra if row == row_count + k) for k in range(count)], 1),
         block=index_array(list(pairwise(first)), 2),
         force=np.zeros(count),

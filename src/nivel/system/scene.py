@@ -38,21 +38,21 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.flexible.picture import moving_surface
+from nivel.flexible.body.picture import moving_surface
 from nivel.machine.beams.beam import Beam
-from nivel.machine.body import Body
-from nivel.machine.colour import digits_of
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.colour import digits_of
+from nivel.machine.bodies.shape import Box, Extrusion, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.solids import box_size, length, mesh_surface
+from nivel.machine.bodies.surface import surface_text
 from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper
 from nivel.machine.hydraulics.actuators import HydraulicCylinder, TelescopicCylinder
-from nivel.machine.joint import Joint
+from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.shape import Box, Extrusion, Mesh, Shape, Sphere, Tube
-from nivel.machine.solids import box_size, length, mesh_surface
-from nivel.machine.surface import surface_text
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
-from nivel.system.interfaces import marker_place
-from nivel.system.joint_frames import slot_frame
+from nivel.system.joints.interfaces import marker_place
+from nivel.system.joints.joint_frames import slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
 
@@ -157,14 +157,14 @@ def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
 
 
 def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
-    draft = SystemBuilder(machine)  # knows where the ends of forces are
+    builder = SystemBuilder(machine)  # knows where the ends of forces are
     names = [*(body.name for body in machine.bodies), "ground"]
     for force in machine.forces:
-        ends = _ends(draft, force)
+        ends = _ends(builder, force)
         if ends is None:
             continue
         first, second = ends[0], ends[1]
-        markers = draft.markers
+        markers = builder.markers
         out: dict[str, Any] = {
             "name": force.name,
             "type": force.type,
@@ -179,12 +179,12 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         yield out
     for cylinder in machine.hydraulics:
         if isinstance(cylinder, HydraulicCylinder | TelescopicCylinder):
-            ends = draft.ends(cylinder.ends)
+            ends = builder.ends(cylinder.ends)
             yield {
                 "name": cylinder.name,
                 "type": "cylinder",
-                "bodies": [names[draft.markers.body[m]] for m in ends],
-                "points": [draft.markers.position[m].tolist() for m in ends],
+                "bodies": [names[builder.markers.body[m]] for m in ends],
+                "points": [builder.markers.position[m].tolist() for m in ends],
                 "sizes": _sizes(cylinder),
             }
 
@@ -196,26 +196,26 @@ def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
     return [0.5 * (1.0 + WALL) * diameters[0], 0.5 * thin, BARREL * cylinder.retracted_length]
 
 
-def _ends(draft: SystemBuilder, force: Force) -> tuple[int, ...] | None:
+def _ends(builder: SystemBuilder, force: Force) -> tuple[int, ...] | None:
     """Markers between which a force acts; None where it acts elsewhere."""
     match force:
         case Between() | BetweenMarkers():
-            return draft.ends(force.ends)
+            return builder.ends(force.ends)
         case Rope():
-            return tuple(draft.end(end) for end in force.ends)
+            return tuple(builder.end(end) for end in force.ends)
         case Contact(body=str(body), plane=plane) if plane is not None:
-            return _centre(draft, body), draft.end(plane)
+            return _centre(builder, body), builder.end(plane)
         case Contact(bodies=(first, second)):
-            return _centre(draft, first), _centre(draft, second)
+            return _centre(builder, first), _centre(builder, second)
     return None
 
 
-def _centre(draft: SystemBuilder, name: str) -> int:
+def _centre(builder: SystemBuilder, name: str) -> int:
     """Marker at the centre of a body's shape."""
-    body = draft.machine.body_named[name]
+    body = builder.machine.body_named[name]
     shape = body.shape
     centre = None if shape is None or isinstance(shape, Mesh) else shape.centre
-    return draft.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
+    return builder.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
 
 
 def _shape(shape: Shape) -> dict[str, Any]:

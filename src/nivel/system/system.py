@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.record.record import Control, Record
-from nivel.system.circuit import Node
+from nivel.system.hydraulics.circuit import Node
+from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout
-from nivel.system.rails import element_of
-from nivel.system.state_facts import Coupled, StateFact
+from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import Array, index_array
 
 

@@ -14,7 +14,7 @@ from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from nivel.machine.coordinate_reference import COORDINATE_KINDS, Kind, UnknownCoordinateError, find
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, Kind, UnknownCoordinateError, find
 from nivel.view.records import Joint, Triple
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.poses import rotation
-from nivel.machine.coordinate_reference import Kind as CoordinateKind
+from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
 from nivel.view.coordinate_places import CoordinatePlace, coordinate_place
 from nivel.view.records import Coupling, End, Track, Wheel
 from nivel.view.stage import Cast

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nivel.errors import ModelError
-from nivel.results.frames.target import keep_sources
+from nivel.files.target import keep_sources
 from nivel.results.result import Result
 from nivel.view.page import page_alone
 from nivel.view.playback import ALONE, Budget, playback

@@ -13,7 +13,7 @@ from nivel.looks.links import attached, held_points
 from nivel.looks.poses import Pose, body_poses, in_space, rotation, upwards
 from nivel.looks.solids import reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
-from nivel.machine.surface import surface_arrays
+from nivel.machine.bodies.surface import surface_arrays
 from nivel.view.records import Triple, Viewpoint
 from nivel.view.stage import Cast
 from nivel.view.triples import triple

@@ -14,12 +14,33 @@ from nivel.looks.colours import colour_of, colour_of_body
 from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, SLIDING_ON_BEAMS
 from nivel.looks.links import held_points, link_ends
 from nivel.looks.solids import shapes_of
-from nivel.machine.surface import surface_arrays
+from nivel.machine.bodies.surface import surface_arrays
 from nivel.view.acting import drivers, forces
 from nivel.view.package import Block
 from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
-from nivel.view.sweeps import sweeps
 from nivel.view.triples import triple
+
+
+def sweeps(scene: dict[str, Any], places: dict[str, int]) -> list[Sweep]:
+    """Those of the scene (`system.scene`)."""
+    return [_sweep(each, places) for each in scene.get("sweeps", [])]
+
+
+def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
+    bodies = [places[name] for name in sweep["bodies"]]
+    count = len(bodies)
+    return Sweep(
+        name=sweep["name"],
+        colour=colour_of(bodies[0]),
+        bodies=bodies,
+        points=[triple(point) for point in sweep.get("points") or [(0, 0, 0)] * count],
+        axes=[triple(axis) for axis in sweep.get("axes") or [(1, 0, 0)] * count],
+        across=[triple(axis) for axis in sweep.get("across") or [(0, 1, 0)] * count],
+        section=[(float(y), float(z)) for y, z in sweep["section"]],
+        hollow=[(float(y), float(z)) for y, z in sweep.get("hollow") or []],
+        smooth=bool(sweep.get("smooth", True)),
+    )
+
 
 Array = NDArray[np.float64]
 MOMENTS: Final = 100  # that are looked at for the largest displacement

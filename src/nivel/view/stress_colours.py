@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.flexible.body import ReducedBody
-from nivel.flexible.picture import moving_surface
-from nivel.flexible.recovery import stress, von_mises
+from nivel.flexible.body.body import ReducedBody
+from nivel.flexible.body.picture import moving_surface
+from nivel.flexible.body.recovery import stress, von_mises
 from nivel.results.result import Result
 from nivel.results.stress.body_sources import ATTRIBUTE
 from nivel.results.stress.recovered import RecoveredBody

@@ -12,7 +12,7 @@ from nivel.analysis.assembly.equations import MotionEquations, change_between
 from nivel.analysis.assembly.velocities import ROUND_OFF, consistent_velocities, given_velocities, section_of
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints import composition_of
+from nivel.system.joints.joints import composition_of
 from nivel.system.system import Array, System
 
 TURN_A_MARKER = (

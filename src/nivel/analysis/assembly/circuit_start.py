@@ -27,7 +27,7 @@ from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Actuator, HydraulicMotor, RotaryActuator
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.circuit import Node
+from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.fluid_law import mass_at
 from nivel.system.hydraulics.nodes import chamber_node, stroke_of
 from nivel.system.system import Array, System

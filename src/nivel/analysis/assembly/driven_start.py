@@ -13,8 +13,8 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.errors import Fault
 from nivel.kernels.bodies.driven_turn import TURN_X
+from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.orientation import euler_parameters_from_matrix
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
 

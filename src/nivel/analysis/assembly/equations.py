@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
+from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.vectors import cross
 from nivel.system.build import build
 from nivel.system.system import Array, Equations, System, parameter_rates
 

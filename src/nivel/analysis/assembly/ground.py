@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.record import GROUND
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import System
 

@@ -39,7 +39,8 @@ from nivel.kernels.residual.element_crossing import pass_nodes
 from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.slider_nodes import pass_sliders
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system.beam_tangent import (
+from nivel.system.beams.beams import nodes_of_elements
+from nivel.system.beams.tangent import (
     elastic_family,
     has_carried_nodes,
     has_elastic_beams,
@@ -47,7 +48,6 @@ from nivel.system.beam_tangent import (
     rail_of,
     tangent_tables,
 )
-from nivel.system.beams import nodes_of_elements
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import complex_address
@@ -68,7 +68,7 @@ class ResidualOptions:
     accelerations, see
     `nivel.kernels.residual.balance`. along : it asks for derivatives along directions, so that none may be found by hand. free : whether
     nothing
-    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.integrate.newmark.error_filter`.
+    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.integrate.newmark.alpha_error`.
     accelerations : it solves for them, so that in independent coordinates all that depends on these has to be found. compliance : 1/α of
     penalty methods.
     """

@@ -22,7 +22,7 @@ from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, SHOWN
 from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
-from nivel.machine.vectors import cross
+from nivel.machine.core.vectors import cross
 from nivel.system.system import Array, parameter_rates
 
 EPSILON = 1e-30

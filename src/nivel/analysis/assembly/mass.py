@@ -11,11 +11,11 @@ import numpy as np
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import Fault, ModelError
-from nivel.machine.coordinate_reference import unknown_name
-from nivel.machine.inertia import point_mass_inertia
+from nivel.machine.bodies.inertia import point_mass_inertia
+from nivel.machine.core.placement import marker_frame
+from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.placement import marker_frame
-from nivel.machine.record import GROUND
+from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.system.system import Array, System
 
 

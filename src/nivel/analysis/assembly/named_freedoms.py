@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
-from nivel.analysis.assembly.idle_turns import idle_angles, without_turn
+from nivel.analysis.assembly.idle_rotations import idle_angles, without_turn
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array
 

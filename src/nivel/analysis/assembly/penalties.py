@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from nivel.analysis.assembly.effective_mass import mobility
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.mobility import mobility
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from itertools import combinations
 
 from nivel.kernels.record.record import POINT_ON_BEAM, Record
-from nivel.system.beam_tangent import rail_of
-from nivel.system.rails import stretches
+from nivel.system.beams.tangent import rail_of
+from nivel.system.joints.rails import stretches
 
 # where sliders are, (node of the tree, at which nodes of its beam), and the nodes of the tree that move a body then
 Way = tuple[frozenset[tuple[int, int]], frozenset[int]]

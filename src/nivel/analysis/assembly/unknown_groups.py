@@ -12,7 +12,7 @@ from nivel.analysis.assembly.tree_paths import Carrying
 from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import NONE
-from nivel.system.rails import stretches
+from nivel.system.joints.rails import stretches
 from nivel.system.system import System
 
 Index = NDArray[np.integer]

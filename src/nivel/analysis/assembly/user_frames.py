@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.instant import Instant
-from nivel.machine.vectors import cross
+from nivel.machine.core.vectors import cross
 
 Vector = NDArray[np.complex128]
 

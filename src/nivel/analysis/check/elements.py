@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from nivel.machine.coordinate_reference import resolve
-from nivel.machine.coupling import Coupling
-from nivel.machine.driver import Driver
-from nivel.machine.event import Event
 from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope
 from nivel.machine.hydraulics import Component
-from nivel.machine.input import Input
+from nivel.machine.joints.coupling import Coupling
+from nivel.machine.joints.driver import Driver
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.python_law import PythonLaw
-from nivel.machine.sensor import Sensor
-from nivel.machine.state import State
-from nivel.machine.table import Table
-from nivel.machine.time_function import TimeFunction
+from nivel.machine.signals.event import Event
+from nivel.machine.signals.input import Input
+from nivel.machine.signals.sensor import Sensor
+from nivel.machine.signals.state import State
+from nivel.machine.uses.coordinate_reference import resolve
 
 
 def coupling_in_words(machine: MachineRecord, coupling: Coupling) -> str:

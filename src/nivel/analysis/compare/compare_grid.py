@@ -16,13 +16,12 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.plan.settings import FRAMES
 from nivel.analysis.progress.listener import Listener
-from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.changes import changed
+from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.record import Record
 from nivel.machine.settings import (
     Coordinates,
     Formulation,
@@ -34,6 +33,7 @@ from nivel.machine.settings import (
 )
 from nivel.machine.units.quantity import Duration, fault, listed
 from nivel.results.comparison.comparison import Method
+from nivel.words.arguments import plain
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against
 FEWEST_FRAMES: Final = 10  # a common output interval gives at least so many

@@ -20,11 +20,11 @@ from nivel.analysis.assembly.equations import MotionEquations, equations, moved
 from nivel.analysis.assembly.freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.interactive.handles import Handle, Wish, further_handles, measured_handles
 from nivel.analysis.plan.stiff_beams import with_stiff_beams
-from nivel.arguments import checked_arguments
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 from nivel.system.scene import scene
 from nivel.system.system import Array
+from nivel.words.arguments import checked_arguments
 
 ASIDE: Final = 0.02  # [rad, machine lengths] a little aside
 STEPS: Final = 36  # to each side, in which it is found out how far a number goes: 5 degrees each

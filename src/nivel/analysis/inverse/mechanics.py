@@ -16,12 +16,12 @@ from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_a
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction
-from nivel.analysis.run.moment import Moment
+from nivel.analysis.run.prepared_state import Moment
 from nivel.analysis.statics.equations import turned
 from nivel.errors import ModelError
-from nivel.machine.coordinate_reference import unknown_name
+from nivel.machine.core.placement import marker_frame
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.placement import marker_frame
+from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.system.system import Array
 
 # positions are closed to this share of the scales of the rows, in so many iterations at most

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.analysis.plan.rolling import refuse_rolling
+from nivel.analysis.plan.nonholonomic_refusals import refuse_rolling
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 

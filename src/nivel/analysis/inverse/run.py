@@ -22,7 +22,7 @@ from nivel.analysis.inverse.settings import InverseSettings
 from nivel.analysis.kinematics.states import MovingState, moving_states
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.moment import at_start
+from nivel.analysis.run.prepared_state import at_start
 from nivel.kernels.output.observe import observe
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.efforts import Efforts

@@ -8,9 +8,9 @@ from typing import Any
 from nivel.analysis.inverse.number_table import read_table
 from nivel.analysis.kinematics.drive import released
 from nivel.errors import Fault, ModelError
-from nivel.machine.coordinate_reference import UnknownCoordinateError, resolve
-from nivel.machine.driver import Driver
+from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 
 TIME = "time"
 FEWEST = 4  # points of a spline

@@ -22,7 +22,7 @@ from nivel.analysis.kinematics.singular import TAKES_PART, determinant_sign, ind
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 from nivel.system.system import Array
 
 # longest and shortest step, and the most of them
@@ -116,9 +116,9 @@ class _Curve:
         found = self.place(y, place.tangent)
         if found is None or found.tangent @ place.tangent < STRAIGHT:
             return None
-        return found if np.linalg.norm(self.way(place, found) - h * place.tangent) <= ASIDE * abs(h) else None
+        return found if np.linalg.norm(self.displacement(place, found) - h * place.tangent) <= ASIDE * abs(h) else None
 
-    def way(self, first: _Place, second: _Place) -> Array:
+    def displacement(self, first: _Place, second: _Place) -> Array:
         """(6 B,) from one place to another, lengths in machine lengths."""
         n = self.system.positions
         change = change_between(first.y[:n], second.y[:n])
@@ -148,7 +148,7 @@ class _Curve:
         share = float(root)
         return share * h, self.step(place, share * h) or place
 
-    def in_line(self, place: _Place, k: int) -> tuple[str, ...]:
+    def joints_involved(self, place: _Place, k: int) -> tuple[str, ...]:
         """Joints whose rows depend on coordinate k at a turning point of it."""
         self.motion.evaluate(0.0, place.y)
         rows = scaled_jacobian(self.motion)
@@ -157,11 +157,11 @@ class _Curve:
         taking = np.flatnonzero(weights >= TAKES_PART * weights.max(initial=0.0))
         return tuple(dict.fromkeys(self.system.row_owner[j] for j in taking))
 
-    def back(self, found: _Place, h: float) -> tuple[float, _Place] | None:
+    def closure(self, found: _Place, h: float) -> tuple[float, _Place] | None:
         """The way on to the start, and the place there, if that is as near as a step h and ahead."""
         assert self.start is not None
-        aside = float(np.linalg.norm(self.way(found, self.start)))
-        rest = float(self.way(found, self.start) @ found.tangent)
+        aside = float(np.linalg.norm(self.displacement(found, self.start)))
+        rest = float(self.displacement(found, self.start) @ found.tangent)
         if aside > BACK * h or rest < 0.0 or found.tangent @ self.start.tangent < STRAIGHT:
             return None
         whole, end = 0.0, found
@@ -170,7 +170,7 @@ class _Curve:
             if nearer is None:
                 return None
             whole, end = whole + rest, nearer
-            rest = float(self.way(end, self.start) @ end.tangent)
+            rest = float(self.displacement(end, self.start) @ end.tangent)
         return whole, end
 
 
@@ -189,7 +189,7 @@ def configuration_curve(machine: MachineRecord, coordinate: str) -> Configuratio
         last = places[-1]
         if last.rates[k] * found.rates[k] < 0.0:
             part, at = curve.turning(last, way, k)
-            turning.append(Turning(arcs[-1] + part, float(at.values[k]), curve.in_line(at, k)))
+            turning.append(Turning(arcs[-1] + part, float(at.values[k]), curve.joints_involved(at, k)))
         if curve.crosses(last, found):
             crossed.append(arcs[-1] + 0.5 * way)
         places.append(found)
@@ -206,7 +206,7 @@ def configuration_curve(machine: MachineRecord, coordinate: str) -> Configuratio
                 )
             continue
         add(found, h)
-        end = curve.back(found, h) if len(places) > LEAST else None
+        end = curve.closure(found, h) if len(places) > LEAST else None
         if end is not None:
             closed = True
             if end[0] > 0.0:
@@ -214,7 +214,7 @@ def configuration_curve(machine: MachineRecord, coordinate: str) -> Configuratio
         h = min(LONGEST, 2.0 * h)
     rates = np.array([place.rates[k] for place in places])
     if closed and abs(rates[0]) <= STILL * np.abs(rates).max() and rates[1] * rates[-2] < 0.0:
-        turning.insert(0, Turning(0.0, float(curve.start.values[k]), curve.in_line(curve.start, k)))
+        turning.insert(0, Turning(0.0, float(curve.start.values[k]), curve.joints_involved(curve.start, k)))
     return ConfigurationCurve(
         machine=machine.name,
         coordinate=coordinate,

@@ -14,10 +14,10 @@ from nivel.analysis.assembly.equations import equations
 from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.output.observe import observe
-from nivel.machine.driver import Driver
-from nivel.machine.joint import Joint
+from nivel.machine.joints.driver import Driver
+from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 
 
 def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[MachineRecord, KinematicsSettings]:

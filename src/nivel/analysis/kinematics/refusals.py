@@ -6,11 +6,11 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import equations
 from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
-from nivel.analysis.plan.rolling import refuse_rolling
+from nivel.analysis.plan.nonholonomic_refusals import refuse_rolling
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 
 
 def refuse_what_bends(machine: MachineRecord) -> None:

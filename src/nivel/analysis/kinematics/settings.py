@@ -7,10 +7,10 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.coordinate_reference import COORDINATE_KINDS, UnknownCoordinateError, resolve
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, UnknownCoordinateError, resolve
 
 POSITIONS, MOST = 361, 10_000_000
 

@@ -12,17 +12,17 @@ from scipy.spatial.transform import Rotation
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, with_squares
-from nivel.analysis.linearise.judged import judged, nothing
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.settings import LineariseSettings
 from nivel.analysis.linearise.steady import is_at_rest
+from nivel.analysis.linearise.validity import judged, nothing
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.moment import Moment, Posture, at_posture, at_start
+from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start
 from nivel.analysis.statics.linear import symmetric, symmetric_modes
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
-from nivel.system.beam_elements import elements_of, gauss, lagrange, skew
-from nivel.system.gradient_frequencies import fastest_of_gradients
+from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
+from nivel.system.beams.gradient_frequencies import fastest_of_gradients
 
 Array = NDArray[np.float64]
 FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: a beam with free ends

@@ -14,12 +14,12 @@ from collections.abc import Iterable
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.integrate.catalogue import BY_CIRCUITS, BY_MODES, INTEGRATORS
-from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
-from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.system.beam_nodes import with_nodes
+from nivel.machine.uses.coordinate_reference import resolve
+from nivel.system.beams.nodes import with_nodes
 
 # relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
 TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
@@ -95,7 +95,7 @@ def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: Simu
 
 def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
     """Owner, number of rows and bodies of every joint, coupling and driver."""
-    from nivel.system.joints import composition_of
+    from nivel.system.joints.joints import composition_of
     from nivel.system.states.relative import bodies_of
 
     bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}

@@ -7,7 +7,7 @@ from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from time import perf_counter
 
-from nivel.analysis.loads.switches import has_switches
+from nivel.analysis.curves.switches import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import NivelError
@@ -19,14 +19,14 @@ from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.machine.hydraulics import Actuator
-from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, CompilationError
-from nivel.system.beams import ELASTIC, family_of
-from nivel.system.beams import FAMILIES as BEAMS
+from nivel.system.beams.beams import ELASTIC, family_of
+from nivel.system.beams.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import FAMILIES as CIRCUITS
 from nivel.system.hydraulics.components import families_of

@@ -2,10 +2,50 @@
 
 from __future__ import annotations
 
-from nivel.analysis.plan.circuit_stiffness import only_circuits_are_stiff
+from collections.abc import Iterator
+
+from nivel.analysis.plan.soft_forces import is_soft
 from nivel.integrate.catalogue import BY_CIRCUITS, BY_FLEXIBLE_CIRCUITS, BY_MODES, INTEGRATORS, IntegratorFacts
 from nivel.machine.forces import PointForce, Torque
+from nivel.machine.hydraulics import Component
+from nivel.machine.laws.symbols import find_symbol
+from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.hydraulics.components import families_of
+from nivel.system.hydraulics.tangent import DERIVED, WITHOUT
+
+MOVING = ("joints", "inputs", "markers", "bodies")  # what signals of the motion are read from
+
+
+def only_circuits_are_stiff(machine: MachineRecord) -> bool:
+    """Whether a machine has circuits with derivatives by hand, and besides them and weight no forces but soft ones and those given in
+    time, no continuous states, and in circuits no commands that follow pressures at once."""
+    return (
+        bool(machine.hydraulics)
+        and not machine.beams
+        and all(is_soft(machine, each) for each in machine.forces)
+        and all(state.update is not None for state in machine.states)
+        and all(part.role != "state" for block in machine.control for part in block.parts)
+        and set(families_of(machine)) <= {*DERIVED, *WITHOUT}
+        and all(_waits(machine, path) for component in machine.hydraulics for path in _signals(component))
+    )
+
+
+def _signals(component: Component) -> Iterator[str]:
+    """The paths of what a component follows."""
+    for key in component.functions:
+        yield from signals_of(getattr(component, key) or 0.0)
+
+
+def _waits(machine: MachineRecord, path: str) -> bool:
+    """Whether a signal follows the time, samples or the motion: what acts on a circuit is not back within a step."""
+    symbol = find_symbol(path, machine)
+    if symbol.section != "control":
+        return symbol.section in (*MOVING, "states")
+    block = next(each for each in machine.control if each.name == symbol.name)
+    present = [part.function for part in block.parts if part.role == "signal"]
+    inner = [each for function in present if not isinstance(function, float | int) for each in function.signals]
+    return all(_waits(machine, each) for each in inner)
 
 
 def only_modes_are_stiff(machine: MachineRecord) -> bool:

@@ -9,6 +9,7 @@ from types import ModuleType
 from nivel.analysis.plan.choice import choose_coordinates, choose_cut, slides, with_integrator
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.analysis.plan.modal_stiffness import integrator_of
+from nivel.analysis.plan.nonholonomic_refusals import refuse_rolling_by_positions
 from nivel.analysis.plan.refusals import (
     refuse_conserved_drivers,
     refuse_flexible_lagrange,
@@ -18,16 +19,53 @@ from nivel.analysis.plan.refusals import (
     refuse_samples_between_steps,
     refuse_stiction_over_steps,
 )
-from nivel.analysis.plan.rolling import refuse_rolling_by_positions
 from nivel.analysis.plan.settings import RunSettings, complete
-from nivel.analysis.plan.unused_settings import unused_settings
 from nivel.errors import Fault, ModelError
-from nivel.integrate.catalogue import IntegratorFacts, chooses
+from nivel.integrate.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
+
+# settings that hold constants of one integrator each
+CONSTANTS = {"newmark": "newmark", "hht": "hht", "generalised_alpha": "generalised-alpha"}
+
+
+def unused_settings(given: Collection[str], settings: SimulationSettings, coordinates: str) -> list[Fault]:
+    """Faults for those of the settings `given` that the methods of `settings` have no use for.
+
+    coordinates : of the run, `auto` resolved. Methods that are not known are left to others.
+    """
+    return [
+        Fault("", 0, 0, f"simulation.{name}", f"`{name}` has no effect here: {reason}")
+        for name in given
+        if (reason := _unused(name, settings, coordinates))
+    ]
+
+
+def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
+    """Why the setting `name` has no effect; empty where it has one."""
+    integrator, formulation = INTEGRATORS.get(settings.integrator), FORMULATIONS.get(settings.formulation)
+    if name in ("tolerance", "largest_step") and integrator and not chooses(settings.integrator, settings.step_control):
+        fitting = [each for each, facts in INTEGRATORS.items() if facts.chooses_steps]
+        more = "; `step_control: error` lets it choose its steps" if integrator.optional_control else ""
+        return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}{more}"
+    if name == "corrector" and integrator and not integrator.implicit:
+        fitting = [each for each, facts in INTEGRATORS.items() if facts.implicit]
+        return f"`integrator: {settings.integrator}` solves no equations; {_choice('it', fitting)}"
+    if name in CONSTANTS and settings.integrator != CONSTANTS[name]:
+        return f"it is for `integrator: {CONSTANTS[name]}`, and this run has `integrator: {settings.integrator}`"
+    if name == "penalty" and formulation and formulation.factor == 0.0:
+        fitting = [each for each, facts in FORMULATIONS.items() if facts.factor > 0.0]
+        return f"`formulation: {settings.formulation}` has multipliers of its own; {_choice('it', fitting)}"
+    if name == "cut" and settings.cut and coordinates != "relative":
+        return f"all joints stay constraints in {coordinates} coordinates; it is for `coordinates: relative`"
+    return ""
+
+
+def _choice(what: str, fitting: list[str]) -> str:
+    return f"{what} is for {', '.join(fitting)}" if fitting else f"nothing uses {what}"
 
 
 @dataclass(frozen=True)

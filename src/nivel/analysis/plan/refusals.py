@@ -6,17 +6,17 @@ from collections.abc import Callable, Iterator, Sequence
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
-from nivel.analysis.loads.corners import corners_of
+from nivel.analysis.curves.corners import corners_of
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS, chooses
-from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Contact, Friction, Stop
-from nivel.machine.functions import functions_in
+from nivel.machine.laws.functions import functions_in
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
-from nivel.machine.table import Table
 from nivel.machine.units.expression import Expression
+from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.laws.laws import false_derivative
 from nivel.system.layout import reported
 from nivel.system.system import Array

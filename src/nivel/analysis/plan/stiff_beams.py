@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from nivel.machine.joint import Joint
+from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 
 
 def with_stiff_beams(machine: MachineRecord) -> MachineRecord:

@@ -8,12 +8,12 @@ from typing import Protocol
 
 import nivel
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.flexible.identity import fingerprint
+from nivel.flexible.body.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.result_format import ATTRIBUTE as RESULT_FORMAT
 from nivel.results.frames.result_format import FORMAT
 from nivel.results.stress.body_sources import ATTRIBUTE, BodySource, as_attribute
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 from nivel.system.scene import scene
 

@@ -10,20 +10,20 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.assemble import Assembly, assemble
 from nivel.analysis.assembly.circuit_start import circuit_start
+from nivel.analysis.assembly.effective_mass import bound_pivots
 from nivel.analysis.assembly.equations import MotionEquations, equations
 from nivel.analysis.assembly.exact_joints import exact_joints
 from nivel.analysis.assembly.ground import touches_ground
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
-from nivel.analysis.assembly.left_out import leave_out, rows_everywhere
-from nivel.analysis.assembly.mobility import bound_pivots
 from nivel.analysis.assembly.modal_rows import modal_rows
 from nivel.analysis.assembly.penalties import penalise
 from nivel.analysis.assembly.redundancy import Redundancy, analyse
-from nivel.analysis.loads.ahead import allowed_steps
-from nivel.analysis.loads.corners import corners
-from nivel.analysis.loads.jumping import jumping_functions
+from nivel.analysis.curves.corners import corners
+from nivel.analysis.curves.jumping import jumping_functions
+from nivel.analysis.curves.step_limits import allowed_steps
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.refusals import (
     refuse_deep_starts,

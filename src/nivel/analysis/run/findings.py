@@ -4,36 +4,36 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.loads.corners import corners
-from nivel.analysis.loads.path import steps_of
-from nivel.analysis.loads.sampled import between_samples
-from nivel.analysis.loads.seen import unseen_loads
+from nivel.analysis.curves.corners import corners
+from nivel.analysis.curves.missed_impulse import unseen_loads
+from nivel.analysis.curves.path import steps_of
+from nivel.analysis.curves.sampled import between_samples
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.flexible_facts import modal_bases, modal_bodies
-from nivel.analysis.run.passages import passages
 from nivel.analysis.run.second_run import Verified
 from nivel.analysis.run.separate_parts import separate_parts
+from nivel.analysis.run.singular_passages import passages
 from nivel.integrate.loop.run import TURNED
+from nivel.machine.bodies.shape import Sphere
+from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.forces import Contact
-from nivel.machine.orientation import euler_parameters_from_matrix
-from nivel.machine.shape import Sphere
 from nivel.results.result import Result
+from nivel.results.scales import machine_size, speed_of_rest
 from nivel.results.trust.accuracy import error_from_finer, extent
 from nivel.results.trust.basis import most_coarse, most_lacking
 from nivel.results.trust.beam_mesh import BeamMesh, coarsest, turns
 from nivel.results.trust.bending import fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.findings import Findings
+from nivel.results.trust.missed_impulse import Unseen
 from nivel.results.trust.motion import Motion
 from nivel.results.trust.part_energy import PartError, worst_part
 from nivel.results.trust.passed_contacts import Pair, passed_contacts
 from nivel.results.trust.passed_hulls import HullPair, passed_hulls
-from nivel.results.trust.scales import machine_size, speed_of_rest
 from nivel.results.trust.second_look import damped, growth, own_error
 from nivel.results.trust.steps_seen import largest_turn, rounding
-from nivel.results.trust.unseen import Unseen
 from nivel.system.forces.hulls import hull_of
 
 

@@ -9,12 +9,12 @@ import numpy as np
 
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.flexible.body import Interface
+from nivel.flexible.body.body import Interface
 from nivel.results.trust.basis import Basis, Held
 from nivel.results.trust.bending import ModalBody
-from nivel.system.beam_nodes import with_nodes
+from nivel.system.beams.nodes import with_nodes
 from nivel.system.flexible import Bending, bending_bodies
-from nivel.system.joint_frames import joint_frames
+from nivel.system.joints.joint_frames import joint_frames
 from nivel.system.system import Array
 
 # Joints whose two markers are one point, so that the reaction on the second body is that on the first, turned round.

@@ -8,11 +8,10 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import coordinate_derivatives
 from nivel.kernels.elements import friction as columns
-from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.trust.held import Held
-from nivel.results.trust.held_together import Sticking
+from nivel.machine.uses.coordinate_reference import resolve
+from nivel.results.trust.indeterminate_friction import Held, Sticking
 from nivel.system.system import Array, System
 
 # What the constraints leave of a unit derivative below this is round-off; shares of rows below it are none.

@@ -44,9 +44,9 @@ from nivel.kernels.signals.sampling import sample
 from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.motion.direct import VISIBLE
-from nivel.results.trust.held import STILL
-from nivel.system.control import ONCE
+from nivel.results.trust.indeterminate_friction import STILL
 from nivel.system.elimination.partition import forget
+from nivel.system.signals.control import ONCE
 from nivel.system.system import Array, System
 
 BUFFER_BYTES = 1_000_000

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil, gcd, lcm
 
-from nivel.analysis.loads.corners import corners
+from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
@@ -22,7 +22,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.trust.estimate import TIMES
-from nivel.wording import seconds
+from nivel.words.wording import seconds
 
 # Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.
 FINER, LEAST_STEPS = 1.6, 3

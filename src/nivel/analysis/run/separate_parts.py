@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.machine.inertia import mass_properties
+from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust.part_energy import Part
 

@@ -6,8 +6,11 @@ import json
 import time
 from dataclasses import replace
 from os import PathLike
+from typing import Final
 
-from nivel.analysis.loads.ahead import rounding_of_times
+import numpy as np
+
+from nivel.analysis.curves.step_limits import rounding_of_times
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
@@ -19,7 +22,6 @@ from nivel.analysis.run.findings import find
 from nivel.analysis.run.held_friction import resting_frictions
 from nivel.analysis.run.history import SECANT
 from nivel.analysis.run.preparation import prepare
-from nivel.analysis.run.saturation import saturated_blocks
 from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.errors import SolveError
 from nivel.integrate.catalogue import INTEGRATORS
@@ -35,12 +37,29 @@ from nivel.results.trust.circuits import Guard
 from nivel.results.trust.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.trust.estimate import estimate_errors
 from nivel.results.trust.findings import finding_items, steps_item
-from nivel.results.trust.held import Held, shared_loads
-from nivel.results.trust.held_together import Sticking, loads_held_together
+from nivel.results.trust.indeterminate_friction import Held, Sticking, loads_held_together, shared_loads
 from nivel.results.trust.neglected import Neglected, cost
 from nivel.results.trust.trust import Facts, Peak, SmallState, assess, peak
 from nivel.results.trust.verdicts import CHECKS, Trust
 from nivel.system.flexible import bending_bodies
+
+WHOLE: Final = 0.999  # share of the frames after the first
+LEAST: Final = 5  # frames of which something can be said
+
+
+def saturated_blocks(machine: MachineRecord, result: Result) -> tuple[str, ...]:
+    """Names of the blocks whose value was a limit in all frames but the first."""
+    out = []
+    for block in machine.control:
+        limits = getattr(block, "limits", None)
+        name = f"control.{block.name}"
+        if limits is None or name not in result.variables or len(result.time) <= LEAST:
+            continue
+        values = result.array(name)[1:]
+        if np.mean((values <= limits[0]) | (values >= limits[1])) >= WHOLE:
+            out.append(block.name)
+    return tuple(out)
+
 
 # A state whose values stay below this share of its scale is not followed to the tolerance.
 SMALL = 0.01

@@ -20,7 +20,6 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.preparation import prepare
-from nivel.arguments import plain
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.writer import write_machine
 from nivel.integrate.loop.loop import advance
@@ -44,7 +43,8 @@ from nivel.kernels.record.function import CONSTANT
 from nivel.results.frames.occurrence import Occurrence
 from nivel.results.memory import Memory, MemoryContents
 from nivel.results.result import Result
-from nivel.wording import shown, unknown_word
+from nivel.words.arguments import plain
+from nivel.words.wording import shown, unknown_word
 
 ENDLESS: Final = 2**62  # steps
 

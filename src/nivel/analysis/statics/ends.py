@@ -7,11 +7,11 @@ import numpy as np
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.labels import direction_in_words, worst_row
 from nivel.analysis.statics.linear import PivotError
-from nivel.analysis.statics.loose import loose_coordinates
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
 from nivel.analysis.statics.search import MOVES_ON
 from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, softest
+from nivel.analysis.statics.zero_stiffness import loose_coordinates
 
 # Forces left over that are this share of the loads are no reason to go on.
 IMPLICIT_ACCELERATIONS = 1e-6

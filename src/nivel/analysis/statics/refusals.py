@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.analysis.plan.choice import choose_coordinates
-from nivel.analysis.statics.free import holding_free
+from nivel.analysis.statics.free_coordinates import holding_free
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Friction

@@ -7,22 +7,23 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from os import PathLike
+from typing import Any
 
 import numpy as np
 
 from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.refusals import refuse_rough_motions
+from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.broken_function import broken_function
 from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
 from nivel.analysis.progress.interrupt import interruptible, terminable
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.statics.attributes import statics_attributes
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
-from nivel.analysis.statics.free import loaded_free
+from nivel.analysis.statics.free_coordinates import loaded_free
 from nivel.analysis.statics.labels import direction_in_words
 from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
@@ -42,6 +43,27 @@ from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.results.trust.statics_trust import StaticsFacts, assess_statics
+
+
+def statics_attributes(
+    machine: MachineRecord, source: str, prepared: Prepared, settings: StaticsSettings
+) -> dict[str, str | float | int]:
+    """The attributes of the result, see `nivel.integrate.loop.sink.Header`; the coordinates are those that were taken."""
+    taken = "relative" if len(prepared.motion.system.record.tree.node) else "absolute"
+    shown: Any = _Shown({**settings.as_dict(), "coordinates": taken})
+    attributes = run_attributes(machine, source, prepared, shown)
+    return {**attributes, "analysis": "statics"}
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """Settings as `run_attributes` asks for them."""
+
+    settings: dict[str, object]
+
+    def as_dict(self) -> dict[str, object]:
+        return self.settings
+
 
 # A state whose loads are this many times what round-off makes of them, or less, has none.
 UNLOADED = 10.0

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import ANY, read_quantity
-from nivel.wording import shown
+from nivel.words.arguments import plain
+from nivel.words.wording import shown
 
 ROW = "variant"
 MOST = 1_000_000

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from nivel.flexible.sparse import Sparse
+from nivel.flexible.model.sparse import Sparse
 
 Whole = NDArray[np.int64]
 Label = tuple[int, int]  # node, direction 1 … 6

@@ -11,19 +11,19 @@ import numpy as np
 import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible.checks import unsymmetric
+from nivel.flexible.checks.checks import unsymmetric
 from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh, read_mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
 from nivel.flexible.foreign.triplet_files import read_abaqus, read_calculix, read_freedoms, read_matrix_market
-from nivel.flexible.mass import from_matrix
-from nivel.flexible.model import Array, FiniteElementModel, Whole
-from nivel.flexible.model_file import Located
-from nivel.flexible.records import LENGTHS, MASSES, Matrices
-from nivel.flexible.selection import NodeSets
-from nivel.flexible.sparse import Sparse
-from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
+from nivel.flexible.model.mass import from_matrix
+from nivel.flexible.model.model import Array, FiniteElementModel, Whole
+from nivel.flexible.model.model_file import Located
+from nivel.flexible.model.records import LENGTHS, MASSES, Matrices
+from nivel.flexible.model.selection import NodeSets
+from nivel.flexible.model.sparse import Sparse
+from nivel.flexible.model.tetrahedra import Tetrahedra, inverted, surface
 from nivel.machine.beams.section import Material
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)

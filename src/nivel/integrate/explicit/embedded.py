@@ -1,4 +1,4 @@
-"""What explicit Runge–Kutta methods with an error estimate have in common. Their stages are the rows of `run.stages`."""
+"""Embedded explicit Runge–Kutta methods: step with an error estimate. Their stages are the rows of `run.stages`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a watched value passes zero within the last step: values, sides, location.
+"""Zero crossings of watched values within the last step: values, sides, location.
 
 A value has a side, the sign of what it last was other than zero: a value that is exactly zero at an accepted state counts with the next
 sign. Contacts and stops are on either side always: apart at the overlap zero.

@@ -1,4 +1,4 @@
-"""What a running simulation hands its numbers to."""
+"""Sinks that take the frames of a running simulation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What multistep methods share: rates and states of the last steps, and the one-step method that provides the first of them.
+"""Shared parts of multistep methods: rates and states of the last steps, and the one-step method that provides the first of them.
 
 The history is of equally long steps. The shorter last step of a run, and an event, break it: Kutta's method of order 4 takes over until
 there is enough history again. Its local error falls with h⁵, as the global one of a method of order 5, and the steps without history

@@ -1,4 +1,4 @@
-"""What Newmark's method, HHT-α and generalised-α begin with, at the start and beyond a corner: accelerations, rates, and their slopes.
+"""Start of Newmark's method, HHT-α and generalised-α, at the start and beyond a corner: accelerations, rates, and their slopes.
 
 a approximates v̇ at t + (α_m - α_f) h (Arnold, Brüls, Cardona 2015): to begin with v̇ itself would cost the multipliers of the first steps
 an order. But what decays, or vibrates, much faster than a step has a slope that says nothing of the step, ω h times the accelerations:

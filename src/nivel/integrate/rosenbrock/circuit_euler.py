@@ -38,7 +38,7 @@ from nivel.kernels.hydraulics.tangent import GUIDE, find_slopes, slope_by_mass
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.circuit_shift import advance_circuit, factorise_circuit, soften
-from nivel.motion.unit_efforts import answer, answer_unit_efforts, project
+from nivel.motion.compliance import apply_compliance, project, respond
 from nivel.native.entry import entry
 from nivel.native.function import leaf, shared, stage
 
@@ -96,7 +96,7 @@ def difference_in_step(evaluate, machine, run):
 
 @leaf
 def renew_slopes(machine, t, s):
-    """Factors of the halves with the slopes of the state last evaluated; the mechanics answer as at the begin. Returns a status."""
+    """Factors of the halves with the slopes of the state last evaluated; the mechanics respond as at the begin. Returns a status."""
     find_slopes(machine, t)
     soften(record_at(machine).circuit.tangent)
     return factorise_circuit(machine, OF_HALVES, s)
@@ -166,7 +166,7 @@ def attempt_over_circuits(evaluate, machine, history, prepare, renew, leave):
 def prepare_rigid(machine, number, s):
     """Factors `number` for s. Returns a status."""
     if number == OF_WHOLE:
-        status = answer_unit_efforts(machine, project, answer)
+        status = apply_compliance(machine, project, respond)
         if status != OK:
             return status
         soften(record_at(machine).circuit.tangent)

@@ -12,9 +12,9 @@ from nivel.integrate.rosenbrock.parts import step_in_parts
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
 from nivel.motion.circuit_shift import factorise_circuit, soften
-from nivel.motion.flexible_unit_efforts import answer_flexible, project_flexible
+from nivel.motion.compliance import apply_compliance
+from nivel.motion.flexible_compliance import project_flexible, respond_flexible
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
-from nivel.motion.unit_efforts import answer_unit_efforts
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage
 
@@ -24,7 +24,7 @@ def prepare_flexible(machine, number, s):
     """Factors `number` for s, and those of the tree. Returns a status."""
     status = factorise_shifted_modes(machine, s)
     if status == OK:
-        status = answer_unit_efforts(machine, project_flexible, answer_flexible)
+        status = apply_compliance(machine, project_flexible, respond_flexible)
     if status != OK:
         return status
     soften(record_at(machine).circuit.tangent)

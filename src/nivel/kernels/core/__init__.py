@@ -1,1 +1,1 @@
-"""What every kernel meets: kinds of arrays, codes of status, addresses of records."""
+"""Basic definitions of all kernels: kinds of arrays, codes of status, addresses of records."""

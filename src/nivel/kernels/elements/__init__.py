@@ -1,1 +1,1 @@
-"""What several kinds of forces are made of: friction of joints, the strain of a beam."""
+"""Shared parts of forces: friction of joints, the strain of a beam."""

@@ -1,4 +1,4 @@
-"""How a force reaches the bodies."""
+"""Wrenches: generalised forces of forces and torques on bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where components put the slopes of their flows and forces, for `nivel.kernels.hydraulics.tangent`."""
+"""Slopes of the flows and forces of components, for `nivel.kernels.hydraulics.tangent`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How flows change the nodes of a circuit."""
+"""Transfer of flows to the nodes of a circuit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run keeps of an evaluated state: joint coordinates, reactions, energies, one frame of output.
+"""Observation of an evaluated state: joint coordinates, reactions, energies, one frame of output.
 
 A variable is known by its number here; `Outputs.column` has the first column of each, from `nivel.system.layout.first_columns`.
 """

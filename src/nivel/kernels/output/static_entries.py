@@ -1,4 +1,4 @@
-"""What statics asks of a machine: derivatives of its residual with respect to positions, multipliers and time, each on its own."""
+"""Entries of statics: derivatives of its residual with respect to positions, multipliers and time, each on its own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What beams of large motion add to a machine in numbers, beside their nodes, which are bodies, and their elements, which are forces."""
+"""Record of beams of large motion, beside their nodes, which are bodies, and their elements, which are forces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What linearly implicit steps of machines with circuits know of their derivatives, see `nivel.kernels.hydraulics.tangent`."""
+"""Record of derivatives for linearly implicit steps of machines with circuits, see `nivel.kernels.hydraulics.tangent`."""
 
 from __future__ import annotations
 

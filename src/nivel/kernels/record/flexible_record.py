@@ -1,4 +1,4 @@
-"""What flexible bodies add to a machine in numbers: floating frames with modes (Rantalainen 2007).
+"""Record of flexible bodies: floating frames with modes (Rantalainen 2007).
 
 F flexible bodies, m modes in all, n the most of one body (tables are padded with zeros), N frames at their interfaces. Such a frame is a
 body to markers, joints and forces: it has a place, axes, velocities and a wrench in `Bodies`, behind the ground.
@@ -18,7 +18,7 @@ TURNING, BULGING, SHORTENING = 0, 1, 2
 
 
 class Flexible(NamedTuple):
-    """Flexible bodies; all empty where there are none. Modes have unit modal mass; invariants I1 … I9 as in `nivel.flexible.invariants`."""
+    """Flexible bodies; all empty where there are none. Modes have unit modal mass; I1 … I9 as in `nivel.flexible.body.invariants`."""
 
     body: U1  # (F,)
     rigid: U1  # (B,) 1 for the bodies that are not flexible

@@ -1,4 +1,4 @@
-"""What implicit methods add to a machine in numbers: its equations as a residual, and Newton's iteration for them.
+"""Record of implicit methods: the machine's equations as a residual, and Newton's iteration for them.
 
 n velocities, S states of forces and K multipliers make N = n + S + K unknowns: accelerations v̇, rates ẋ, multipliers λ. Of the latter H
 hold constraint rows; the last K - H are the efforts of frictions with stiction, with rows of their own:
@@ -169,7 +169,7 @@ class Newton(NamedTuple):
     balance: (
         RealFactors  # of the accelerations, see `nivel.kernels.residual.balance`; without numbers for most machines
     )
-    filter: RealFactors  # of errors of chosen steps, see `nivel.integrate.newmark.error_filter`; without numbers where none are
+    filter: RealFactors  # of errors of chosen steps, see `nivel.integrate.newmark.alpha_error`; without numbers where none are
     balanced: F1  # (2,) 1 where it has factors; length of the machine [m], which turns are measured by
     asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.kernels.residual.beam_tangent`
     # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction; 1: accelerations are; 0: of

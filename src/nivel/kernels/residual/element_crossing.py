@@ -1,4 +1,4 @@
-"""What happens where a slider passes a node of the beam that carries it.
+"""Crossing of a beam's node by a slider that the beam carries.
 
 Within a step the polynomials of the element where the step began go on beyond its end: nothing jumps for a method of integration, whose
 order that would spoil. Behind the step those of the element reached take their place. They meet the others with their slopes, so places

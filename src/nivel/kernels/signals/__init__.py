@@ -1,1 +1,1 @@
-"""What is measured, computed and sampled beside the mechanics: sensors, control blocks, inputs, events."""
+"""Signals beside the mechanics: sensors, control blocks, inputs, events."""

@@ -1,4 +1,4 @@
-"""What a frame shows of a machine in relative coordinates beyond what its equations need: accelerations, Euler parameters, all markers,
+"""Outputs of a machine in relative coordinates beyond what its equations need: accelerations, Euler parameters, all markers,
 and the rows of the joints that carry bodies."""
 
 from __future__ import annotations

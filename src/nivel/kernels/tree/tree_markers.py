@@ -1,4 +1,4 @@
-"""What an evaluation in relative coordinates looks at, once all bodies of the tree are placed."""
+"""Markers, coordinates and forces of an evaluation in relative coordinates, once all bodies of the tree are placed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a frame shows of a machine of rigid bodies in relative coordinates beyond what its equations need."""
+"""Outputs of a machine of rigid bodies in relative coordinates beyond what its equations need."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a frame shows of a machine in relative coordinates with flexible bodies beyond what its equations need."""
+"""Outputs of a machine in relative coordinates with flexible bodies beyond what its equations need."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a frame shows of a machine in relative coordinates whose accelerations were found by its residual: this knows accelerations of all
+"""Outputs of a machine in relative coordinates whose accelerations were found by its residual: this knows accelerations of all
 bodies, and what their joints transmit."""
 
 from __future__ import annotations

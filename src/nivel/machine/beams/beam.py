@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
-from nivel.machine.axes import no_direction
 from nivel.machine.beams.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
 from nivel.machine.beams.beam_section import (
     BeamSection,
@@ -20,9 +19,10 @@ from nivel.machine.beams.beam_section import (
     missing_shear_areas,
 )
 from nivel.machine.beams.section import Material
-from nivel.machine.checked import Checked, Place, Problem, superfluous
+from nivel.machine.core.axes import no_direction
+from nivel.machine.core.checked import Checked, Place, Problem, superfluous
+from nivel.machine.core.record import GROUND, Name
 from nivel.machine.given import Field, Given, ManyPlaces, Maybe, OneNumber, OneRecord, TwoNumbers
-from nivel.machine.record import GROUND, Name
 from nivel.machine.units.quantity import (
     Angle,
     AngularVelocityVector,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nivel.machine.placement import PARALLEL, frame_between
+from nivel.machine.core.placement import PARALLEL, frame_between
 
 Array = NDArray[np.float64]
 # pieces between points in which the length of a curve is found, four-point Gauss in each

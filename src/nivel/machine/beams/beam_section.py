@@ -24,7 +24,7 @@ from nivel.machine.beams.six_by_six import (
     six_by_six,
     symmetry_and_sign,
 )
-from nivel.machine.checked import Checked, Problem
+from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.given import Field, OneNumber, ThreeNumbers, TwoNumbers
 from nivel.machine.units.quantity import Length, Quantity, listed
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from nivel.machine.checked import Checked, Problem
-from nivel.machine.coefficient import SectionLength
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import SectionLength
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Density, Quantity, Scalar
 

@@ -7,14 +7,14 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import beyond, limited
 from nivel.machine.control.part import Part
+from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
-from nivel.machine.table import Interpolation, Table
-from nivel.machine.time_function import ManyFunctions
+from nivel.machine.laws.table import Interpolation, Table
+from nivel.machine.laws.time_function import ManyFunctions
 from nivel.machine.units.formula import formula
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import listed

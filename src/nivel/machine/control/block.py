@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Checked, Problem, superfluous
-from nivel.machine.coefficient import NotNegative
 from nivel.machine.control.part import VALUE, Part, PartFunction
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.coefficient import NotNegative
+from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, TwoNumbers
-from nivel.machine.record import Name, entry
-from nivel.machine.time_function import Measured
+from nivel.machine.laws.time_function import Measured
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import ANY, Duration, Quantity, listed, of_one_kind
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal
 
-from nivel.machine.checked import Problem
 from nivel.machine.control.algebra import OfInput
 from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
 from nivel.machine.control.part import Part
+from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.formula import formula
 from nivel.machine.units.linear_function import linear

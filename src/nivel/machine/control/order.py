@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import Part, PartFunction
-from nivel.machine.time_function import signals_of
+from nivel.machine.laws.time_function import signals_of
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 

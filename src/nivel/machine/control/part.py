@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from nivel.machine.time_function import TimeFunction
+from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator
 from typing import Literal
 
-from nivel.machine.checked import Problem, superfluous
 from nivel.machine.control.algebra import refuse_order
 from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part
+from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration

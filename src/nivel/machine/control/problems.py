@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
-from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block
 from nivel.machine.control.order import PartOf, in_order, parts_of
-from nivel.machine.index import Index
-from nivel.machine.symbols import UnknownSymbolError, find_in, is_output, of_forces
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.index import Index
+from nivel.machine.laws.symbols import UnknownSymbolError, find_in, is_output, of_forces
 from nivel.machine.units.arithmetic import RESERVED
 from nivel.machine.units.unit import UNITS
 

@@ -9,11 +9,11 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.part import Part, PartFunction
+from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, ManyNumbers, OneNumber
-from nivel.machine.table import Table
+from nivel.machine.laws.table import Table
 from nivel.machine.units.arithmetic import Call, Node, Operation, Time
 from nivel.machine.units.arithmetic import Number as Constant
 from nivel.machine.units.expression import expression_of

@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.part import Part, PartFunction
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.record import Name, Record, entry, unknown_word
 from nivel.machine.given import Field, Given, Maybe
-from nivel.machine.record import Name, Record, entry, unknown_word
-from nivel.machine.time_function import SomeFunction, TimeFunction
+from nivel.machine.laws.time_function import SomeFunction, TimeFunction
 from nivel.machine.units.arithmetic import Call, Node, Operation, Signal
 from nivel.machine.units.arithmetic import Number as Constant
 from nivel.machine.units.formula import Formula, formula

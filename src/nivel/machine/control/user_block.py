@@ -8,12 +8,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, ValidationInfo
 
-from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, names_in
 from nivel.machine.control.part import VALUE, Part
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.record import Name, Record, entry
 from nivel.machine.given import Field, Given
-from nivel.machine.python_law import PythonLaw, read_python_law, returned_count
-from nivel.machine.record import Name, Record, entry
+from nivel.machine.laws.python_law import PythonLaw, read_python_law, returned_count
 from nivel.machine.units.quantity import fault, parameters_of, shown
 
 

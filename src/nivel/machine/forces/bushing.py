@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.machine.beams.six_by_six import Array, Diagonal, Matrix, full_matrix, six_by_six, symmetry_and_sign
-from nivel.machine.checked import Problem
+from nivel.machine.core.checked import Problem
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
 from nivel.machine.given import Field

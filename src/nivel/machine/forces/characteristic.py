@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Checked, Problem
-from nivel.machine.coefficient import Angles, CoordinateEffort, CoordinateValue, Forces, Lengths, Torques
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import Angles, CoordinateEffort, CoordinateValue, Forces, Lengths, Torques
 from nivel.machine.given import Field, ManyNumbers
 from nivel.machine.units.quantity import listed
 

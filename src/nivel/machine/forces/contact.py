@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Final, Literal
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import (
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import (
     DampingPerLoad,
     Exponent,
     FoundationModulus,
@@ -16,12 +16,12 @@ from nivel.machine.coefficient import (
     Pressure,
     Restitution,
 )
+from nivel.machine.core.marker import MarkerPlace
+from nivel.machine.core.record import GROUND, BodyName, Record
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, Maybe, TwoNames, TwoRecords
-from nivel.machine.marker import MarkerPlace
+from nivel.machine.laws.time_function import ContactForce
 from nivel.machine.power_stiffness import PowerStiffness
-from nivel.machine.record import GROUND, BodyName, Record
-from nivel.machine.time_function import ContactForce
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "extrusion", "mesh")  # that touch each other, with their convex hulls

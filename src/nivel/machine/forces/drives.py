@@ -7,8 +7,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Checked, Problem, superfluous
-from nivel.machine.coefficient import (
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.coefficient import (
     CoordinateDamping,
     CoordinateStiffness,
     NotNegative,
@@ -16,12 +16,12 @@ from nivel.machine.coefficient import (
     Torques,
     TorsionalDamping,
 )
-from nivel.machine.coordinate_function import CoordinateEffortFunction
-from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 Gear = Annotated[OneNumber, OfCoordinate(("turning per length", "number"), "positive")]
 Resistance = Annotated[OneNumber, Quantity("resistance"), NotNegative]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from nivel.machine.checked import Checked
-from nivel.machine.record import Name
+from nivel.machine.core.checked import Checked
+from nivel.machine.core.record import Name
 
 OUTPUTS: Final = ("magnitude", "power")
 

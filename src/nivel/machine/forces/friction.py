@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import (
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import (
     CoordinateDamping,
     DampingPerLoad,
     NotNegativeForce,
@@ -16,10 +16,10 @@ from nivel.machine.coefficient import (
     PositiveSpeed,
     StiffnessPerLoad,
 )
-from nivel.machine.coordinate_reference import CoordinateReference, kind_of
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
+from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of
 
 
 class Friction(ForceElement):

@@ -7,11 +7,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import NotNegativeNumber
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import NotNegativeNumber
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.given import Field, OneNumber
-from nivel.machine.time_function import OneFunction, ThreeFunctions, varying
+from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import ANY, Quantity, listed
 
 Varied = Annotated[OneFunction, varying(ANY)]

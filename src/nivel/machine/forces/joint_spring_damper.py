@@ -7,8 +7,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import (
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import (
     COORDINATE,
     COORDINATE_EFFORT,
     CoordinateDamping,
@@ -17,12 +17,12 @@ from nivel.machine.coefficient import (
     CoordinateValue,
     columns_of_coordinate,
 )
-from nivel.machine.coordinate_function import CoordinateLaw
-from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.characteristic import EffortTable
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.forces.spring import problems_of_spring
 from nivel.machine.given import Field, Maybe, OneRecord
+from nivel.machine.laws.coordinate_function import CoordinateLaw
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 _check_columns = columns_of_coordinate({"deflections": COORDINATE, "efforts": COORDINATE_EFFORT})
 

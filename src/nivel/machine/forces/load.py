@@ -7,11 +7,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem, superfluous
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.record import GROUND, BodyName, Name
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.given import Field, Maybe
-from nivel.machine.record import GROUND, BodyName, Name
-from nivel.machine.time_function import ForceComponent, ThreeFunctions, TorqueComponent
+from nivel.machine.laws.time_function import ForceComponent, ThreeFunctions, TorqueComponent
 from nivel.machine.units.quantity import Position, listed
 
 Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import PositiveEffort, PositiveGain
-from nivel.machine.coordinate_function import CoordinateEffortFunction, CoordinateSpeed
-from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import PositiveEffort, PositiveGain
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, Maybe
+from nivel.machine.laws.coordinate_function import CoordinateEffortFunction, CoordinateSpeed
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 
 class Motor(ForceElement):

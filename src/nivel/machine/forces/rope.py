@@ -7,14 +7,14 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import Damping, Stiffness
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Damping, Stiffness
+from nivel.machine.core.marker import ManyMarkers, Marker
+from nivel.machine.core.record import BodyName
 from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, ManyNames, ManyPlaces, Maybe
-from nivel.machine.marker import ManyMarkers, Marker
-from nivel.machine.record import BodyName
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Position, PositiveLength, listed
 
 Speed = Annotated[OneFunction, varying("velocity")]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-from nivel.machine.coefficient import CoordinateDamping, CoordinateIntegral, CoordinateStiffness, PositiveEffort
-from nivel.machine.coordinate_function import CoordinatePosition
-from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.core.coefficient import CoordinateDamping, CoordinateIntegral, CoordinateStiffness, PositiveEffort
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, Maybe
+from nivel.machine.laws.coordinate_function import CoordinatePosition
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 
 class Servo(ForceElement):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from nivel.machine.checked import Problem, superfluous
+from nivel.machine.core.checked import Problem, superfluous
 
 if TYPE_CHECKING:
     from nivel.machine.forces.joint_spring_damper import JointSpringDamper

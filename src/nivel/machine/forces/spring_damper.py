@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import Damping, ForceValue, NotNegativeLength, Stiffness
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import Damping, ForceValue, NotNegativeLength, Stiffness
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.characteristic import ForceTable
 from nivel.machine.forces.element import OUTPUTS
 from nivel.machine.forces.spring import problems_of_spring
 from nivel.machine.given import Field, Maybe, OneRecord
-from nivel.machine.time_function import SpringForce
+from nivel.machine.laws.time_function import SpringForce
 
 
 class SpringDamper(Between):

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import CoordinateValue, Exponent, Restitution
-from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import CoordinateValue, Exponent, Restitution
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, Maybe
 from nivel.machine.power_stiffness import PowerStiffness
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 
 class Stop(ForceElement):

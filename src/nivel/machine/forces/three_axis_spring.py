@@ -7,8 +7,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import Damping, ForceValue, Stiffness
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import Damping, ForceValue, Stiffness
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
 from nivel.machine.given import Field, ThreeNumbers

@@ -8,8 +8,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Checked, Problem, superfluous
-from nivel.machine.coefficient import (
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.coefficient import (
     Damping,
     Displacement,
     NotNegativeForce,
@@ -21,12 +21,12 @@ from nivel.machine.coefficient import (
     ThermalConductance,
     Volume,
 )
-from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.core.record import Name
 from nivel.machine.forces.between import Ends
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.hydraulics.component import Component, Rating
-from nivel.machine.record import Name
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 StopStiffness = Annotated[OneNumber, Quantity(("stiffness", "torsional stiffness"), positive=True)]
 DEAD_SHARE = 0.02  # of the swept volume, that is left at the end of the stroke where nothing is said

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, WithJsonSchema
 
-from nivel.machine.checked import Checked, Problem, superfluous
-from nivel.machine.coefficient import Pressure, Share, SonicConductance, VolumeFlow
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.coefficient import Pressure, Share, SonicConductance, VolumeFlow
+from nivel.machine.core.record import Name, unknown_word
 from nivel.machine.given import Field, Maybe
-from nivel.machine.record import Name, unknown_word
 from nivel.machine.units.quantity import fault, shown
 
 

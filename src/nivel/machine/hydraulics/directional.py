@@ -7,11 +7,11 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import AfterValidator
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import Frequency, Leakage, PositiveNumber, Share
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Frequency, Leakage, PositiveNumber, Share
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Rated, problem_of_share
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, fault
 
 Ways = Literal["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"]

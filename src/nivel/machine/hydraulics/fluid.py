@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import CoreSchema
 
-from nivel.machine.checked import Checked, Problem
-from nivel.machine.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
+from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, OneNumber
-from nivel.machine.record import Name, entry
 from nivel.machine.units.quantity import Density, Quantity
 
 AIR_DENSITY = 1.2  # kg/m³ at atmospheric pressure

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
-from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Component, problem_of_share
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, Quantity, Whole
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 Speed = Annotated[OneFunction, varying("angular velocity")]
 Setting = Annotated[OneFunction, varying("number")]

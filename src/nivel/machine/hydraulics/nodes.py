@@ -7,13 +7,13 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
-from nivel.machine.coefficient import Volume as VolumeSize
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
+from nivel.machine.core.coefficient import Volume as VolumeSize
+from nivel.machine.core.record import Name
 from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.hydraulics.component import Component
-from nivel.machine.record import Name
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
 
 ATMOSPHERE = 101325.0  # Pa

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from nivel.machine.checked import Problem, superfluous
-from nivel.machine.coefficient import Leakage, Pressure, Share, Truth
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Leakage, Pressure, Share, Truth
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Component, Rating, problem_of_share
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength
 
 Opening = Annotated[OneFunction, varying("number")]

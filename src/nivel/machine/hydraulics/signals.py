@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from nivel.machine.core.record import entry
 from nivel.machine.hydraulics import COMPONENT_OF
 from nivel.machine.hydraulics.directional import EDGES, centre_pairs
-from nivel.machine.record import entry
 
 
 def signals_of(component: Any) -> tuple[str, ...]:

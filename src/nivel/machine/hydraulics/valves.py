@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from nivel.machine.checked import Problem
-from nivel.machine.coefficient import (
+from nivel.machine.core.checked import Problem
+from nivel.machine.core.coefficient import (
     Leakage,
     NotNegativeDuration,
     NotNegativePressure,
@@ -17,7 +17,7 @@ from nivel.machine.coefficient import (
 )
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
-from nivel.machine.time_function import OneFunction, varying
+from nivel.machine.laws.time_function import OneFunction, varying
 
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
 

@@ -17,7 +17,6 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from nivel.arguments import plain
 from nivel.machine.given import OneNumber, ThreeNumbers
 from nivel.machine.units.arithmetic import (
     LOCAL_SYMBOLS,
@@ -39,7 +38,8 @@ from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
 from nivel.machine.units.plain_factors import completed, with_bodies
 from nivel.machine.units.shared_names import shared_names_hint
 from nivel.machine.units.slips import slip
-from nivel.wording import shown
+from nivel.words.arguments import plain
+from nivel.words.wording import shown
 
 MASSLESS = (
     "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"

@@ -1,4 +1,4 @@
-"""How entries look to C, seen from both sides: calls at addresses, and the functions that stand there."""
+"""Calling convention of entries, seen from both sides: calls at addresses, and the functions that stand there."""
 
 from __future__ import annotations
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.tabulated import Tabulated
+from nivel.results.pages import page_maker
 
 if TYPE_CHECKING:
     import xarray
@@ -146,9 +147,7 @@ class Efforts(Tabulated):
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page: efforts, power, peaks and work."""
-        from nivel.report.efforts_page import efforts_html
-
-        write_text(efforts_html(self), path, "report", force=force)
+        write_text(page_maker("efforts")(self), path, "report", force=force)
         return Path(path)
 
     def __str__(self) -> str:

@@ -15,6 +15,7 @@ from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
+from nivel.results.pages import page_maker
 
 if TYPE_CHECKING:
     import xarray
@@ -271,9 +272,7 @@ class LinearModel(Tabulated):
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page of the analysis: eigenvalues, modes, frequency response."""
-        from nivel.report.linear_page import linear_html
-
-        write_text(linear_html(self), path, "report", force=force)
+        write_text(page_maker("linear model")(self), path, "report", force=force)
         return Path(path)
 
     def _need_ports(self) -> None:

@@ -17,6 +17,7 @@ from nivel.errors import ModelError
 from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.dataset_file import write_dataset
+from nivel.results.pages import page_maker
 
 if TYPE_CHECKING:
     import xarray
@@ -142,9 +143,7 @@ class LinearSweep:
 
     def report(self, path: str | PathLike[str], orders: Sequence[float] = ()) -> Path:
         """Write a page: frequencies, damping and the paths of the eigenvalues."""
-        from nivel.report.sweep_page import sweep_html
-
-        write_text(sweep_html(self, orders), path, "report", force=True)
+        write_text(page_maker("linear sweep")(self, orders), path, "report", force=True)
         return Path(path)
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:

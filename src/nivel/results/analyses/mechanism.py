@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.units.quantity import read_quantity
+from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.pages import page_maker
 
 if TYPE_CHECKING:
     import xarray
@@ -266,9 +267,7 @@ class Studies:
 
     def report(self, path: str | PathLike[str]) -> Path:
         """Write a page with the curves."""
-        from nivel.report.mechanism_page import mechanism_html
-
-        write_text(mechanism_html(self), path, "report", force=True)
+        write_text(page_maker("mechanism")(self), path, "report", force=True)
         return Path(path)
 
 

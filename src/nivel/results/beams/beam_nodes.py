@@ -7,7 +7,7 @@ import json
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.scales import Readable
+from nivel.results.scales import Readable
 
 
 def beam_nodes(result: Readable) -> dict[str, NDArray[np.intp]]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.machine.beams.beam import Beam
+from nivel.machine.core.record import unknown_word
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.record import unknown_word
 from nivel.results.beams.section_resultants import Array, Felt
 from nivel.results.frames.stored import understood
 
@@ -26,7 +26,7 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
     """From places (t, N, 3), Euler parameters (t, N, 4) and modal coordinates (t, N, m) of the nodes of `beam`."""
     from scipy.spatial.transform import Rotation
 
-    from nivel.system.beam_elements import elements_of, strains
+    from nivel.system.beams.elements import elements_of, strains
 
     if beam.model == "segments":
         return _felt_by_springs(beam, place, theta)
@@ -77,7 +77,7 @@ def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
     """The same where segments meet: the deflection of the spring over the length of its piece of beam."""
     from scipy.spatial.transform import Rotation
 
-    from nivel.system.beam_segments import boundaries, deflections
+    from nivel.system.beams.segments import boundaries, deflections
 
     axes = Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True).as_matrix().reshape(*theta.shape[:2], 3, 3)
     weight = beam.line.length * np.diff(beam.shares)

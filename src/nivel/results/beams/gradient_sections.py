@@ -6,9 +6,9 @@ import numpy as np
 
 from nivel.machine.beams.beam import Beam
 from nivel.results.beams.section_resultants import Array, Felt
-from nivel.system.beam_elements import gauss
-from nivel.system.gradient_beams import section_stiffness
-from nivel.system.gradient_elements import (
+from nivel.system.beams.elements import gauss
+from nivel.system.beams.gradient_beams import section_stiffness
+from nivel.system.beams.gradient_elements import (
     BENDING_POINTS,
     STRETCH_POINTS,
     beam_strains,
@@ -20,7 +20,7 @@ from nivel.system.gradient_elements import (
     twists,
     unstressed_vectors,
 )
-from nivel.system.gradient_nodes import gradient_nodes, modes_in_gradients
+from nivel.system.beams.gradient_nodes import gradient_nodes, modes_in_gradients
 
 
 def felt_by_gradients(beam: Beam, place: Array, axes: Array, modal: Array) -> Felt:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
-from nivel.arguments import checked_arguments
+from nivel.results.pages import page_maker
+from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -208,9 +209,7 @@ class Comparison:
 
         force : replace an existing file.
         """
-        from nivel.report.compare_page import write_comparison
-
-        return write_comparison(self, path, force=force)
+        return page_maker("comparison")(self, path, force=force)
 
     def __str__(self) -> str:
         from nivel.results.comparison.comparison_table import as_text

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from nivel.errors import ModelError
+from nivel.files.target import check_target
 from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread, as_record
-from nivel.results.frames.target import check_target
 
 UNITS: Final = {
     "step": "s",

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from html import escape
 from typing import Final, NamedTuple
 
-from nivel import wording
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Row, Spread
+from nivel.words import wording
 
 MEANING: Final = (
     "constraints and their rates: the largest, lengths as shares of the machine's size; energy: the largest error as a share of the "

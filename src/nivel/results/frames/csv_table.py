@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, TextIO
 import numpy as np
 
 from nivel.errors import Fault, ModelError
+from nivel.files.target import keep_sources
 from nivel.results.frames.names import unknown_name
-from nivel.results.frames.target import keep_sources
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible.rainflow import Cycle, rainflow
+from nivel.flexible.body.rainflow import Cycle, rainflow
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity
 

@@ -8,11 +8,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.extras import needed
 from nivel.results.frames.dataset_file import write_dataset
-from nivel.wording import unknown_word
+from nivel.words.arguments import checked_arguments
+from nivel.words.wording import unknown_word
 
 if TYPE_CHECKING:
     import pandas

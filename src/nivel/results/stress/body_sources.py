@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.flexible.body import ReducedBody
-from nivel.flexible.body_file import read_body
-from nivel.flexible.identity import fingerprint
+from nivel.flexible.body.body import ReducedBody
+from nivel.flexible.body.body_file import read_body
+from nivel.flexible.body.identity import fingerprint
 
 ATTRIBUTE = "flexible_bodies"
 

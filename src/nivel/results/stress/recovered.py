@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.arguments import checked_arguments
 from nivel.errors import ModelError
-from nivel.flexible.body import ReducedBody
-from nivel.flexible.rainflow import Cycle, rainflow
-from nivel.flexible.recovery import (
+from nivel.flexible.body.body import ReducedBody
+from nivel.flexible.body.rainflow import Cycle, rainflow
+from nivel.flexible.body.recovery import (
     Envelope,
     HotSpot,
     displacement,
@@ -29,6 +28,7 @@ from nivel.flexible.recovery import (
     von_mises,
 )
 from nivel.results.stress.body_sources import source_of
+from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -185,7 +185,7 @@ class RecoveredBody:
 
         times : [s] the frames nearest to these, default all. told : hears how far it is.
         """
-        from nivel.flexible.vtk import write_motion
+        from nivel.flexible.body.vtk import write_motion
 
         frames = np.arange(len(self.time)) if times is None else np.unique([self.frame(time) for time in times])
         place = self._result.selection(f"{self.name}.position").where[1]

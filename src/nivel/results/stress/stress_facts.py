@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.flexible.recovery import displacement, stress, stress_modes, von_mises
+from nivel.flexible.body.recovery import displacement, stress, stress_modes, von_mises
 from nivel.results.stress.recovered import RecoveredBody
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.flexible.recovery import displacement, signed_principal, stress, stress_modes, von_mises
+from nivel.flexible.body.recovery import displacement, signed_principal, stress, stress_modes, von_mises
 from nivel.results.stress.recovered import RecoveredBody
 
 Array = NDArray[np.float64]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.results.scales import Readable, machine_size
 from nivel.results.trust.motion import Motion, distances
-from nivel.results.trust.scales import Readable, machine_size
 from nivel.results.trust.trust import Peak
 
 # Estimates are this much larger than what the two runs are apart by where the error falls with the step as it should: where it falls

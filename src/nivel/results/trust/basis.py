@@ -1,7 +1,8 @@
 """Sufficiency of the modes of a flexible body for its run: how far modes that it leaves out would bend it, under the loads that it bore.
 
-The loads on the modes that are left out are the residual of a finer basis, see `nivel.flexible.left_out`: from the accelerations of the
-body, and from the forces at its interfaces. Those of joints are known; the others follow from the equations of the body itself.
+The loads on the modes that are left out are the residual of a finer basis, see `nivel.flexible.body.truncated_modes`: from the
+accelerations of the body, and from the forces at its interfaces. Those of joints are known; the others follow from the equations of the
+body itself.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.results.scales import Readable, rotated
 from nivel.results.trust.bending import Bent, ModalBody
-from nivel.results.trust.scales import Readable, rotated
 
 if TYPE_CHECKING:
-    from nivel.flexible.body import MeshError
-    from nivel.flexible.invariants import Invariants
-    from nivel.flexible.left_out import LeftOut
+    from nivel.flexible.body.body import MeshError
+    from nivel.flexible.body.invariants import Invariants
+    from nivel.flexible.body.truncated_modes import LeftOut
 
 Array = NDArray[np.float64]
 FRAMES = 4000  # that are looked at, at most

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.scales import Readable, largest_mechanical_energy
+from nivel.results.scales import Readable, largest_mechanical_energy
 
 Array = NDArray[np.float64]
 FRAMES = 200  # that are looked at, at most

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.scales import Readable
+from nivel.results.scales import Readable
 
 Array = NDArray[np.float64]
 FRAMES = 500  # that bending is looked at in, at most

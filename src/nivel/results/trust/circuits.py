@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.machine.hydraulics.directional import CENTRED
-from nivel.results.trust.scales import Readable
+from nivel.results.scales import Readable
 from nivel.results.trust.verdicts import THRESHOLDS, Item, number, quantity
 
 START = "hydraulics."

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.results.frames.contents import shape_of
+from nivel.results.scales import Readable
 from nivel.results.trust.motion import common_frames
-from nivel.results.trust.scales import Readable
 
 Array = NDArray[np.float64]
 ATTRIBUTE = "estimated_errors"

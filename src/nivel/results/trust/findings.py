@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from nivel.results.trust.basis import Lacking
 from nivel.results.trust.beam_mesh import Coarse
 from nivel.results.trust.bending import Bent
+from nivel.results.trust.missed_impulse import Unseen
 from nivel.results.trust.part_energy import PartError
 from nivel.results.trust.passed_contacts import Passed
 from nivel.results.trust.second_look import Damped, Growth, OwnError
 from nivel.results.trust.steps_seen import Rounding, Turn
-from nivel.results.trust.unseen import Unseen
 from nivel.results.trust.verdicts import CHECKS, THRESHOLDS, Item, Threshold, number, quantity
 
 SHOWN = 5  # functions of which each has a line

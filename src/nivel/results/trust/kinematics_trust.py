@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.trust.scales import Readable, largest_speed, machine_size
+from nivel.results.scales import Readable, largest_speed, machine_size
 from nivel.results.trust.statements import number, redundancy_item, violation_item
 from nivel.results.trust.trust import worst_row
 from nivel.results.trust.verdicts import Item, Trust, Verdict, worst

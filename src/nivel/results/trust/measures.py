@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.results.trust.scales import Readable
+from nivel.results.scales import Readable
 from nivel.results.trust.trust import row_units
 
 NORMALISATION = ".euler_parameters"  # rows of lagrange that are not of the machine

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.scales import Readable
+from nivel.results.scales import Readable
 from nivel.results.trust.trust import Peak
 
 Array = NDArray[np.float64]

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.scales import Readable, blocks
+from nivel.results.scales import Readable, blocks
 
 if TYPE_CHECKING:
-    from nivel.flexible.invariants import Invariants
+    from nivel.flexible.body.invariants import Invariants
 
 Array = NDArray[np.float64]
 

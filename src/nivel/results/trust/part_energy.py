@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.vectors import cross
-from nivel.results.trust.scales import Readable, largest_mechanical_energy, rotated
+from nivel.machine.core.vectors import cross
+from nivel.results.scales import Readable, largest_mechanical_energy, rotated
 
 Array = NDArray[np.float64]
 LEAST = 1e-14  # of the largest energy of the machine: round-off

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.vectors import cross
-from nivel.results.trust.scales import Readable, rotated
+from nivel.machine.core.vectors import cross
+from nivel.results.scales import Readable, rotated
 
 Array = NDArray[np.float64]
 # Overlaps above this share of the distance at which they touch are no touch in passing; speeds of frames differ by less where nothing

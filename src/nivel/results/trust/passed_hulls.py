@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.results.scales import Readable, rotated
 from nivel.results.trust.passed_contacts import DEEP, UNCHANGED, Passed, place_and_velocity
-from nivel.results.trust.scales import Readable, rotated
 
 Array = NDArray[np.float64]
 # Places looked at on the way through the thinner hull, and at most between two frames; intervals between frames that are looked at.

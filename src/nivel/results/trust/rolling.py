@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from nivel.results.trust.scales import Readable
+from nivel.results.scales import Readable
 from nivel.results.trust.verdicts import Item, number
 
 NORMAL = ".normal_force"

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.results.scales import Readable, largest_energy, machine_size
 from nivel.results.trust.accuracy import factor, round_off
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.motion import Motion, common_frames, distances
-from nivel.results.trust.scales import Readable, largest_energy, machine_size
 
 Array = NDArray[np.float64]
 # Of the size of the machine, or of a radian: motions below it are at rest and have no error of their own.

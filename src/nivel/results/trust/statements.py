@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from nivel.results.trust.held import Shared, in_words
+from nivel.results.trust.indeterminate_friction import Shared, in_words
 from nivel.results.trust.unresolved import Unresolved
 from nivel.results.trust.verdicts import (
     CLOSED,

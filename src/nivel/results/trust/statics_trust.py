@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.trust.scales import Readable, machine_size
+from nivel.results.scales import Readable, machine_size
 from nivel.results.trust.statements import freedom_item, number, numeric, redundancy_item, violation_item
 from nivel.results.trust.trust import peak, worst_row
 from nivel.results.trust.verdicts import RESIDUAL, Item, Trust, Verdict, worst

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.scales import Readable, machine_size
+from nivel.results.scales import Readable, machine_size
 
 Array = NDArray[np.float64]
 

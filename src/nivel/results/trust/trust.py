@@ -9,11 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.trust.circuits import Guard, circuit_items, guard_items
-from nivel.results.trust.held import Shared
-from nivel.results.trust.neglected import Cost
-from nivel.results.trust.rolling import rolling_items
-from nivel.results.trust.scales import (
+from nivel.results.scales import (
     Readable,
     blocks,
     kinetic_energy_of_rest,
@@ -22,6 +18,10 @@ from nivel.results.trust.scales import (
     machine_size,
     speed_of_rest,
 )
+from nivel.results.trust.circuits import Guard, circuit_items, guard_items
+from nivel.results.trust.indeterminate_friction import Shared
+from nivel.results.trust.neglected import Cost
+from nivel.results.trust.rolling import rolling_items
 from nivel.results.trust.statements import number, statements
 from nivel.results.trust.unresolved import unresolved_force
 from nivel.results.trust.verdicts import THRESHOLDS, Item, Trust, blindness, worst

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.machine.forces import FORCES
-from nivel.results.trust.scales import Readable, largest_mechanical_energy
+from nivel.results.scales import Readable, largest_mechanical_energy
 
 # Work in a step as a share of the largest energy from which on it is not followed, and of the energy error that it can explain.
 FOLLOWED, EXPLAINS = 0.5, 0.01

@@ -9,23 +9,23 @@ from nivel.kernels.forces.servo import apply as servo
 from nivel.kernels.forces.stop import apply as stop
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Motor, Servo, Stop
-from nivel.machine.table import Table
-from nivel.machine.time_function import TimeFunction
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.expression import Expression
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.forces.restitution import damping_of_restitution
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 
-def add_stop(draft: SystemBuilder, force: Stop) -> None:
+def add_stop(builder: SystemBuilder, force: Stop) -> None:
     """Limit stops on a joint coordinate."""
-    coordinate = draft.coordinate(force.coordinate)
-    angle = is_angle(draft, coordinate)
+    coordinate = builder.coordinate(force.coordinate)
+    angle = is_angle(builder, coordinate)
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *effort_and_power(angle, "effort on the coordinate"),
         ("depth", "rad" if angle else "m", "overlap"),
@@ -33,15 +33,15 @@ def add_stop(draft: SystemBuilder, force: Stop) -> None:
     lower = -math.inf if force.lower is None else force.lower
     upper = math.inf if force.upper is None else force.upper
     numbers = [lower, upper, force.stiffness, force.exponent, damping_of_restitution(force.restitution)]
-    draft.elements.add(stop, [first, coordinate], numbers, 2, tuple(k for k in range(2) if math.isfinite(numbers[k])))
+    builder.elements.add(stop, [first, coordinate], numbers, 2, tuple(k for k in range(2) if math.isfinite(numbers[k])))
 
 
-def add_motor(draft: SystemBuilder, force: Motor) -> None:
+def add_motor(builder: SystemBuilder, force: Motor) -> None:
     """An effort on a joint coordinate."""
-    coordinate = draft.coordinate(force.coordinate)
-    angle = is_angle(draft, coordinate)
+    coordinate = builder.coordinate(force.coordinate)
+    angle = is_angle(builder, coordinate)
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *effort_and_power(angle, "effort on the coordinate"),
         ("value", "rad" if angle else "m", "coordinate"),
@@ -51,16 +51,16 @@ def add_motor(draft: SystemBuilder, force: Motor) -> None:
     assert command is not None  # the record was checked
     limit = math.inf if force.limit is None else force.limit
     numbers = [0.0 if force.speed is None else force.gain or 0.0, limit]
-    draft.elements.add(motor, [first, coordinate, draft.function(command)], numbers)
+    builder.elements.add(motor, [first, coordinate, builder.function(command)], numbers)
 
 
-def add_servo(draft: SystemBuilder, force: Servo) -> None:
+def add_servo(builder: SystemBuilder, force: Servo) -> None:
     """A position servo on a joint coordinate."""
-    coordinate = draft.coordinate(force.coordinate)
-    angle = is_angle(draft, coordinate)
+    coordinate = builder.coordinate(force.coordinate)
+    angle = is_angle(builder, coordinate)
     units = "rad" if angle else "m"
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *effort_and_power(angle, "effort on the coordinate"),
         ("value", units, "coordinate"),
@@ -71,10 +71,10 @@ def add_servo(draft: SystemBuilder, force: Servo) -> None:
     state = NONE
     if force.integral:
         fact = StateFact(f"{force.name}.integral", f"{units} s", f"integrated error of {force.name}", 0.0, 0.01)
-        state = draft.own_state(fact)
+        state = builder.own_state(fact)
     limit = math.inf if force.limit is None else force.limit
     numbers = [force.stiffness, force.damping, force.integral, limit, float(motion)]
-    draft.elements.add(servo, [first, coordinate, draft.function(force.target, motion=motion), state], numbers)
+    builder.elements.add(servo, [first, coordinate, builder.function(force.target, motion=motion), state], numbers)
 
 
 def is_motion(target: TimeFunction) -> bool:

@@ -12,11 +12,11 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.forces import bushing, contact, hull_contact
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
-from nivel.machine.body import Body
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
+from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces import Bushing, Contact
-from nivel.machine.placement import frame_from_axes
-from nivel.machine.shape import Box, Cylinder, Extrusion, Mesh, Sphere
-from nivel.machine.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.hulls import hull_of, row_of
 from nivel.system.forces.kind import ForceKind
@@ -28,10 +28,10 @@ POINTS = {contact.BOX: 8, contact.CYLINDER: 8}
 MOST_CORNERS = 1000
 
 
-def add_bushing(draft: SystemBuilder, force: Bushing) -> None:
+def add_bushing(builder: SystemBuilder, force: Bushing) -> None:
     """An elastic connection in six directions."""
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *magnitude_and_power("N"),
         *((f"force_{axis}", "N", f"force on the second body along {axis} of the first marker") for axis in "xyz"),
@@ -39,13 +39,13 @@ def add_bushing(draft: SystemBuilder, force: Bushing) -> None:
     )
     matrices = [*force.stiffness_matrix.ravel().tolist(), *force.damping_matrix.ravel().tolist()]
     work = [0.0] * (bushing.EFFORT + 6 - len(matrices))
-    draft.elements.add(bushing.apply, [first, *draft.ends(force.ends)], [*matrices, *work])
+    builder.elements.add(bushing.apply, [first, *builder.ends(force.ends)], [*matrices, *work])
 
 
-def add_contact(draft: SystemBuilder, force: Contact) -> None:
+def add_contact(builder: SystemBuilder, force: Contact) -> None:
     """A shape against a plane, two spheres, or two hulls."""
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *magnitude_and_power("N"),
         ("depth", "m", "deepest overlap"),
@@ -53,19 +53,19 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         ("rate", "m/s", "rate of the deepest overlap"),
     )
     if force.foundation_modulus is not None:
-        _add_hulls(draft, force, first)
+        _add_hulls(builder, force, first)
         return
     if force.bodies is not None:
-        bodies = [draft.machine.body_named[name] for name in force.bodies]
+        bodies = [builder.machine.body_named[name] for name in force.bodies]
         kind = contact.SPHERES
-        markers = [_shape_marker(draft, body) for body in bodies]
+        markers = [_shape_marker(builder, body) for body in bodies]
         size = [_radius(body) for body in bodies]
         curvature = sum(1.0 / radius for radius in size)
     else:
         assert force.body is not None  # the record was checked
         assert force.plane is not None
-        body = draft.machine.body_named[force.body]
-        markers = [_shape_marker(draft, body), draft.end(force.plane)]
+        body = builder.machine.body_named[force.body]
+        markers = [_shape_marker(builder, body), builder.end(force.plane)]
         kind, size = _shape(contact, body)
         curvature = 1.0 / size[0]
     stiffness = force.stiffness
@@ -77,25 +77,25 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
     if force.law is not None:
         symbols = {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
         # every point that touches asks for it
-        law = draft.function(force.law, symbols, switching=False)
+        law = builder.function(force.law, symbols, switching=False)
     loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
     numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = POINTS.get(kind, 1)
     if kind == contact.HULL:
-        corners = _corners(draft.machine.body_named[str(force.body)])
+        corners = _corners(builder.machine.body_named[str(force.body)])
         numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
-    draft.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
+    builder.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
 
 
-def _add_hulls(draft: SystemBuilder, force: Contact, first: int) -> None:
+def _add_hulls(builder: SystemBuilder, force: Contact, first: int) -> None:
     assert force.bodies is not None  # the record was checked
-    bodies = [draft.machine.body_named[name] for name in force.bodies]
+    bodies = [builder.machine.body_named[name] for name in force.bodies]
     hulls = hull_of(bodies[0]), hull_of(bodies[1])
-    markers = [draft.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
+    markers = [builder.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
     columns, numbers = row_of(hulls, force)
-    draft.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
+    builder.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
 
 
 def _radius(body: Body) -> float:
@@ -139,16 +139,16 @@ def _corners(body: Body) -> NDArray[np.float64]:
     return corners
 
 
-def _shape_marker(draft: SystemBuilder, body: Body) -> int:
+def _shape_marker(builder: SystemBuilder, body: Body) -> int:
     """Marker at the centre of the shape, z along a cylinder; at the body frame of a hull, whose corners are given there."""
     shape = body.shape
     if isinstance(shape, Extrusion | Mesh):
-        return draft.place((body.name, np.zeros(3), np.eye(3)))
+        return builder.place((body.name, np.zeros(3), np.eye(3)))
     assert isinstance(shape, Sphere | Box | Cylinder)  # the record was checked
     axes = np.eye(3)
     if isinstance(shape, Cylinder):
         axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])
-    return draft.place((body.name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))
+    return builder.place((body.name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))
 
 
 KINDS = (

@@ -7,43 +7,43 @@ import math
 from nivel.kernels.forces.drive import apply as drive
 from nivel.kernels.record.function import NUMBER
 from nivel.kernels.record.record import NONE
-from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces.drives import DcMotor, Drive, ServoMotor
-from nivel.machine.table import Table
-from nivel.machine.time_function import TimeFunction
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.linear_function import linear
+from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.laws.functions import Signal
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 WINDING, CURRENT_LOOP = 0.0, 1.0  # kinds
 
 
-def add_dc_motor(draft: SystemBuilder, force: DcMotor) -> None:
+def add_dc_motor(builder: SystemBuilder, force: DcMotor) -> None:
     """A winding at a voltage."""
     limit = math.inf if force.current_limit is None else force.current_limit
     voltage = math.inf if force.voltage_limit is None else force.voltage_limit
     state = NONE
     if force.inductance:
         scale = force.current_limit or (force.voltage_limit or 1.0) / force.resistance
-        state = draft.own_state(StateFact(f"{force.name}.winding", "A", f"current of {force.name}", 0.0, scale))
-    _add(draft, force, force.voltage, WINDING, state, NONE, force.torque_constant, [force.inductance, limit, voltage])
+        state = builder.own_state(StateFact(f"{force.name}.winding", "A", f"current of {force.name}", 0.0, scale))
+    _add(builder, force, force.voltage, WINDING, state, NONE, force.torque_constant, [force.inductance, limit, voltage])
 
 
-def add_servo_motor(draft: SystemBuilder, force: ServoMotor) -> None:
+def add_servo_motor(builder: SystemBuilder, force: ServoMotor) -> None:
     """A motor with its own current loop."""
     limit, curve, state = force.torque_limit or math.inf, NONE, NONE
     if force.torque_speed is not None:
         limit = max(force.torque_speed.torques)
         table = Table(force.torque_speed.speeds, force.torque_speed.torques, of="shaft.speed")
-        curve = draft.functions.add(table, _number)
+        curve = builder.functions.add(table, _number)
     if force.time_constant:
         scale = limit if math.isfinite(limit) else 1.0
-        state = draft.own_state(StateFact(f"{force.name}.loop", "N m", f"torque of {force.name}", 0.0, scale))
+        state = builder.own_state(StateFact(f"{force.name}.loop", "N m", f"torque of {force.name}", 0.0, scale))
     constant = 1.0 if force.torque_constant is None else force.torque_constant
-    _add(draft, force, force.effort, CURRENT_LOOP, state, curve, constant, [force.time_constant, limit, math.inf])
+    _add(builder, force, force.effort, CURRENT_LOOP, state, curve, constant, [force.time_constant, limit, math.inf])
 
 
 def _number(_: str) -> Signal:
@@ -52,7 +52,7 @@ def _number(_: str) -> Signal:
 
 
 def _add(
-    draft: SystemBuilder,
+    builder: SystemBuilder,
     force: Drive,
     command: TimeFunction,
     kind: float,
@@ -61,10 +61,10 @@ def _add(
     constant: float,
     limits: list[float],
 ) -> None:
-    coordinate = draft.coordinate(force.coordinate)
-    angle = is_angle(draft, coordinate)
+    coordinate = builder.coordinate(force.coordinate)
+    angle = is_angle(builder, coordinate)
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *effort_and_power(angle, "effort on the coordinate"),
         ("speed", "rad/s", "speed of the shaft"),
@@ -74,19 +74,21 @@ def _add(
         ("electrical_power", "W", "electrical power taken"),
         ("loss", "W", "power lost"),
     )
-    twist, speed = _rotor(draft, force, angle) if force.gear_stiffness else (NONE, NONE)
+    twist, speed = _rotor(builder, force, angle) if force.gear_stiffness else (NONE, NONE)
     numbers = [kind, force.gear, force.resistance, constant, *limits, force.friction_torque, force.transition_speed]
     numbers += [force.viscous, force.rotor_inertia, force.gear_stiffness, force.gear_damping]
-    draft.elements.add(drive, [first, coordinate, draft.function(command), state, twist, speed, curve], numbers)
+    builder.elements.add(drive, [first, coordinate, builder.function(command), state, twist, speed, curve], numbers)
 
 
-def _rotor(draft: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]:
+def _rotor(builder: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]:
     """States of an elastic gear: its twist, and the speed of the shaft, which begins with that of the coordinate."""
     units = "rad" if angle else "m"
-    twist = draft.own_state(StateFact(f"{force.name}.twist", units, f"twist of the gear of {force.name}", 0.0, 1e-3))
-    speed = draft.own_state(StateFact(f"{force.name}.rotor", "rad/s", f"speed of the shaft of {force.name}", 0.0, 1.0))
-    rate = ".".join(resolve(force.coordinate, draft.machine.joints)) + "_rate"
-    draft.begins.append((speed, linear((force.gear, rate))))
+    twist = builder.own_state(StateFact(f"{force.name}.twist", units, f"twist of the gear of {force.name}", 0.0, 1e-3))
+    speed = builder.own_state(
+        StateFact(f"{force.name}.rotor", "rad/s", f"speed of the shaft of {force.name}", 0.0, 1.0)
+    )
+    rate = ".".join(resolve(force.coordinate, builder.machine.joints)) + "_rate"
+    builder.begins.append((speed, linear((force.gear, rate))))
     return twist, speed
 
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
-from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
+from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import GROUND, SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 
-def add_friction(draft: SystemBuilder, force: Friction) -> None:
+def add_friction(builder: SystemBuilder, force: Friction) -> None:
     """Friction in a joint coordinate: an extra row, see `nivel.kernels.elements.friction`."""
-    joint, _ = resolve(force.coordinate, draft.machine.joints)
-    coordinate = draft.coordinate(force.coordinate)
-    angle = is_angle(draft, coordinate)
+    joint, _ = resolve(force.coordinate, builder.machine.joints)
+    coordinate = builder.coordinate(force.coordinate)
+    angle = is_angle(builder, coordinate)
     entries = [
         *effort_and_power(angle, "effort on the coordinate"),
         ("normal_load", "N", "normal load"),
@@ -29,15 +29,15 @@ def add_friction(draft: SystemBuilder, force: Friction) -> None:
         # deflection of the bristles in steady sliding
         scale = force.coefficient / force.bristle_stiffness
         name = f"{force.name}.bristle"
-        state = draft.own_state(StateFact(name, "m", f"deflection of the bristles of {force.name}", 0.0, scale))
-    first = force_outputs(draft, force.name, *entries)
+        state = builder.own_state(StateFact(name, "m", f"deflection of the bristles of {force.name}", 0.0, scale))
+    first = force_outputs(builder, force.name, *entries)
     model = {"coulomb": friction.COULOMB, "stiction": friction.STICTION, "lugre": friction.LUGRE}[force.model]
-    loaded_by = NONE if force.normal_load is not None else [each.name for each in draft.machine.joints].index(joint)
+    loaded_by = NONE if force.normal_load is not None else [each.name for each in builder.machine.joints].index(joint)
     radius = force.radius or 0.0
-    kind, seen_from, to, _ = draft.coordinates.what[coordinate]
+    kind, seen_from, to, _ = builder.coordinates.what[coordinate]
     frame = to if kind == CROSS_SECOND else seen_from
     # what slides on a beam has its bearing with it: `to` is only the first of the nodes
-    bearing = seen_from if kind == ALONG else _bearing(draft, seen_from, to)
+    bearing = seen_from if kind == ALONG else _bearing(builder, seen_from, to)
     index = [coordinate, model, loaded_by, int(angle), state, first, frame, bearing]
     numbers = [
         force.coefficient,
@@ -54,13 +54,13 @@ def add_friction(draft: SystemBuilder, force: Friction) -> None:
         force.normal_load if force.normal_load is not None else force.preload,
         0.0,
     ]
-    draft.frictions.append((index, numbers))
+    builder.frictions.append((index, numbers))
 
 
-def _bearing(draft: SystemBuilder, first: int, second: int) -> int:
+def _bearing(builder: SystemBuilder, first: int, second: int) -> int:
     """Which of two markers is at the bearing: that of the second body, unless this is the ground and the first is not."""
-    ground = draft.body(GROUND)
-    return first if draft.markers.body[second] == ground != draft.markers.body[first] else second
+    ground = builder.body(GROUND)
+    return first if builder.markers.body[second] == ground != builder.markers.body[first] else second
 
 
 KINDS = (ForceKind(Friction, add_friction, ()),)

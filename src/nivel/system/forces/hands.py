@@ -9,16 +9,16 @@ from nivel.machine.forces import Hand
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
-from nivel.system.state_facts import Coupled
+from nivel.system.signals.state_facts import Coupled
 
 
-def add(draft: SystemBuilder, hand: Hand) -> None:
+def add(builder: SystemBuilder, hand: Hand) -> None:
     """A hand, which may hold any body."""
-    first = force_outputs(draft, hand.name, *magnitude_and_power("N"))
-    functions = [draft.function(each) for each in (hand.pull, hand.body_number, *hand.point, *hand.towards)]
+    first = force_outputs(builder, hand.name, *magnitude_and_power("N"))
+    functions = [builder.function(each) for each in (hand.pull, hand.body_number, *hand.point, *hand.towards)]
     omega = 2.0 * math.pi * hand.frequency
-    draft.note(Coupled(frozenset(range(len(draft.machine.bodies)))))
-    draft.elements.add(apply, [first, *functions], [omega**2, 2.0 * hand.damping_ratio * omega])
+    builder.note(Coupled(frozenset(range(len(builder.machine.bodies)))))
+    builder.elements.add(apply, [first, *functions], [omega**2, 2.0 * hand.damping_ratio * omega])
 
 
 KINDS = (ForceKind(Hand, add, (apply,)),)

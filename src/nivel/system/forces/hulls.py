@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.forces.hull_pair import NUMBERS
-from nivel.machine.body import Body
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.shape import Box, Extrusion, Mesh
+from nivel.machine.bodies.solids import box_size, extrusion_corners, mesh_surface
 from nivel.machine.forces import Contact
-from nivel.machine.shape import Box, Extrusion, Mesh
-from nivel.machine.solids import box_size, extrusion_corners, mesh_surface
 
 Array = NDArray[np.float64]
 # Triangles whose normals agree to this are one face.

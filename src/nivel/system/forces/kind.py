@@ -13,7 +13,7 @@ from nivel.system.builder import SystemBuilder
 
 @dataclass(frozen=True)
 class ForceKind:
-    """words : its record. add(draft, record) : gives the tables of a machine its numbers. families : kernels that it may need."""
+    """words : its record. add(builder, record) : gives the tables of a machine its numbers. families : kernels that it may need."""
 
     words: type[ForceElement]
     add: Callable[[SystemBuilder, Any], None]

@@ -15,40 +15,40 @@ from nivel.machine.forces import PairForce, PointForce, Torque
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
-from nivel.system.interfaces import marker_place
+from nivel.system.joints.interfaces import marker_place
 
 
-def add_load(draft: SystemBuilder, force: PointForce | Torque) -> None:
+def add_load(builder: SystemBuilder, force: PointForce | Torque) -> None:
     """A force or torque on one body."""
     units = "N" if isinstance(force, PointForce) else "N m"
-    first = force_outputs(draft, force.name, *magnitude_and_power(units))
+    first = force_outputs(builder, force.name, *magnitude_and_power(units))
     point, body = np.zeros(3), force.body
     if isinstance(force, PointForce):
         point = np.array(force.position or (0.0, 0.0, 0.0), dtype=float)
         if force.marker is not None:
-            body, point, _ = marker_place(draft.machine, draft.machine.marker_named[force.marker])
+            body, point, _ = marker_place(builder.machine, builder.machine.marker_named[force.marker])
     assert body is not None  # the record was checked
-    marker = draft.place((body, point, np.eye(3)))
-    functions = [draft.function(component) for component in force.vector]
+    marker = builder.place((body, point, np.eye(3)))
+    functions = [builder.function(component) for component in force.vector]
     kind = load.FORCE if isinstance(force, PointForce) else load.TORQUE
     axes = marker if force.axes == "body" else NONE
-    draft.elements.add(load.apply, [first, kind, marker, axes, *functions, NONE, NONE])
+    builder.elements.add(load.apply, [first, kind, marker, axes, *functions, NONE, NONE])
 
 
-def add_pair(draft: SystemBuilder, force: PairForce) -> None:
+def add_pair(builder: SystemBuilder, force: PairForce) -> None:
     """A force between two points, along their line or as a vector."""
-    i, j = draft.ends(force.ends)
-    coordinate = draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))
+    i, j = builder.ends(force.ends)
+    coordinate = builder.coordinates.use(builder.coordinates.add(DISTANCE, i, j))
     entries = (*magnitude_and_power("N"), ("length", "m", "length"), ("rate", "m/s", "rate of the length"))
-    first = force_outputs(draft, force.name, *entries)
+    first = force_outputs(builder, force.name, *entries)
     if force.vector is None:
         assert force.magnitude is not None  # the record was checked
-        law = draft.function(force.magnitude, {"length": (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
-        draft.elements.add(motor, [first, coordinate, law], [0.0, math.inf])
+        law = builder.function(force.magnitude, {"length": (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
+        builder.elements.add(motor, [first, coordinate, law], [0.0, math.inf])
         return
-    functions = [draft.function(component) for component in force.vector]
+    functions = [builder.function(component) for component in force.vector]
     axes = i if force.axes == "first" else NONE
-    draft.elements.add(load.apply, [first, load.FORCE, j, axes, *functions, i, coordinate])
+    builder.elements.add(load.apply, [first, load.FORCE, j, axes, *functions, i, coordinate])
 
 
 KINDS = (

@@ -6,10 +6,10 @@ from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.system.builder import SystemBuilder
 
 
-def force_outputs(draft: SystemBuilder, name: str, *entries: tuple[str, str, str]) -> int:
+def force_outputs(builder: SystemBuilder, name: str, *entries: tuple[str, str, str]) -> int:
     """Index of the first output of the force `name`: (output, units, in words)."""
     named = [(f"force.{name}.{output}", units, f"{words} of {name}") for output, units, words in entries]
-    return draft.outputs.add(*named)
+    return builder.outputs.add(*named)
 
 
 Output = tuple[str, str, str]
@@ -25,6 +25,6 @@ def effort_and_power(angle: bool, words: str) -> tuple[Output, Output]:
     return magnitude_and_power("N m" if angle else "N", words)
 
 
-def is_angle(draft: SystemBuilder, coordinate: int) -> bool:
+def is_angle(builder: SystemBuilder, coordinate: int) -> bool:
     """Whether a coordinate is an angle [rad] and not a length [m]."""
-    return draft.coordinates.what[coordinate][0] <= LAST_ANGLE
+    return builder.coordinates.what[coordinate][0] <= LAST_ANGLE

@@ -15,33 +15,33 @@ from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle, magnitude_and_power
 
 
-def add_spring_damper(draft: SystemBuilder, force: SpringDamper) -> None:
+def add_spring_damper(builder: SystemBuilder, force: SpringDamper) -> None:
     """A spring and damper between two points."""
-    coordinate = draft.coordinates.use(draft.coordinates.add(DISTANCE, *draft.ends(force.ends)))
-    _add_spring(draft, force, coordinate, "length", force.free_length or 0.0)
+    coordinate = builder.coordinates.use(builder.coordinates.add(DISTANCE, *builder.ends(force.ends)))
+    _add_spring(builder, force, coordinate, "length", force.free_length or 0.0)
 
 
-def add_torsional_spring_damper(draft: SystemBuilder, force: TorsionalSpringDamper) -> None:
+def add_torsional_spring_damper(builder: SystemBuilder, force: TorsionalSpringDamper) -> None:
     """A torsional spring and damper between two markers."""
-    coordinate = draft.coordinates.use(draft.coordinates.add(ROTATION, *draft.ends(force.ends)))
-    _add_spring(draft, force, coordinate, "angle", force.free_angle)
+    coordinate = builder.coordinates.use(builder.coordinates.add(ROTATION, *builder.ends(force.ends)))
+    _add_spring(builder, force, coordinate, "angle", force.free_angle)
 
 
-def add_joint_spring_damper(draft: SystemBuilder, force: JointSpringDamper) -> None:
+def add_joint_spring_damper(builder: SystemBuilder, force: JointSpringDamper) -> None:
     """A spring and damper on a joint coordinate."""
-    _add_spring(draft, force, draft.coordinate(force.coordinate), "value", force.free_value)
+    _add_spring(builder, force, builder.coordinate(force.coordinate), "value", force.free_value)
 
 
 def _add_spring(
-    draft: SystemBuilder,
+    builder: SystemBuilder,
     force: SpringDamper | TorsionalSpringDamper | JointSpringDamper,
     coordinate: int,
     symbol: str,
     free: float,
 ) -> None:
-    angle = is_angle(draft, coordinate)
+    angle = is_angle(builder, coordinate)
     first = force_outputs(
-        draft,
+        builder,
         force.name,
         *effort_and_power(angle, "effort that resists the coordinate"),
         (symbol, "rad" if angle else "m", symbol),
@@ -49,14 +49,14 @@ def _add_spring(
     )
     table, energy, law = NONE, NONE, NONE
     if force.table is not None:
-        table, energy = _characteristic(draft, force.table)
+        table, energy = _characteristic(builder, force.table)
     if force.law is not None:
-        law = draft.function(force.law, {symbol: (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
+        law = builder.function(force.law, {symbol: (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
     numbers = [force.stiffness or 0.0, force.damping, free, force.preload]
-    draft.elements.add(spring, [first, coordinate, table, energy, law], numbers)
+    builder.elements.add(spring, [first, coordinate, table, energy, law], numbers)
 
 
-def _characteristic(draft: SystemBuilder, table: Characteristic) -> tuple[int, int]:
+def _characteristic(builder: SystemBuilder, table: Characteristic) -> tuple[int, int]:
     """Tables of the effort over the deflection, and of the energy stored since zero deflection."""
     x, effort = (np.array(column, dtype=float) for column in table.points)
     slope = np.diff(effort) / np.diff(x)
@@ -66,17 +66,17 @@ def _characteristic(draft: SystemBuilder, table: Characteristic) -> tuple[int, i
     # the piece that holds zero, or the end piece that goes on to it
     at = int(np.clip(np.searchsorted(x, 0.0, side="right") - 1, 0, len(x) - 1))
     energy -= energy[at] - effort[at] * x[at] + 0.5 * slope[at] * x[at] ** 2
-    force = draft.functions.add_table(x.tolist(), np.column_stack([effort, slope, nothing, nothing]))
-    stored = draft.functions.add_table(x.tolist(), np.column_stack([energy, effort, 0.5 * slope, nothing]))
+    force = builder.functions.add_table(x.tolist(), np.column_stack([effort, slope, nothing, nothing]))
+    stored = builder.functions.add_table(x.tolist(), np.column_stack([energy, effort, 0.5 * slope, nothing]))
     return force, stored
 
 
-def add_three_axis_spring(draft: SystemBuilder, force: ThreeAxisSpring) -> None:
+def add_three_axis_spring(builder: SystemBuilder, force: ThreeAxisSpring) -> None:
     """Springs and dampers along the global axes."""
     components = ((f"force_{axis}", "N", f"force on the second body along global {axis}") for axis in "xyz")
-    first = force_outputs(draft, force.name, *magnitude_and_power("N"), *components)
+    first = force_outputs(builder, force.name, *magnitude_and_power("N"), *components)
     numbers = [*force.stiffness, *force.damping, *force.free_displacement, *force.preload]
-    draft.elements.add(three_axis_spring, [first, *draft.ends(force.ends)], numbers)
+    builder.elements.add(three_axis_spring, [first, *builder.ends(force.ends)], numbers)
 
 
 KINDS = (

@@ -53,7 +53,7 @@ from nivel.system.hydraulics.poppets import (
 )
 from nivel.system.hydraulics.restrictions import add_cushions, add_inlet, add_orifice, add_pipe
 from nivel.system.located import located
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 # in the order of an evaluation: what a control may read at once, and what it acts on
 SENSED: Final[tuple[Family, ...]] = (ledger.begin, piston.displace, volume.apply, gas.apply, piston.guide)
@@ -126,57 +126,59 @@ def families_of(machine: MachineRecord) -> list[Family]:
     return [family for family in FAMILIES if family in needed]
 
 
-def add_circuits(draft: SystemBuilder) -> None:
+def add_circuits(builder: SystemBuilder) -> None:
     """Fluids, nodes and pressures of all circuits of a machine, and its pistons."""
-    if draft.machine.hydraulics:
-        add_fluids(draft)
-        add_nodes(draft)
-        _add_pressures(draft)
+    if builder.machine.hydraulics:
+        add_fluids(builder)
+        add_nodes(builder)
+        _add_pressures(builder)
 
 
-def add_components(draft: SystemBuilder) -> None:
+def add_components(builder: SystemBuilder) -> None:
     """What flows through and acts, after the control that steers it."""
-    components = draft.machine.hydraulics
+    components = builder.machine.hydraulics
     if not components:
         return
     # positions of valves before what reads them
     for component in sorted(components, key=lambda each: isinstance(each, LoadSensing)):
         if (add := ADDERS.get(type(component))) is not None:
-            with located(f"hydraulics.{component.name}"), draft.noting():
-                add(draft, component)
-            _know_late(draft, component)
-    _add_ledger(draft)
+            with located(f"hydraulics.{component.name}"), builder.noting():
+                add(builder, component)
+            _know_late(builder, component)
+    _add_ledger(builder)
 
 
-def _add_pressures(draft: SystemBuilder) -> None:
+def _add_pressures(builder: SystemBuilder) -> None:
     """One row for each node."""
-    draft.elements.add(ledger.begin, [])
-    given = {each.name: each for each in draft.machine.hydraulics if isinstance(each, Tank)}
-    for k, node in enumerate(draft.circuit.nodes.values()):
+    builder.elements.add(ledger.begin, [])
+    given = {each.name: each for each in builder.machine.hydraulics if isinstance(each, Tank)}
+    for k, node in enumerate(builder.circuit.nodes.values()):
         function = 0
         if node.kind == volume.GIVEN:
-            with located(f"hydraulics.{node.owner}.pressure"), draft.noting():
-                function = draft.function(given[node.owner].pressure)
+            with located(f"hydraulics.{node.owner}.pressure"), builder.noting():
+                function = builder.function(given[node.owner].pressure)
         if node.gas:
-            draft.elements.add(gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls])
+            builder.elements.add(
+                gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls]
+            )
         else:
-            draft.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
+            builder.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
 
 
-def _know_late(draft: SystemBuilder, component: Component) -> None:
+def _know_late(builder: SystemBuilder, component: Component) -> None:
     """What a component reports, as signals."""
-    coupled, start = draft.noted[-1], f"hydraulics.{component.name}."
-    for k, (name, _, _) in enumerate(draft.outputs.entries):
+    coupled, start = builder.noted[-1], f"hydraulics.{component.name}."
+    for k, (name, _, _) in enumerate(builder.outputs.entries):
         if name.startswith(start):
-            draft.circuit.signals.setdefault(name.removeprefix("hydraulics."), (k, coupled))
+            builder.circuit.signals.setdefault(name.removeprefix("hydraulics."), (k, coupled))
 
 
-def _add_ledger(draft: SystemBuilder) -> None:
+def _add_ledger(builder: SystemBuilder) -> None:
     """Three energies and a mass as states that nothing depends on."""
-    first = draft.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
+    first = builder.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
     states = []
     for name, (units, words) in LEDGER.items():
         fact = StateFact(f"hydraulics.{name}", units, words, 0.0, 1.0, integral=True)
-        with draft.noting():
-            states.append(draft.own_state(fact))
-    draft.elements.add(ledger.apply, [first, states[0]])
+        with builder.noting():
+            states.append(builder.own_state(fact))
+    builder.elements.add(ledger.apply, [first, states[0]])

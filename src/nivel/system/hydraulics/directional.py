@@ -10,21 +10,21 @@ from nivel.machine.hydraulics import DirectionalValve, LoadSensing
 from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics.restrictions import add_flow, rated
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 
-def add_directional(draft: SystemBuilder, component: DirectionalValve) -> None:
+def add_directional(builder: SystemBuilder, component: DirectionalValve) -> None:
     """The spool, and its edges."""
-    position = _add_spool(draft, component)
+    position = _add_spool(builder, component)
     forward, back = EDGES[component.ways]
     for pairs, sign in ((forward, 1.0), (back, -1.0)):
         for pair in pairs:
-            _add_edge(draft, component, pair, position, _slope(component.ways, sign, component.overlap))
+            _add_edge(builder, component, pair, position, _slope(component.ways, sign, component.overlap))
     for pair in centre_pairs(component.ways, component.centre):
         quantity = f"flow_{pair}" if pair not in component.edges else f"centre_flow_{pair}"
         width = max(component.overlap, component.rounding)
         numbers = [*rated(component, 0.0), 0.0, 0.0, width]
-        add_flow(draft, component.name, quantity, _ends(component, pair), numbers, (restriction.MIDDLE, position))
+        add_flow(builder, component.name, quantity, _ends(component, pair), numbers, (restriction.MIDDLE, position))
 
 
 def _slope(ways: str, sign: float, overlap: float) -> tuple[float, float]:
@@ -35,31 +35,31 @@ def _slope(ways: str, sign: float, overlap: float) -> tuple[float, float]:
 
 
 def _add_edge(
-    draft: SystemBuilder, component: DirectionalValve, pair: str, position: int, slope: tuple[float, float]
+    builder: SystemBuilder, component: DirectionalValve, pair: str, position: int, slope: tuple[float, float]
 ) -> None:
     full = 1.0 - component.overlap - 0.5 * component.rounding  # ramp of a full stroke
     numbers = [*rated(component, component.leakage), *slope, component.rounding, 1.0 / full]
-    add_flow(draft, component.name, f"flow_{pair}", _ends(component, pair), numbers, (restriction.EDGE, position))
+    add_flow(builder, component.name, f"flow_{pair}", _ends(component, pair), numbers, (restriction.EDGE, position))
 
 
 def _ends(component: DirectionalValve, pair: str) -> tuple[str, str]:
     return component.ports[pair[0]], component.ports[pair[1]]
 
 
-def _add_spool(draft: SystemBuilder, component: DirectionalValve) -> int:
+def _add_spool(builder: SystemBuilder, component: DirectionalValve) -> int:
     """The output that is the position of the spool."""
     name = component.name
-    output = draft.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
+    output = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
     state, speed = NONE, NONE
     if component.frequency is not None:
-        state = draft.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
+        state = builder.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
         if component.rate_limit is None:
-            speed = draft.own_state(
+            speed = builder.own_state(
                 StateFact(f"{name}.spool_speed", "1/s", f"speed of {name}", 0.0, frequency(component))
             )
     least = -1.0 if component.ways in CENTRED else 0.0
-    columns = [output, state, speed, draft.function(component.command)]
-    draft.elements.add(
+    columns = [output, state, speed, builder.function(component.command)]
+    builder.elements.add(
         spool.move, columns, [least, frequency(component), component.damping_ratio, component.rate_limit or 0.0]
     )
     return output
@@ -70,18 +70,18 @@ def frequency(component: DirectionalValve) -> float:
     return 2.0 * math.pi * (component.frequency or 0.0)
 
 
-def add_load_signal(draft: SystemBuilder, component: LoadSensing) -> None:
+def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
     """The signal, and the valves that it is made of."""
-    node = draft.circuit.nodes[component.name]
+    node = builder.circuit.nodes[component.name]
     columns, numbers = [node.state], [component.lag, component.opens_within]
-    valves = {each.name: each for each in draft.machine.hydraulics if isinstance(each, DirectionalValve)}
+    valves = {each.name: each for each in builder.machine.hydraulics if isinstance(each, DirectionalValve)}
     for name in component.valves:
         valve = valves[name]
-        output, coupled = draft.circuit.signals[f"{name}.position"]
-        with draft.noting():  # the loads of valves do not depend on each other
-            draft.touch_state(node.state)
-            draft.note(coupled)
-            columns += [output, *(draft.node(valve.ports[port]) for port in "ABT")]
+        output, coupled = builder.circuit.signals[f"{name}.position"]
+        with builder.noting():  # the loads of valves do not depend on each other
+            builder.touch_state(node.state)
+            builder.note(coupled)
+            columns += [output, *(builder.node(valve.ports[port]) for port in "ABT")]
         numbers += [valve.overlap, valve.rounding]
     width = 1 + load_signal.WIDE * load_signal.MOST
-    draft.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)
+    builder.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)

@@ -8,42 +8,42 @@ from nivel.kernels.hydraulics import rotary
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import FlowSource, HydraulicMotor, Pump
 from nivel.system.builder import SystemBuilder
-from nivel.system.state_facts import StateFact
+from nivel.system.signals.state_facts import StateFact
 
 WITHOUT_CUT_OFF = 1e12  # Pa
 
 
-def add_flow_source(draft: SystemBuilder, component: FlowSource) -> None:
+def add_flow_source(builder: SystemBuilder, component: FlowSource) -> None:
     """A given flow."""
     name = component.name
-    first = draft.outputs.add(
+    first = builder.outputs.add(
         (f"hydraulics.{name}.flow", "m^3/s", f"flow of {name}"), (f"hydraulics.{name}.power", "W", f"power into {name}")
     )
-    ends = [draft.node(component.ports[port]) for port in "AB"]
-    draft.elements.add(rotary.supply, [first, *ends, draft.function(component.flow)])
+    ends = [builder.node(component.ports[port]) for port in "AB"]
+    builder.elements.add(rotary.supply, [first, *ends, builder.function(component.flow)])
 
 
-def add_machine(draft: SystemBuilder, component: Pump | HydraulicMotor) -> None:
+def add_machine(builder: SystemBuilder, component: Pump | HydraulicMotor) -> None:
     """A pump or motor, and what sets its displacement."""
     name, ports = component.name, component.ports
-    first = draft.outputs.add(
+    first = builder.outputs.add(
         (f"hydraulics.{name}.flow", "m^3/s", f"flow from A to B of {name}"),
         (f"hydraulics.{name}.torque", "N m", f"torque that drives the shaft of {name}"),
         (f"hydraulics.{name}.power", "W", f"power into the shaft of {name}"),
         (f"hydraulics.{name}.setting", "1", f"share of the displacement of {name}"),
     )
-    a, b = draft.node(ports["A"]), draft.node(ports["B"])
+    a, b = builder.node(ports["A"]), builder.node(ports["B"])
     speed, coordinate = NONE, NONE
     if component.coordinate is not None:
-        coordinate = draft.coordinate(component.coordinate, "angle")
+        coordinate = builder.coordinate(component.coordinate, "angle")
     else:
         assert isinstance(component, Pump)
         assert component.speed is not None  # the record was checked
-        speed = draft.function(component.speed)
+        speed = builder.function(component.speed)
     periods, share = ripple(component.pistons)
     numbers = [component.displacement, component.ratio, component.whole_leakage, *component.friction, periods, share]
-    draft.elements.add(rotary.turn, [first, a, b, speed, coordinate], numbers)
-    _add_setting(draft, component, first + rotary.SETTING, b)
+    builder.elements.add(rotary.turn, [first, a, b, speed, coordinate], numbers)
+    _add_setting(builder, component, first + rotary.SETTING, b)
 
 
 def ripple(pistons: int | None) -> tuple[float, float]:
@@ -53,14 +53,14 @@ def ripple(pistons: int | None) -> tuple[float, float]:
     return 2.0 * pistons, 0.25 * math.pi / pistons * math.tan(0.25 * math.pi / pistons)
 
 
-def _add_setting(draft: SystemBuilder, component: Pump | HydraulicMotor, output: int, high: int) -> None:
+def _add_setting(builder: SystemBuilder, component: Pump | HydraulicMotor, output: int, high: int) -> None:
     if isinstance(component, Pump) and component.margin is not None:
-        state = draft.own_state(
+        state = builder.own_state(
             StateFact(f"{component.name}.setting", "1", f"displacement of {component.name}", 0.0, 1.0)
         )
         cut_off = component.cut_off or WITHOUT_CUT_OFF
         numbers = [component.margin, component.control_range, cut_off, component.response]
-        columns = [output, state, NONE, high, draft.node(component.ports["LS"])]
-        draft.elements.add(rotary.set_displacement, columns, numbers)
+        columns = [output, state, NONE, high, builder.node(component.ports["LS"])]
+        builder.elements.add(rotary.set_displacement, columns, numbers)
         return
-    draft.elements.add(rotary.set_displacement, [output, NONE, draft.function(component.setting), NONE, NONE])
+    builder.elements.add(rotary.set_displacement, [output, NONE, builder.function(component.setting), NONE, NONE])

@@ -27,11 +27,11 @@ from nivel.machine.hydraulics import (
 from nivel.machine.hydraulics.actuators import DEAD_SHARE, PistonFriction
 from nivel.machine.hydraulics.fluid import OIL, REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
 from nivel.system.builder import SystemBuilder
-from nivel.system.circuit import FLUID, Node
 from nivel.system.forces.restitution import damping_of_restitution
+from nivel.system.hydraulics.circuit import FLUID, Node
 from nivel.system.hydraulics.fluid_law import density_and_modulus
 from nivel.system.located import located
-from nivel.system.state_facts import Coupled, StateFact
+from nivel.system.signals.state_facts import Coupled, StateFact
 
 # pressure that the tolerance is a share of [Pa], and that masses start from until the circuit is at rest
 TYPICAL = 1e7
@@ -39,10 +39,10 @@ TYPICAL_OF_GAS = 5e5
 RIGID = (0.0, 0.0, 0.0, 1.0, 1.0)  # of `Circuit.room`: no volume, no wall, no gas
 
 
-def add_fluids(draft: SystemBuilder) -> None:
+def add_fluids(builder: SystemBuilder) -> None:
     """Rows of constants."""
-    for fluid in draft.machine.fluids or (OIL,):
-        draft.circuit.fluids.append(fluid_constants(fluid))
+    for fluid in builder.machine.fluids or (OIL,):
+        builder.circuit.fluids.append(fluid_constants(fluid))
 
 
 def fluid_constants(fluid: Fluid | Gas) -> tuple[float, ...]:
@@ -57,34 +57,34 @@ def fluid_constants(fluid: Fluid | Gas) -> tuple[float, ...]:
     return (*of_liquid, *[0.0] * (FLUID - len(of_liquid)))
 
 
-def add_nodes(draft: SystemBuilder) -> None:
+def add_nodes(builder: SystemBuilder) -> None:
     """All nodes, and chambers of actuators with their pistons."""
-    components = draft.machine.hydraulics
+    components = builder.machine.hydraulics
     swept = _swept_by_node(components)
     for component in components:
         with located(f"hydraulics.{component.name}"):
-            for node in _own_nodes(draft, component, swept):
-                draft.circuit.nodes[node.name] = node
+            for node in _own_nodes(builder, component, swept):
+                builder.circuit.nodes[node.name] = node
     for component in components:
         if isinstance(component, Actuator):
-            with located(f"hydraulics.{component.name}"), draft.within(f"hydraulics.{component.name}"):
-                _add_actuator(draft, component)
+            with located(f"hydraulics.{component.name}"), builder.within(f"hydraulics.{component.name}"):
+                _add_actuator(builder, component)
     for component in components:
-        _know_pressures(draft, component)
+        _know_pressures(builder, component)
 
 
-def _know_pressures(draft: SystemBuilder, component: Component) -> None:
+def _know_pressures(builder: SystemBuilder, component: Component) -> None:
     """Pressures as signals; and of actuators, what their forces depend on, now that all that moves a node is known."""
-    circuit = draft.circuit
+    circuit = builder.circuit
     for node in circuit.nodes.values():
         if node.owner == component.name and not isinstance(component, Actuator):
             circuit.depends.setdefault(node.name, Coupled(frozenset(), node.states))
             circuit.signals[f"{component.name}.pressure"] = (node.output, circuit.depends[node.name])
     if isinstance(component, Actuator):
-        with draft.noting():
+        with builder.noting():
             for chamber in _sweep(component)[1]:
                 name = chamber_node(component, chamber)
-                draft.node(name)
+                builder.node(name)
                 circuit.signals[f"{component.name}.pressure_{chamber}"] = (
                     circuit.nodes[name].output,
                     circuit.depends[name],
@@ -94,27 +94,27 @@ def _know_pressures(draft: SystemBuilder, component: Component) -> None:
                 circuit.depends.setdefault(node.name, Coupled(frozenset(), node.states))
 
 
-def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, float]) -> Iterator[Node]:
+def _own_nodes(builder: SystemBuilder, component: Component, swept: dict[str, float]) -> Iterator[Node]:
     """The nodes that a component brings."""
     match component:
         case Volume():
             room = (component.volume, _compliance(component.volume, component.wall_modulus), 0.0, 1.0, 1.0)
-            yield _volume(draft, component, component.name, "", room, component.start, swept)
+            yield _volume(builder, component, component.name, "", room, component.start, swept)
         case Accumulator():
             dead = component.dead_volume or DEAD_SHARE * component.volume
             room = (dead, 0.0, component.volume, component.precharge, component.gas_exponent)
-            yield _volume(draft, component, component.name, "", room, component.start, swept)
+            yield _volume(builder, component, component.name, "", room, component.start, swept)
         case Tank():
-            fluid, name = _fluid(draft, component), component.name
-            gas = _gas(draft, fluid) is not None
-            output = _pressure_output(draft, name, "pressure", gas)
+            fluid, name = _fluid(builder, component), component.name
+            gas = _gas(builder, fluid) is not None
+            output = _pressure_output(builder, name, "pressure", gas)
             yield Node(name, volume.GIVEN, fluid, NONE, RIGID, 0.0, None, name, output, gas)
         case LoadSensing():
-            output = _pressure_output(draft, component.name, "pressure")
+            output = _pressure_output(builder, component.name, "pressure")
             fact = StateFact(
                 f"{component.name}.pressure", "Pa", f"load signal of {component.name}", ATMOSPHERE, TYPICAL
             )
-            state = draft.own_state(fact)
+            state = builder.own_state(fact)
             yield Node(component.name, volume.SIGNAL, 0, state, RIGID, 0.0, None, component.name, output)
         case Actuator():
             for chamber, dead in _dead_volumes(component).items():
@@ -124,11 +124,11 @@ def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, floa
                 cushion = getattr(component, f"cushion_{chamber}", None)
                 room = (dead, _compliance(dead, component.wall_modulus), 0.0, 1.0, 1.0)
                 inner = chamber_node(component, chamber)
-                yield _volume(draft, component, inner, f"_{chamber}", room, start, swept)
+                yield _volume(builder, component, inner, f"_{chamber}", room, start, swept)
                 if cushion is not None:
                     room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
                     yield _volume(
-                        draft, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept
+                        builder, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept
                     )
 
 
@@ -140,7 +140,7 @@ def chamber_node(component: Actuator, chamber: str) -> str:
 
 
 def _volume(
-    draft: SystemBuilder,
+    builder: SystemBuilder,
     component: Component,
     name: str,
     ending: str,
@@ -149,10 +149,10 @@ def _volume(
     swept: dict[str, float],
 ) -> Node:
     """A node with mass, at first at TYPICAL pressure."""
-    fluid = _fluid(draft, component)
-    constants = draft.circuit.fluids[fluid]
+    fluid = _fluid(builder, component)
+    constants = builder.circuit.fluids[fluid]
     size = room[0] + swept.get(name, 0.0)
-    gas = _gas(draft, fluid)
+    gas = _gas(builder, fluid)
     typical = TYPICAL if gas is None else TYPICAL_OF_GAS
     density, modulus = density_and_modulus(constants, typical)
     scale = density * size / modulus * typical
@@ -164,12 +164,12 @@ def _volume(
         scale=scale,
         relative=False,
     )
-    output = _pressure_output(draft, component.name, f"pressure{ending}", gas is not None)
-    state, energy, walls = draft.own_state(fact), NONE, getattr(component, "heat_conductance", None) or 0.0
+    output = _pressure_output(builder, component.name, f"pressure{ending}", gas is not None)
+    state, energy, walls = builder.own_state(fact), NONE, getattr(component, "heat_conductance", None) or 0.0
     if gas is not None and not gas.isothermal:
         inner = scale * gas.temperature * gas.gas_constant / (gas.heat_capacity_ratio - 1.0)
         words = f"inner energy of the gas in {name}"
-        energy = draft.own_state(
+        energy = builder.own_state(
             StateFact(f"{component.name}.energy{ending}", "J", words, inner, inner, relative=False)
         )
     return Node(
@@ -189,26 +189,26 @@ def _volume(
     )
 
 
-def _pressure_output(draft: SystemBuilder, name: str, quantity: str, gas: bool = False) -> int:
+def _pressure_output(builder: SystemBuilder, name: str, quantity: str, gas: bool = False) -> int:
     """Index of the pressure of a node, and of a gas of its temperature behind it."""
     words = quantity.replace("_", " in ", 1)
     first = (f"hydraulics.{name}.{quantity}", "Pa", f"{words} of {name}, absolute")
     if not gas:
-        return draft.outputs.add(first)
+        return builder.outputs.add(first)
     second = f"hydraulics.{name}.{quantity.replace('pressure', 'temperature')}"
-    return draft.outputs.add(first, (second, "K", f"{words.replace('pressure', 'temperature')} of {name}"))
+    return builder.outputs.add(first, (second, "K", f"{words.replace('pressure', 'temperature')} of {name}"))
 
 
-def _gas(draft: SystemBuilder, fluid: int) -> Gas | None:
+def _gas(builder: SystemBuilder, fluid: int) -> Gas | None:
     """The gas of this number; None where it is a liquid."""
-    found = (draft.machine.fluids or (OIL,))[fluid]
+    found = (builder.machine.fluids or (OIL,))[fluid]
     return found if isinstance(found, Gas) else None
 
 
-def _fluid(draft: SystemBuilder, component: Component) -> int:
+def _fluid(builder: SystemBuilder, component: Component) -> int:
     """Number of the fluid of a component."""
     name = getattr(component, "fluid", None)
-    return 0 if name is None else [fluid.name for fluid in draft.machine.fluids].index(name)
+    return 0 if name is None else [fluid.name for fluid in builder.machine.fluids].index(name)
 
 
 def _compliance(size: float, modulus: float | None) -> float:
@@ -254,39 +254,39 @@ def _swept_by_node(components: tuple[Component, ...]) -> dict[str, float]:
     return out
 
 
-def _add_actuator(draft: SystemBuilder, component: Actuator) -> None:
+def _add_actuator(builder: SystemBuilder, component: Actuator) -> None:
     """Chambers, and the piston between them."""
     stroke, areas = _sweep(component)
     dead = _dead_volumes(component)
-    with draft.noting():
+    with builder.noting():
         if isinstance(component, RotaryActuator):
-            coordinate, origin = draft.coordinate(component.coordinate), component.lower
+            coordinate, origin = builder.coordinate(component.coordinate), component.lower
         else:
             assert isinstance(component, Ends)
-            coordinate = draft.coordinates.add(DISTANCE, *draft.ends(component.ends))
-            draft.coordinates.use(coordinate)
+            coordinate = builder.coordinates.add(DISTANCE, *builder.ends(component.ends))
+            builder.coordinates.use(coordinate)
             origin = component.retracted_length  # type: ignore[attr-defined]
-        first = _outputs(draft, component)
+        first = _outputs(builder, component)
         nodes = {chamber: chamber_node(component, chamber) for chamber in areas}
         for chamber, its in areas.items():
-            node = draft.circuit.nodes[nodes[chamber]]
+            node = builder.circuit.nodes[nodes[chamber]]
             extra = dead[chamber] if chamber in component.ports else 0.0
             numbers = _chamber_numbers(component, chamber, its, origin, stroke, extra)
-            columns = [first, draft.circuit.index(node.name), coordinate]
-            draft.elements.add(displace, columns, numbers)
-            draft.elements.add(press, columns, numbers)
-            draft.note(Coupled(frozenset(), node.states))
-        ends = [draft.circuit.index(nodes[c]) if c in nodes else NONE for c in ("A", "B")]
+            columns = [first, builder.circuit.index(node.name), coordinate]
+            builder.elements.add(displace, columns, numbers)
+            builder.elements.add(press, columns, numbers)
+            builder.note(Coupled(frozenset(), node.states))
+        ends = [builder.circuit.index(nodes[c]) if c in nodes else NONE for c in ("A", "B")]
         numbers = [origin, *_friction(component), stroke, component.stop_stiffness]
         numbers.append(damping_of_restitution(component.stop_restitution))
-        draft.elements.add(guide, [first, ends[0], coordinate, ends[1]], numbers, 2, (0, 1))
-    moved = draft.noted[-1]
+        builder.elements.add(guide, [first, ends[0], coordinate, ends[1]], numbers, 2, (0, 1))
+    moved = builder.noted[-1]
     for node in nodes.values():
-        own = Coupled(frozenset(), draft.circuit.nodes[node].states)
-        known = draft.circuit.depends.get(node, own)
-        draft.circuit.depends[node] = Coupled(known.bodies | moved.bodies, known.states)
+        own = Coupled(frozenset(), builder.circuit.nodes[node].states)
+        known = builder.circuit.depends.get(node, own)
+        builder.circuit.depends[node] = Coupled(known.bodies | moved.bodies, known.states)
     for k, quantity in enumerate(("force", "power", "position", "speed", "friction")):
-        draft.circuit.signals[f"{component.name}.{quantity}"] = (first + k, moved)
+        builder.circuit.signals[f"{component.name}.{quantity}"] = (first + k, moved)
 
 
 def _chamber_numbers(
@@ -320,7 +320,7 @@ def _friction(component: Actuator) -> list[float]:
     ]
 
 
-def _outputs(draft: SystemBuilder, component: Actuator) -> int:
+def _outputs(builder: SystemBuilder, component: Actuator) -> int:
     """Index of the first output of a piston."""
     turns = isinstance(component, RotaryActuator)
     units = ("N m", "W", "rad", "rad/s", "N m") if turns else ("N", "W", "m", "m/s", "N")
@@ -336,4 +336,4 @@ def _outputs(draft: SystemBuilder, component: Actuator) -> int:
         (f"hydraulics.{component.name}.{name}", unit, f"{word} of {component.name}")
         for name, unit, word in zip(names, units, words, strict=True)
     ]
-    return draft.outputs.add(*entries)
+    return builder.outputs.add(*entries)

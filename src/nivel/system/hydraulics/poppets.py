@@ -8,27 +8,27 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppet, rated
 
 
-def add_check(draft: SystemBuilder, component: CheckValve) -> None:
+def add_check(builder: SystemBuilder, component: CheckValve) -> None:
     """p_A - p_B, and of a pilot its ratio times what it is above the air, against the spring."""
     ports, ratio = component.ports, component.pilot_ratio or 0.0
     factors = {ports["A"]: 1.0, ports["B"]: -1.0}
     if "X" in ports:
         factors[ports["X"]] = factors.get(ports["X"], 0.0) + ratio
     numbers = (component.opening_range, component.lag, -1.0, -ratio * ATMOSPHERE)
-    opening = add_poppet(draft, component.name, "position", factors, numbers, component.opens_at)
-    add_flow(draft, component.name, "flow", (ports["A"], ports["B"]), rated(component, component.leakage), opening)
+    opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
+    add_flow(builder, component.name, "flow", (ports["A"], ports["B"]), rated(component, component.leakage), opening)
 
 
-def add_relief(draft: SystemBuilder, component: ReliefValve) -> None:
+def add_relief(builder: SystemBuilder, component: ReliefValve) -> None:
     """p_P - p_T against the spring."""
     ports = component.ports
     factors = {ports["P"]: 1.0, ports["T"]: -1.0}
     numbers = (component.opening_range, component.lag, -1.0, 0.0)
-    opening = add_poppet(draft, component.name, "position", factors, numbers, component.opens_at)
-    add_flow(draft, component.name, "flow", (ports["P"], ports["T"]), rated(component, component.leakage), opening)
+    opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
+    add_flow(builder, component.name, "flow", (ports["P"], ports["T"]), rated(component, component.leakage), opening)
 
 
-def add_counterbalance(draft: SystemBuilder, component: CounterbalanceValve) -> None:
+def add_counterbalance(builder: SystemBuilder, component: CounterbalanceValve) -> None:
     """p_L + R p_X - (1 + R) p_V against the spring; where that is vented, the air in place of p_V. And its check valve."""
     ports, ratio = component.ports, component.pilot_ratio
     factors = {ports["L"]: 1.0}
@@ -37,31 +37,31 @@ def add_counterbalance(draft: SystemBuilder, component: CounterbalanceValve) -> 
     if not component.vented:
         factors[ports["V"]], constant = factors.get(ports["V"], 0.0) - (1.0 + ratio), 0.0
     numbers = (component.opening_range, component.lag, -1.0, constant)
-    opening = add_poppet(draft, component.name, "position", factors, numbers, component.opens_at)
-    add_flow(draft, component.name, "flow", (ports["L"], ports["V"]), rated(component, component.leakage), opening)
+    opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
+    add_flow(builder, component.name, "flow", (ports["L"], ports["V"]), rated(component, component.leakage), opening)
     back = {ports["V"]: 1.0, ports["L"]: -1.0}
     numbers = (component.check_opening_range, 0.0, -1.0, 0.0)
-    opening = add_poppet(draft, component.name, "check_position", back, numbers, component.check_opens_at)
+    opening = add_poppet(builder, component.name, "check_position", back, numbers, component.check_opens_at)
     check = [component.check_conductance, TRANSITION, 0.0]
-    add_flow(draft, component.name, "check_flow", (ports["V"], ports["L"]), check, opening)
+    add_flow(builder, component.name, "check_flow", (ports["V"], ports["L"]), check, opening)
 
 
-def add_reducing(draft: SystemBuilder, component: ReducingValve) -> None:
+def add_reducing(builder: SystemBuilder, component: ReducingValve) -> None:
     """The setting against p_A; the other way round for what relieves A."""
     ports = component.ports
     numbers = (component.opening_range, component.lag, 1.0, 0.0)
-    opening = add_poppet(draft, component.name, "position", {ports["A"]: -1.0}, numbers, component.pressure)
-    add_flow(draft, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)
+    opening = add_poppet(builder, component.name, "position", {ports["A"]: -1.0}, numbers, component.pressure)
+    add_flow(builder, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)
     if "T" in ports:
         numbers = (component.opening_range, component.lag, -1.0, 0.0)
-        opening = add_poppet(draft, component.name, "relief_position", {ports["A"]: 1.0}, numbers, component.pressure)
-        add_flow(draft, component.name, "relief_flow", (ports["A"], ports["T"]), rated(component, 0.0), opening)
+        opening = add_poppet(builder, component.name, "relief_position", {ports["A"]: 1.0}, numbers, component.pressure)
+        add_flow(builder, component.name, "relief_flow", (ports["A"], ports["T"]), rated(component, 0.0), opening)
 
 
-def add_compensator(draft: SystemBuilder, component: Compensator) -> None:
+def add_compensator(builder: SystemBuilder, component: Compensator) -> None:
     """The margin and half the range against p_A - p_LS."""
     ports = component.ports
     factors = {ports["A"]: -1.0, ports["LS"]: 1.0}
     numbers = (component.opening_range, component.lag, 1.0, 0.5 * component.opening_range)
-    opening = add_poppet(draft, component.name, "position", factors, numbers, component.margin)
-    add_flow(draft, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)
+    opening = add_poppet(builder, component.name, "position", factors, numbers, component.margin)
+    add_flow(builder, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)

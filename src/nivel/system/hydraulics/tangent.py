@@ -13,8 +13,8 @@ from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restrict
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import NONE, Record
-from nivel.system.circuit import tangent_tables
 from nivel.system.elimination.factor_plan import minimum_degree
+from nivel.system.hydraulics.circuit import tangent_tables
 from nivel.system.system import System
 
 # in the order of `nivel.kernels.hydraulics.tangent`

@@ -12,8 +12,8 @@ from nivel.kernels.record.function import CODE, CONSTANT, HELD, LINEAR, NUMBER, 
 from nivel.kernels.record.program import run
 from nivel.kernels.record.record import Functions
 from nivel.machine.control.part import PartFunction
-from nivel.machine.python_law import PythonLaw
-from nivel.machine.table import Table
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
 from nivel.machine.units.arithmetic import TIME as TIME_SYMBOL
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula

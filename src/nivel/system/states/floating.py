@@ -13,13 +13,13 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import NONE, Bodies, Friction, Record, Saddle
-from nivel.machine.body import Body
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.shape import Mesh
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.machine.shape import Mesh
 from nivel.system.elimination.elimination import plan
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
-from nivel.system.interfaces import marker_place
+from nivel.system.joints.interfaces import marker_place
 from nivel.system.layout import first_columns, with_modal_coordinates
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.kernels.record.record import NONE, Coordinates, Markers
-from nivel.machine.machine_record import MachineRecord
-from nivel.machine.orientation import (
+from nivel.machine.core.orientation import (
     conjugate,
     euler_parameters_from_matrix,
     matrix_from_euler_parameters,
     product,
 )
-from nivel.machine.vectors import cross
+from nivel.machine.core.vectors import cross
+from nivel.machine.machine_record import MachineRecord
 from nivel.system.states.slider_start import Rail, slider_start
 from nivel.system.system import Array, System
 

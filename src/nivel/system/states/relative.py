@@ -14,15 +14,15 @@ from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
-from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
-from nivel.machine.joint import Joint
+from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
+from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.elimination.elimination import plan
 from nivel.system.elimination.topology import FREE, Edge, SpanningTree, spanning_tree
 from nivel.system.elimination.tree_tables import empty_tree
-from nivel.system.rails import OnBeam
+from nivel.system.joints.rails import OnBeam
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.tree_nodes import (

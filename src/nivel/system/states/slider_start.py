@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nivel.machine.orientation import euler_parameters_from_matrix
-from nivel.system.rails import between, element_of
+from nivel.machine.core.orientation import euler_parameters_from_matrix
+from nivel.system.joints.rails import between, element_of
 from nivel.system.system import Array
 
 if TYPE_CHECKING:

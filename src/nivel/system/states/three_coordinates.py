@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.kernels.record.record import Rotations
-from nivel.machine.orientation import conjugate, matrix_from_euler_parameters, product
+from nivel.machine.core.orientation import conjugate, matrix_from_euler_parameters, product
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 

@@ -1,0 +1,153 @@
+"""Times at which the functions of time of a machine have corners: points of tables of straight lines, and where an absolute value, a
+minimum or a maximum of expressions of time alone changes sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from typing import TypeGuard
+
+import numpy as np
+
+from nivel.kernels.record.function import NEAR
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import (
+    COMPARISONS,
+    TIME,
+    Call,
+    ExpressionError,
+    Lookup,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    evaluate,
+    signals,
+)
+from nivel.machine.units.expression import Expression
+
+# Sides of an expression are looked at so many times in a run.
+SAMPLES = 2000
+# Slopes of a table that differ by less, as a share of the largest, make no corner.
+STRAIGHT = 1e-9
+
+
+def corners(machine: MachineRecord, *, with_values: bool = False) -> tuple[float, ...]:
+    """Corners within the run [s], ascending. with_values : only those at which the function has a value, so that a step can end there."""
+    end = machine.simulation.duration
+    found: set[float] = set()
+    for each in machine.functions:
+        function = each.function
+        if each.sampling is None and _knows_corners(function):
+            found |= {
+                time
+                for time in corners_of(function, end)
+                if not with_values or isinstance(function, Table) or _holds(function, time)
+            }
+    return tuple(sorted(found))
+
+
+def corners_of(function: Table | Expression, end: float) -> list[float]:
+    """Corners of a function of time after the begin of a run, up to its `end` [s]; those of a table ascending."""
+    times = _of_table(function) if isinstance(function, Table) else _of_expression(function, end)
+    return [time for time in times if 0.0 < time <= end * (1.0 + NEAR)]
+
+
+def _knows_corners(function: Table | Expression | PythonLaw) -> TypeGuard[Table | Expression]:
+    """Whether the corners of a function can be told; those of Python laws and of tables of a signal cannot."""
+    return isinstance(function, Expression) or (isinstance(function, Table) and function.of == TIME)
+
+
+def _of_table(table: Table) -> Iterator[float]:
+    if table.interpolation != "linear":
+        # a natural spline ends straight: where it does not hold its end value before and after, its slope jumps there
+        # the curvature of monotone curves jumps at every point
+        yield from table.times if table.interpolation == "monotone" else (table.times[0], table.times[-1])
+        return
+    slope = np.concatenate([[0.0], np.diff(table.values) / np.diff(table.times), [0.0]])
+    for time, jump in zip(table.times, np.abs(np.diff(slope)), strict=True):
+        if jump > STRAIGHT * np.abs(slope).max():
+            yield float(time)
+
+
+@lru_cache(maxsize=256)
+def _of_expression(expression: Expression, end: float) -> tuple[float, ...]:
+    """Remembered, as many runs of one machine ask for the same."""
+    return tuple(_found(expression, end))
+
+
+def _found(expression: Expression, end: float) -> Iterator[float]:
+    from scipy.optimize import root_scalar  # takes a fifth of a second to import
+
+    times = np.linspace(0.0, end, SAMPLES + 1)
+    for first, second in sides(expression.tree, _of_time_alone, curves=True):
+
+        def difference(time: float, first: Node = first, second: Node | None = second) -> float:
+            return evaluate(first, time) - (evaluate(second, time) if second is not None else 0.0)
+
+        try:
+            values = np.array([difference(float(time)) for time in times])
+        except ExpressionError:
+            continue
+        roots = [
+            root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
+            for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
+        ]
+        # where it is zero all along, as between two equal functions, only the ends are corners
+        zero = np.concatenate([[False], values == 0.0, [False]])
+        yield from (*roots, *map(float, times[zero[1:-1] & ~(zero[:-2] & zero[2:])]))
+
+
+def _holds(expression: Expression, time: float) -> bool:
+    """Whether a function has a value at a corner."""
+    if expression.signals:
+        return True
+    try:
+        evaluate(expression.tree, time)
+    except ExpressionError:
+        return False
+    return True
+
+
+def _of_time_alone(*nodes: Node) -> bool:
+    return not any(signals(node) for node in nodes)
+
+
+def sides(node: Node, counts: Callable[..., bool], *, curves: bool) -> Iterator[tuple[Node, Node | None]]:
+    """Pairs of expressions whose order decides about a value within `node`, those of which `counts` says so. curves : with the points of
+    curves."""
+    match node:
+        case Negative(operand):
+            yield from sides(operand, counts, curves=curves)
+        case Operation(symbol, left, right):
+            yield from sides(left, counts, curves=curves)
+            yield from sides(right, counts, curves=curves)
+            if symbol in COMPARISONS and counts(left, right):
+                yield left, right
+        case Lookup(argument, kind, points, _, _):
+            yield from sides(argument, counts, curves=curves)
+            if curves and counts(argument) and kind != "quintic":
+                yield from ((argument, Number(point)) for point in points)
+        case Call(function, arguments):
+            for argument in arguments:
+                yield from sides(argument, counts, curves=curves)
+            if function in ("abs", "if", "not", "sign"):
+                if counts(arguments[0]) and not _is_truth(arguments[0]):
+                    yield arguments[0], None
+            elif function in ("step", "ramp", "step_rate", "step_acceleration") and counts(*arguments):
+                yield from ((arguments[0], arguments[k]) for k in (1, 3))
+            elif function in ("min", "max"):
+                pairs = ((first, second) for k, first in enumerate(arguments) for second in arguments[:k])
+                yield from (pair for pair in pairs if counts(*pair))
+
+
+def _is_truth(node: Node) -> bool:
+    """Whether a node is a condition, 1 or 0, whose own sides say where it changes."""
+    match node:
+        case Operation(symbol, _, _):
+            return symbol in (*COMPARISONS, "and", "or")
+        case Call(function, _):
+            return function == "not"
+    return False

@@ -1,0 +1,178 @@
+"""The functions of a machine as curves: their values at many places at once, and bounds of them over intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.machine.laws.functions import Sampling
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, TIME
+from nivel.machine.units.bounds import Interval, bounds_of, values_of
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.linear_function import linear_function
+from nivel.native.signature import LAW
+from nivel.system.laws.laws import law_address
+
+Array = NDArray[np.float64]
+# straight pieces that stand for one of a smooth table
+PIECES = 16
+# what results call a part of a section, where it is another word
+OF = {"drivers": "driver", "forces": "force", "states": "state"}
+
+
+class Curve(Protocol):
+    """A function of the time and of signals."""
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        """What it depends on beside the time."""
+        ...
+
+    def values(self, known: Mapping[str, Array]) -> Array:
+        """At n places; known : the time and all signals there."""
+        ...
+
+    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+        """Over n intervals; None where they are not known."""
+        ...
+
+
+@dataclass(frozen=True)
+class Varying:
+    """A function of a part of a machine.
+
+    name : as users know it, `push.vector.x`. of : name of the part in results, `force.push`. sampling, motion : as of
+    `MachineFunction`.
+    """
+
+    name: str
+    of: str
+    curve: Curve
+    sampling: Sampling | None = None
+    motion: bool = False
+
+
+@dataclass(frozen=True)
+class ExpressionCurve:
+    """An expression of a machine file."""
+
+    expression: Expression
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        return self.expression.signals
+
+    def values(self, known: Mapping[str, Array]) -> Array:
+        return values_of(self.expression.tree, known)
+
+    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+        return bounds_of(self.expression.tree, known)
+
+
+@dataclass(frozen=True)
+class TableCurve:
+    """A table as straight lines between `points`, those of a smooth one close together."""
+
+    table: Table
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        return self.table.signals
+
+    @cached_property
+    def points(self) -> tuple[Array, Array]:
+        """Places (n,), ascending, and values (n,)."""
+        at, values = np.array(self.table.times, dtype=float), np.array(self.table.values, dtype=float)
+        if self.table.interpolation == "linear" or len(at) < 2:
+            return at, values
+        share = np.arange(PIECES) / PIECES
+        h = share * np.diff(at)[:, None]
+        c = self.table.coefficients()[:, :, None]
+        between = c[:, 0] + h * (c[:, 1] + h * (c[:, 2] + h * c[:, 3]))
+        return np.append((at[:-1, None] + h).ravel(), at[-1]), np.append(between.ravel(), values[-1])
+
+    def values(self, known: Mapping[str, Array]) -> Array:
+        return np.interp(known[self.table.of], *self.points)
+
+    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+        """At the ends of an interval and at the points between them."""
+        at, values = self.points
+        low, high = known[self.table.of]
+        ends = np.interp(low, at, values), np.interp(high, at, values)
+        least, largest = np.minimum(*ends), np.maximum(*ends)
+        first, last = np.searchsorted(at, low), np.searchsorted(at, high, side="right")
+        inside = np.flatnonzero(last > first)
+        if len(inside):
+            # reduceat takes pairs of places; the value behind the last one belongs to no pair
+            pairs = np.column_stack([first[inside], last[inside]]).ravel()
+            padded = np.append(values, values[-1])
+            least[inside] = np.minimum(least[inside], np.minimum.reduceat(padded, pairs)[::2])
+            largest[inside] = np.maximum(largest[inside], np.maximum.reduceat(padded, pairs)[::2])
+        return least, largest
+
+
+@dataclass(frozen=True)
+class LawCurve:
+    """A Python function, which can only be called."""
+
+    law: PythonLaw
+    motion: bool
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        return self.law.signals
+
+    @cached_property
+    def _function(self) -> Any:
+        return LAW.function_at(law_address(self.law, motion=self.motion))
+
+    def values(self, known: Mapping[str, Array]) -> Array:
+        count = len(known[TIME])
+        columns = [known[each] if isinstance(each, str) else np.full(count, float(each)) for each in self.law.arguments]
+        rows = np.ascontiguousarray(np.column_stack([*columns, np.zeros((count, 2))]))
+        return np.array([self._function(row) for row in rows])
+
+    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+        return None
+
+
+def varying(machine: MachineRecord, *, sampled: bool = False) -> Iterator[Varying]:
+    """The functions of a machine that may do something by themselves: what is linear only passes on what it depends on.
+
+    sampled : those that are looked at in samples only, or those that are looked at in every step.
+    """
+    for each in machine.functions:
+        function = each.function
+        if (each.sampling is not None) == sampled and not (
+            isinstance(function, Expression) and linear_function(function.tree) is not None
+        ):
+            yield Varying(
+                each.name,
+                f"{OF.get(each.section, each.section)}.{each.part}",
+                _curve(function, each.motion),
+                each.sampling,
+                each.motion,
+            )
+
+
+def _curve(function: Expression | Table | PythonLaw, motion: bool) -> Curve:
+    match function:
+        case Expression():
+            return ExpressionCurve(function)
+        case Table():
+            return TableCurve(function)
+        case PythonLaw():
+            return LawCurve(function, motion)
+
+
+def is_local(symbol: str) -> bool:
+    """Whether a symbol is what the force itself measures."""
+    return symbol in LOCAL_SYMBOLS

@@ -1,0 +1,195 @@
+"""Impulse of every function that the steps of a run have missed.
+
+Over each step the integral of the function, and that of its magnitude, are compared with those of what the method takes it for
+(`nivel.analysis.curves.method_interpolation`). What is missed is summed over a twentieth of the run, where
+errors of both signs cancel as they do in the motion, and held against the integral of the magnitude. Features narrower than what lies
+between samples are found by bounds of the function over intervals, which are halved as long as they allow more than was sampled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.curves.functions import Varying, varying
+from nivel.analysis.curves.method_interpolation import as_seen
+from nivel.analysis.curves.path import Path, Steps, path_of
+from nivel.analysis.curves.switches import cut_at_switches
+from nivel.integrate.catalogue import IntegratorFacts
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.bounds import Interval
+from nivel.results.result import Result
+from nivel.results.trust.missed_impulse import Unseen
+
+Array = NDArray[np.float64]
+# Parts of a step between samples, and how many parts of the run are judged by themselves.
+SAMPLES, WINDOWS = 16, 20
+# A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.
+QUIET = 1e-2
+# Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
+BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
+# A found feature is sampled by so many points; at most so many are.
+FEATURE, MOST_FEATURES = 2048, 32
+
+
+def unseen_loads(
+    machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts, *, chosen: bool
+) -> Iterator[Unseen]:
+    """What the steps of a run have missed of each function that is looked at in every step and whose signals are known.
+
+    chosen : the steps were chosen, and end at switches.
+    """
+    for function in varying(machine):
+        path = path_of(function, machine, result)
+        if path is not None and len(path.time) > 1:
+            found = missed(function, path, cut_at_switches(function, path, steps) if chosen else steps, facts)
+            if found is not None:
+                yield found
+
+
+def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
+    """What was missed of one function; None where it has no value anywhere."""
+    # the samples of one share of all steps stand side by side, as sums over the samples of a step are fast then
+    share = np.arange(SAMPLES + 1)[:, None] / SAMPLES
+    time = steps.begin + steps.length * share
+    values = function.curve.values(path.at(time.ravel())).reshape(time.shape).T
+    finite = np.isfinite(values)
+    if not finite.any():
+        return None
+    if not finite.all():
+        values = np.where(finite, values, 0.0)
+    curve = as_seen(values, steps, facts)
+    exact, magnitude = _integrals(values, steps.length)
+    seen, curve_magnitude = _integrals(curve, steps.length)
+    # what changes its sign once in a step is a kink of the magnitude, not a vibration within the step
+    vibrates = (np.diff(np.signbit(values), axis=1)).sum(axis=1) > 1
+    seen_magnitude = np.where(vibrates, curve_magnitude, magnitude)
+    found = _beyond_samples(function, path, steps, values)
+    narrow = _put_right(function, path, steps, found, exact, magnitude)
+    features = np.union1d(found, _beyond_curve(values, curve))
+    hidden = float(np.abs(exact - seen)[features].sum()) / max(float(magnitude.sum()), 1e-300)
+    return _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden)
+
+
+def _beyond_curve(values: Array, curve: Array) -> NDArray[np.int64]:
+    """The steps in which samples go beyond what the method takes the function for."""
+    beyond = np.maximum(values.max(axis=1) - curve.max(axis=1), curve.min(axis=1) - values.min(axis=1))
+    return np.flatnonzero(beyond > BEYOND * float(np.abs(values).max()))
+
+
+def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
+    """∫F and ∫|F| over the rows of `values` (n, SAMPLES + 1): composite Simpson, the trapezoidal rule for the magnitude where F changes
+    its sign."""
+    h = length / (values.shape[1] - 1)
+
+    def simpson(f: Array) -> Array:
+        return h / 3.0 * (f[:, 0] + f[:, -1] + 4.0 * f[:, 1:-1:2].sum(axis=1) + 2.0 * f[:, 2:-1:2].sum(axis=1))
+
+    size = np.abs(values)
+    changes = (values.min(axis=1) < 0.0) & (values.max(axis=1) > 0.0)
+    trapezoidal = h * (size[:, 1:-1].sum(axis=1) + 0.5 * (size[:, 0] + size[:, -1]))
+    exact = simpson(values)
+    return exact, np.where(changes, trapezoidal, np.abs(exact))
+
+
+def _beyond_samples(function: Varying, path: Path, steps: Steps, values: Array) -> NDArray[np.int64]:
+    """The steps in which the function goes beyond what was sampled."""
+    low, high = values.min(axis=1), values.max(axis=1)
+    begin, width = steps.begin, steps.length
+    of = np.arange(len(begin))
+    largest, found = float(np.abs(values).max()), set[int]()
+    for _ in range(HALVINGS):
+        bounds = function.curve.bounds(_intervals(path, begin, width))
+        if bounds is None:
+            break
+        least, most = bounds
+        beyond = np.maximum(np.maximum(most - high[of], low[of] - least), 0.0)
+        floor = max(BEYOND * largest, 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond))))
+        keep = np.flatnonzero(beyond > floor)
+        if len(keep) > MOST_INTERVALS:
+            keep = keep[np.argsort(-beyond[keep], kind="stable")[:MOST_INTERVALS]]
+        if not len(keep):
+            break
+        begin, width, of = begin[keep], width[keep], of[keep]
+        middle = begin + 0.5 * width
+        inside = np.nan_to_num(function.curve.values(path.at(middle)))
+        is_feature = np.maximum(inside - high[of], low[of] - inside) > floor
+        largest = max(largest, float(np.abs(inside).max()))
+        if is_feature.any():
+            found |= set(of[is_feature].tolist())
+        begin, width, of = np.concatenate([begin, middle]), np.tile(0.5 * width, 2), np.tile(of, 2)
+    return np.array(sorted(found), dtype=np.int64)
+
+
+def _put_right(
+    function: Varying, path: Path, steps: Steps, found: NDArray[np.int64], exact: Array, magnitude: Array
+) -> float | None:
+    """The integrals over the steps `found`, of many over MOST_FEATURES of them, which then stand for the others; the shortest time [s] in
+    which the function changes by its range there, None where nothing was found."""
+    if not len(found):
+        return None
+    chosen = found[np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_FEATURES)).astype(int))]
+    refined = np.array([_refined(function, path, float(steps.begin[k]), float(steps.length[k])) for k in chosen])
+    mean = refined[:, :2].sum(axis=0) / steps.length[chosen].sum()
+    exact[found], magnitude[found] = mean[0] * steps.length[found], mean[1] * steps.length[found]
+    exact[chosen], magnitude[chosen] = refined[:, 0], refined[:, 1]
+    return float(refined[:, 2].min())
+
+
+def _refined(function: Varying, path: Path, begin: float, length: float) -> tuple[float, float, float]:
+    """∫F and ∫|F| over one step, with a sample wherever the function may have a feature, and the time [s] in which it changes by its
+    range."""
+    time = begin + length * np.linspace(0.0, 1.0, FEATURE + 1)
+    values = np.nan_to_num(function.curve.values(path.at(time)))
+    for _ in range(HALVINGS):
+        jump = np.abs(np.diff(values))
+        split = np.flatnonzero(jump > 0.02 * max(float(np.abs(values).max()), 1e-300))
+        if not len(split) or len(time) > 4 * FEATURE:
+            break
+        middle = 0.5 * (time[split] + time[split + 1])
+        time = np.insert(time, split + 1, middle)
+        values = np.insert(values, split + 1, np.nan_to_num(function.curve.values(path.at(middle))))
+    slope = float(np.max(np.abs(np.diff(values)) / np.maximum(np.diff(time), 1e-300)))
+    scale = float(np.ptp(values)) / slope if slope > 0.0 else length
+    return float(np.trapezoid(values, time)), float(np.trapezoid(np.abs(values), time)), scale
+
+
+def _intervals(path: Path, begin: Array, width: Array) -> dict[str, Interval]:
+    """The time and all signals over intervals of time: straight between their ends."""
+    first, last = path.at(begin), path.at(begin + width)
+    return {name: (np.minimum(first[name], last[name]), np.maximum(first[name], last[name])) for name in first}
+
+
+def _judged(
+    function: Varying,
+    steps: Steps,
+    sums: tuple[Array, Array, Array],
+    values: Array,
+    narrow: float | None,
+    hidden: float,
+) -> Unseen:
+    """The part of the run in which most is missed."""
+    end = float(steps.begin[-1] + steps.length[-1])
+    window = np.minimum((steps.begin / end * WINDOWS).astype(int), WINDOWS - 1)
+    off, off_magnitude, magnitude = (np.bincount(window, each, WINDOWS) for each in sums)
+    scale = np.maximum(magnitude, max(QUIET * float(magnitude.max()), 1e-300))
+    share = np.maximum(np.abs(off), np.abs(off_magnitude)) / scale
+    worst = int(np.argmax(share))
+    inside = np.flatnonzero(window == worst)
+    if not len(inside):
+        return Unseen(function.name, 0.0, 0.0, 0.0, 0.0)
+    k = int(inside[np.argmax(np.abs(sums[0][inside]) + np.abs(sums[1][inside]))])
+    slope = float(np.abs(np.diff(values[k])).max()) * SAMPLES / float(steps.length[k])
+    scale_of_time = float(np.ptp(values)) / slope if slope > 0.0 else float(steps.length[k])
+    return Unseen(
+        function.name,
+        float(share[worst]),
+        float(steps.begin[k]),
+        min(scale_of_time, narrow if narrow is not None else np.inf),
+        float(steps.length[k]),
+        TIME if not function.curve.signals else function.curve.signals[0],
+        hidden,
+    )

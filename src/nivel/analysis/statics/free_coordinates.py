@@ -1,0 +1,65 @@
+"""Coordinates without stiffness, named free: an equilibrium leaves them where they are placed, and no force may act on them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.errors import SolveError
+from nivel.machine.joints.driver import Driver
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import resolve
+from nivel.results.result import Result
+from nivel.system.system import Array
+
+# Accelerations and efforts below this share of the largest loads are round-off of the search.
+ROUND_OFF = 1e-6
+
+
+def holding_free(machine: MachineRecord) -> MachineRecord:
+    """The machine with a driver that holds each free coordinate where it is placed."""
+    drivers = []
+    for reference in machine.simulation.free:
+        joint, coordinate = resolve(reference, machine.joints)
+        name = _name(joint, coordinate)
+        drivers.append(Driver(name=name, coordinate=f"{joint}.{coordinate}", value=0.0, from_start=True))
+    simulation = machine.simulation.replace(free=())
+    return machine.replace(drivers=(*machine.drivers, *drivers), simulation=simulation) if drivers else machine
+
+
+def _name(joint: str, coordinate: str) -> str:
+    return f"free_{joint}_{coordinate}"
+
+
+def refuse_moving(machine: MachineRecord, accelerations: Array, size: float) -> None:
+    """Refuse a start at rest from which a free coordinate moves off. accelerations (B, 6) of (Ṙ, ω̄) at rest.
+
+    Raises SolveError.
+    """
+    if not machine.simulation.free:
+        return
+    g = float(np.linalg.norm(machine.gravity)) or 1.0
+    if np.abs(accelerations[:, :3]).max() > ROUND_OFF * g or np.abs(accelerations[:, 3:]).max() * size > ROUND_OFF * g:
+        raise SolveError(_not_free(machine, "the machine does not stay there"), time=0.0, advice=ADVICE)
+
+
+def loaded_free(machine: MachineRecord, result: Result, size: float) -> tuple[str, str] | None:
+    """(message, advice) where in a state found a force acts on a free coordinate: it is no equilibrium then."""
+    if not machine.simulation.free or not len(result.time):
+        return None
+    forces = np.abs(result.array("joint_force")).max() if "joint_force" in result.variables else 0.0
+    least = ROUND_OFF * max(float(forces), 1e-12) * max(size, 1.0)
+    for reference in machine.simulation.free:
+        joint, coordinate = resolve(reference, machine.joints)
+        effort = np.abs(result.array(f"driver.{_name(joint, coordinate)}.effort"))
+        if effort.max() > least:
+            units = "N m" if coordinate.startswith("angle") else "N"
+            return _not_free(machine, f"{effort.max():.4g} {units} act on {joint}.{coordinate}"), ADVICE
+    return None
+
+
+ADVICE = "Take it out of `simulation: {free: …}`, or hold it by a spring or a driver."
+
+
+def _not_free(machine: MachineRecord, why: str) -> str:
+    named = ", ".join(machine.simulation.free)
+    return f"this is no equilibrium: {why} with {named} where the file places it"

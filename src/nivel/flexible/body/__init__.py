@@ -1,0 +1,1 @@
+"""Reduced bodies: invariants, files, recovery of displacements and stresses."""

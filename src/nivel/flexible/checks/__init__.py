@@ -1,0 +1,1 @@
+"""Checks of a reduced body against its model and mesh."""

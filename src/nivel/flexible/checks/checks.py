@@ -1,0 +1,209 @@
+"""Faults of a finite-element model, found before it is solved, and said with what to do."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from nivel.flexible.model.model import AXES, Array, FiniteElementModel, Whole
+from nivel.flexible.model.sparse import Sparse
+from nivel.flexible.reduction.factor import NoStiffnessError
+from nivel.flexible.reduction.free_body import FreeBody
+
+SYMMETRIC: Final = 1e-8  # unsymmetric part as a share of the largest element
+GROUNDED: Final = 1e-6  # force of a rigid motion as a share of what stiffness could give
+SLOWEST, FASTEST = 5.0, 1e5  # [m/s] of waves in materials
+FEW: Final = 100  # nodes below which a model may be condensed, and waves through its matrices are only a rough guess
+LIGHTEST, DENSEST = 0.01, 1e5  # [kg/m^3]
+SHOWN: Final = 6  # nodes that a message names
+
+
+def unsymmetric(matrix: Sparse, what: str) -> str:
+    """Why `matrix` is not symmetric; empty where it is."""
+    difference = sp.coo_array(matrix - matrix.T)
+    scale = np.abs(matrix.data).max() if matrix.nnz else 1.0
+    if not difference.nnz or np.abs(difference.data).max() <= SYMMETRIC * scale:
+        return ""
+    at = int(np.argmax(np.abs(difference.data)))
+    i, j = difference.coords[0][at], difference.coords[1][at]
+    triangle = " Only one triangle is stored and the file says the whole matrix." if _one_triangle(matrix) else ""
+    return (
+        f"the {what} matrix is not symmetric: element ({i + 1}, {j + 1}) is {matrix[i, j]:.6g}, ({j + 1}, {i + 1}) is "
+        f"{matrix[j, i]:.6g}.{triangle} Export the symmetric matrix of a linear step, without friction, follower loads or rotor terms"
+    )
+
+
+def _one_triangle(matrix: Sparse) -> bool:
+    return sp.tril(matrix, -1).nnz == 0 or sp.triu(matrix, 1).nnz == 0
+
+
+def problems(model: FiniteElementModel) -> list[str]:
+    """Everything found without solving."""
+    found = [unsymmetric(model.stiffness, "stiffness"), unsymmetric(model.mass.matrix, "mass")]
+    found += [_unconnected(model), _without_mass(model), _grounded(model)]
+    found = [each for each in found if each]
+    return found or [each for each in [_waves(model)] if each]
+
+
+def _unconnected(model: FiniteElementModel) -> str:
+    """Parts between which there is no stiffness. The freedoms of a node belong together."""
+    nodes, axes = np.nonzero(model.freedoms >= 0)
+    rows = (np.ones(len(nodes)), (nodes, model.freedoms[nodes, axes]))
+    share = sp.csr_array(rows, shape=(len(model.position), model.expansion.shape[0])) @ abs(model.expansion)
+    number, part = connected_components(share @ abs(model.stiffness) @ share.T, directed=False)
+    if number == 1:
+        return ""
+    sizes = np.bincount(part)
+    order = np.argsort(sizes)[::-1]
+    firsts = [model.node_ids[np.flatnonzero(part == p)[0]] for p in order[:SHOWN]]
+    texts = [
+        f"{sizes[p]} node{'s' if sizes[p] > 1 else ''} from node {first}"
+        for p, first in zip(order, firsts, strict=False)
+    ]
+    more = f" and {number - SHOWN} more" if number > SHOWN else ""
+    return (
+        f"the model falls into {number} parts that no stiffness joins: {'; '.join(texts)}{more}. Merge coincident nodes, tie the "
+        "parts in the finite-element program, or reduce each part as a body of its own"
+    )
+
+
+def _node_of(model: FiniteElementModel, independent: int) -> str:
+    """The number of the node of an independent freedom, with its direction."""
+    full = int(model.independent[independent])
+    node, axis = np.argwhere(model.freedoms == full)[0]
+    return f"{model.node_ids[node]} ({AXES[axis]})"
+
+
+def _without_mass(model: FiniteElementModel) -> str:
+    total = float(np.trace(_rigid_mass(model)[:3, :3])) / 3.0
+    if total <= 0.0:
+        return "the model has no mass: give the materials a density, or a mass matrix"
+    rigid = _rigid_mass(model)[:3, :3]
+    if np.abs(rigid - total * np.eye(3)).max() > 1e-3 * total:
+        masses = ", ".join(f"{m:.6g}" for m in np.diag(rigid))
+        return (
+            f"the mass matrix has another mass along x, y and z ({masses} kg): degrees of freedom are missing, supports were removed from "
+            "the matrix, or rows stand for other directions than the table `freedoms` says"
+        )
+    return ""
+
+
+def _rigid_mass(model: FiniteElementModel) -> Array:
+    R = model.rigid_modes()
+    return R.T @ (model.mass.matrix @ R)
+
+
+def _grounded(model: FiniteElementModel) -> str:
+    """Whether a rigid motion costs energy."""
+    R = model.rigid_modes(model.position.mean(axis=0))
+    R = R / np.abs(R).max(axis=0)
+    force = np.abs(model.stiffness @ R)
+    possible = np.abs(model.stiffness) @ np.abs(R)
+    share = force.max(axis=0) / np.maximum(possible.max(axis=0), 1e-300)
+    worst = int(np.argmax(share))
+    if share[worst] <= GROUNDED:
+        return ""
+    where = _node_of(model, int(np.argmax(force[:, worst])))
+    motions = [f"along {a}" for a in "xyz"] + [f"about {a}" for a in "xyz"]
+    return (
+        f"the stiffness matrix holds the body to the ground: a rigid motion {motions[worst]} causes a force at node {where}, "
+        f"{share[worst]:.2g} of what its stiffness could give. Remove supports, springs to ground and boundary conditions in the "
+        "finite-element program; interfaces are held by joints later. If there are none, coordinates and matrix differ in units or axes"
+    )
+
+
+def _waves(model: FiniteElementModel) -> str:
+    """Whether stiffness, mass and lengths fit together: waves in materials travel between 5 m/s and 100 km/s."""
+    speed = wave_speed(model)
+    doubt = 10.0 if len(model.position) < FEW else 1.0
+    if speed is None or SLOWEST / doubt <= speed <= FASTEST * doubt:
+        return ""
+    return (
+        f"stiffness, mass and lengths do not fit together: waves would travel at {speed:.2g} m/s, in metals it is about 5000 m/s. "
+        f"{_likely(speed / 5000.0)} Say what the units of the files are, `units: {{length: mm, mass: t}}` for instance"
+    )
+
+
+def _likely(ratio: float) -> str:
+    """The slip that gives a wave speed that is wrong by `ratio`: it goes with length × √(stiffness / mass)."""
+    candidates = {
+        1e-3: "Lengths look like metres where the matrices are in N, t and mm (or masses are 1e6 times too large).",
+        31.6: "The mass looks 1000 times too small: t for kg.",
+        0.0316: "The mass looks 1000 times too large: g for kg.",
+        1e3: "Lengths look like millimetres, or the mass looks 1e6 times too small.",
+        10**4.5: "The mass looks 1e9 times too small: a density in t/mm³ for kg/m³ with lengths in m.",
+        10**-4.5: "The mass looks 1e9 times too large: a density in kg/m³ with lengths in mm.",
+        1e6: "The mass looks 1e12 times too small: a density in t/mm³ with lengths in m.",
+        1e-6: "The mass looks 1e12 times too large.",
+    }
+    nearest = min(candidates, key=lambda each: abs(np.log(each / ratio)))
+    return candidates[nearest]
+
+
+def wave_speed(model: FiniteElementModel) -> float | None:
+    """[m/s] estimated from translations: distance to stiff neighbours × √(K_ii / M_ii), median over nodes."""
+    K, M = model.stiffness, model.mass.matrix
+    at = model.independent
+    rows = np.full(model.expansion.shape[0], -1)
+    rows[at] = np.arange(len(at))
+    own = rows[model.freedoms[:, 0]]
+    nodes = np.flatnonzero((own >= 0) & (model.freedoms[:, 0] >= 0))[:: max(1, len(own) // 200)]
+    speeds = []
+    for node in nodes:
+        row = own[node]
+        neighbours = K.indices[K.indptr[row] : K.indptr[row + 1]]
+        owners = np.flatnonzero(np.isin(model.freedoms[:, :3], at[neighbours]).any(axis=1))
+        distances = np.linalg.norm(model.position[owners] - model.position[node], axis=1)
+        distances = distances[distances > 0.0]
+        k, m = K[row, row], M[row, row]
+        if len(distances) and k > 0.0 and m > 0.0:
+            speeds.append(distances.min() * np.sqrt(k / m))
+    return float(np.median(speeds)) if speeds else None
+
+
+def mass_problem(mass: float, expected: float | None, volume: float | None, size: float) -> str:
+    """Why the mass [kg] cannot be right; empty where it can. volume : [m³] of the mesh; size : [m] of the body."""
+    if expected is not None:
+        ratio = mass / expected
+        if 0.5 <= ratio <= 2.0:
+            return ""
+        return f"the model weighs {mass:.6g} kg and {expected:.6g} kg were expected, {ratio:.3g} times as much{_power(ratio)}"
+    density = mass / (volume if volume is not None else size**3)
+    lightest = LIGHTEST if volume is not None else 1e-5
+    if lightest <= density <= DENSEST:
+        return ""
+    what = "a mean density" if volume is not None else "a mean density, in a cube around it,"
+    return f"the model weighs {mass:.6g} kg with a size of {size:.4g} m: {what} of {density:.3g} kg/m^3{_power(density / 1000.0)}"
+
+
+def _power(ratio: float) -> str:
+    """What a factor of about a power of a thousand usually means."""
+    exponent = 3 * round(np.log10(ratio) / 3.0)
+    meaning = {
+        3: "masses in g or t taken for kg",
+        6: "lengths in mm taken for m in two of three places",
+        9: "a density in kg/m³ used with lengths in mm, or in t/mm³ taken for kg/mm³",
+        12: "a density in kg/m³ used with a model in t and mm",
+    }.get(abs(exponent))
+    if exponent == 0 or meaning is None or abs(np.log10(ratio) - exponent) > 1.3:
+        return "; check the units of densities and lengths"
+    return f", about 1e{exponent}: {meaning}; check `units`, and the units of densities"
+
+
+def mechanism(body: FreeBody, error: NoStiffnessError, rows: Whole | None = None) -> str:
+    """Which nodes can move although no rigid motion is left."""
+    motion = np.zeros(body.model.count)
+    motion[body.free if rows is None else rows] = error.motion
+    moved = np.nan_to_num(body.model.node_motion(motion[:, None])[:, :, 0])
+    size = np.abs(moved).max(axis=1)
+    nodes = np.argsort(size)[::-1]
+    nodes = nodes[size[nodes] > 0.5 * size.max()][:SHOWN]
+    texts = [f"{body.model.node_ids[node]} ({AXES[int(np.argmax(np.abs(moved[node])))]})" for node in nodes]
+    return (
+        f"the stiffness is singular beyond the six rigid motions: a mechanism is left in which node{'s' if len(texts) > 1 else ''} "
+        f"{', '.join(texts)} move{'' if len(texts) > 1 else 's'} most. Join what is loose, remove hinges and degrees of freedom without "
+        "stiffness"
+    )

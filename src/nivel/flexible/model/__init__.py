@@ -1,0 +1,1 @@
+"""Finite-element models: files, meshes, frames, mass."""

@@ -1,0 +1,135 @@
+"""Mass of a finite-element model: what moves where, so that inertia needs no look at elements.
+
+Two kinds. `PointMass` is a cloud of points that carry mass; every invariant of a flexible body is then a plain sum over
+points, and all identities between the invariants hold to round-off. nivel's own beams and solids are of this kind, with
+consistent and with lumped mass. `MatrixMass` is a matrix of another program of which no more is known.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from nivel.flexible.model.sparse import Sparse
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PointMass:
+    """Points that carry mass.
+
+    position : (p, 3) [m]
+    shape : (3 p, N) displacement of the points for the N freedoms of the model, x, y, z of the first point first
+    weight : (p, p) [kg] symmetric; diagonal where masses are at points, else the scalar mass matrix ∫ ρ N_a N_b dV
+
+    The kinetic energy is ½ Σ_pq weight_pq v_p · v_q. `shape` moves the points rigidly for rigid motions of the nodes.
+    Beams: points at the four Gauss stations of an element and, at each, four points of its section that have the mass
+    and the moments of inertia of the section: rotary inertia and torsion included, exactly the consistent mass matrix.
+    Solids: the points are the nodes.
+    """
+
+    position: Array
+    shape: Sparse
+    weight: Sparse
+
+    @property
+    def matrix(self) -> Sparse:
+        """(N, N) [kg, kg m, kg m²]"""
+        weight = sp.csr_array(sp.kron(self.weight, sp.eye_array(3)))
+        return sp.csc_array(self.shape.T @ weight @ self.shape)
+
+    def transformed(self, transformation: Sparse) -> PointMass:
+        """The same with freedoms q, where those of now are `transformation` q."""
+        return replace(self, shape=sp.csr_array(self.shape @ transformation))
+
+    def scaled(self, factor: float) -> PointMass:
+        """The same with all masses times `factor`."""
+        return replace(self, weight=self.weight * factor)
+
+
+@dataclass(frozen=True)
+class MatrixMass:
+    """A mass matrix of which no more is known, (N, N).
+
+    position : (n, 3) [m] nodes; freedoms : (n, 6) numbers of the rows of x, y, z and the turns about x, y, z of every
+    node, -1 where there is none.
+    transformation : (N, N') what the matrix is multiplied with from both sides (interfaces that tie nodes), or None.
+    """
+
+    position: Array
+    freedoms: NDArray[np.int64]
+    full: Sparse
+    transformation: Sparse | None = None
+
+    @property
+    def matrix(self) -> Sparse:
+        """(N', N')"""
+        if self.transformation is None:
+            return self.full
+        return sp.csc_array(self.transformation.T @ self.full @ self.transformation)
+
+    def transformed(self, transformation: Sparse) -> MatrixMass:
+        """The same with freedoms q, where those of now are `transformation` q."""
+        before = self.transformation
+        return replace(self, transformation=transformation if before is None else sp.csr_array(before @ transformation))
+
+
+Mass = PointMass | MatrixMass
+
+
+def from_matrix(position: Array, freedoms: NDArray[np.int64], matrix: Sparse) -> Mass:
+    """A PointMass where `matrix` is one: x, y and z of nodes have the same mass and nothing couples them; else a MatrixMass."""
+    if np.any(freedoms[:, 3:] >= 0) or np.any(freedoms[:, :3] < 0):
+        return MatrixMass(position, freedoms, matrix)
+    blocks = [[matrix[freedoms[:, a]][:, freedoms[:, b]] for b in range(3)] for a in range(3)]
+    scalar = sp.csr_array((blocks[0][0] + blocks[1][1] + blocks[2][2]) / 3.0)
+    scale = np.abs(scalar.data).max() if scalar.nnz else 0.0
+    for a in range(3):
+        for b in range(3):
+            rest = blocks[a][b] - scalar if a == b else blocks[a][b]
+            if rest.nnz and np.abs(rest.data).max() > 1e-9 * scale:
+                return MatrixMass(position, freedoms, matrix)
+    return PointMass(position, at_nodes(freedoms, matrix.shape[0]), scalar)
+
+
+def at_nodes(freedoms: NDArray[np.int64], count: int) -> Sparse:
+    """(3 n, count): the displacements of the nodes as points; a direction without a freedom does not move."""
+    rows = np.flatnonzero(freedoms[:, :3].ravel() >= 0)
+    columns = freedoms[:, :3].ravel()[rows]
+    return sp.csr_array((np.ones(len(rows)), (rows, columns)), shape=(3 * len(freedoms), count))
+
+
+def lumped(mass: Mass) -> PointMass:
+    """Mass at the nodes alone: every node gets the sum of its row of the translational mass, scaled to the same total.
+
+    Rows whose sum is not positive (corners of quadratic elements) are avoided by taking the diagonal scaled to the total
+    (Hinton, Rock & Zienkiewicz 1976). Rotary inertia of the nodes is left out.
+    """
+    if isinstance(mass, PointMass):
+        sums = np.asarray(mass.weight.sum(axis=1)).ravel()
+        total = sums.sum()
+        if sums.min() <= 0.0:
+            sums = mass.weight.diagonal()
+            sums = sums * (total / sums.sum())
+        return replace(mass, weight=sp.csr_array(sp.diags_array(sums)))
+    scalar = scalar_part(mass)
+    sums = np.asarray(scalar.sum(axis=1)).ravel()
+    shape = at_nodes(mass.freedoms, mass.full.shape[0])
+    point = PointMass(mass.position, shape, sp.csr_array(sp.diags_array(sums)))
+    return point if mass.transformation is None else point.transformed(mass.transformation)
+
+
+def scalar_part(mass: MatrixMass) -> Sparse:
+    """(n, n) [kg] mean of the x, y and z parts of the translational mass of nodes."""
+    selection = [
+        sp.csr_array(
+            (np.ones(np.count_nonzero(f >= 0)), (np.flatnonzero(f >= 0), f[f >= 0])),
+            shape=(len(f), mass.full.shape[0]),
+        )
+        for f in mass.freedoms[:, :3].T
+    ]
+    return sp.csr_array(sum(S @ mass.full @ S.T for S in selection) / 3.0)

@@ -1,0 +1,92 @@
+"""Solids as a model file says them: parts that are added and cut, or a STEP file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator
+
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import Truth
+from nivel.machine.core.record import Name
+from nivel.machine.given import Field
+from nivel.machine.units.quantity import Position, PositiveLength, fault, shown
+
+
+def _file(value: Any) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise fault(f"the name of a file was expected, got {shown(value)}")
+    return value
+
+
+class _PartRecord(Checked):
+    cut: Truth = Field(default=False, description="taken away from the parts before it instead of added")
+
+
+class BoxPart(_PartRecord):
+    """A block between two opposite corners."""
+
+    type: Literal["box"] = "box"
+    from_: Position = Field(key="from")
+    to: Position
+
+    def problems(self) -> Iterator[Problem]:
+        if any(a == b for a, b in zip(self.from_, self.to, strict=True)):
+            yield Problem(("to",), "the block has no thickness: `from` and `to` differ along all three axes")
+
+
+class CylinderPart(_PartRecord):
+    """A round bar between two points of its axis."""
+
+    type: Literal["cylinder"] = "cylinder"
+    from_: Position = Field(key="from")
+    to: Position
+    radius: PositiveLength
+
+    def problems(self) -> Iterator[Problem]:
+        if self.from_ == self.to:
+            yield Problem(("to",), "`from` and `to` are the same point")
+
+
+class ConePart(_PartRecord):
+    """A round bar that tapers from `radius` to `end_radius`."""
+
+    type: Literal["cone"] = "cone"
+    from_: Position = Field(key="from")
+    to: Position
+    radius: PositiveLength
+    end_radius: PositiveLength
+
+    def problems(self) -> Iterator[Problem]:
+        if self.from_ == self.to:
+            yield Problem(("to",), "`from` and `to` are the same point")
+        if self.radius == self.end_radius:
+            yield Problem(("end_radius",), "equal radii make a `cylinder`")
+
+
+class SpherePart(_PartRecord):
+    """A ball."""
+
+    type: Literal["sphere"] = "sphere"
+    centre: Position
+    radius: PositiveLength
+
+
+Part = Annotated[BoxPart | CylinderPart | ConePart | SpherePart, Field(discriminator="type")]
+
+
+class Solid(Checked):
+    """A solid of one material, meshed with tetrahedra of ten nodes."""
+
+    parts: tuple[Part, ...] = ()
+    file: Annotated[str, BeforeValidator(_file)] | None = Field(default=None, description="a STEP file")
+    material: Name
+    element_size: PositiveLength
+    tagged = {"parts": 2}  # noqa: RUF012
+
+    def problems(self) -> Iterator[Problem]:
+        if (self.file is None) == (not self.parts):
+            yield Problem((), "either `parts` or a `file` was expected")
+        if self.parts and self.parts[0].cut:
+            yield Problem(("parts", 0, "cut"), "the first part has nothing to be cut from")

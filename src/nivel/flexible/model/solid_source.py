@@ -1,0 +1,117 @@
+"""Solids as model files say them: meshed, assembled with scikit-fem."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.spatial import KDTree
+
+from nivel.errors import ModelError
+from nivel.extras import needed, require
+from nivel.flexible.model.mass import PointMass, at_nodes
+from nivel.flexible.model.mesher import SolidMesh, meshed
+from nivel.flexible.model.model import Array, FiniteElementModel, Whole
+from nivel.flexible.model.model_file import Located
+from nivel.flexible.model.selection import NodeSets
+from nivel.flexible.model.sparse import Sparse
+from nivel.flexible.model.tetrahedra import Tetrahedra, inverted, surface
+from nivel.machine.beams.section import Material
+
+# degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
+MASS_DEGREE, STIFFNESS_DEGREE = 4, 2
+NEEDS, SOLID_LIBRARIES = "a `solid` needs", ("gmsh", "skfem", "meshio")
+
+
+def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[FiniteElementModel, NodeSets]:
+    """The finite-element model of the `solid` of a model file; it has no node sets.
+
+    Raises ModelError.
+    """
+    solid = located.record.solid
+    assert solid is not None
+    require(NEEDS, *SOLID_LIBRARIES)
+    for library in SOLID_LIBRARIES:
+        needed(library, NEEDS)
+    say("meshing the solid", 0.0)
+    try:
+        mesh = meshed(solid, None if solid.file is None else located.beside(solid.file))
+    except ModelError as error:
+        place = ("solid", "file") if solid.file is not None else ("solid",)
+        raise ModelError(
+            [located.fault(place, each.message, at_key=place == ("solid",)) for each in error.faults]
+        ) from None
+    say(f"assembling {len(mesh.nodes)} tetrahedra", 0.4)
+    return assembled(located.record.name, mesh, located.record.materials[solid.material]), {}
+
+
+def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementModel:
+    """The model of a mesh. Raises ModelError where an element is turned inside out."""
+    bad = inverted(mesh.nodes, mesh.position)
+    if len(bad):
+        raise ModelError(
+            f"{len(bad)} of {len(mesh.nodes)} elements are turned inside out: {_numbers(bad)}; mesh finer around curves"
+        )
+    stiffness, mass = matrices(mesh, material)
+    exact = material.density * mesh.volume
+    note = f"The mesh weighs {mass.sum():.6g} kg, the shape itself {exact:.6g} kg ({100 * (mass.sum() / exact - 1):+.2g} %)."
+    freedoms = np.arange(3 * len(mesh.position)).reshape(-1, 3)
+    has_turns = np.full((len(mesh.position), 3), -1)
+    all_freedoms = np.hstack([freedoms, has_turns])
+    return FiniteElementModel(
+        name=name,
+        node_ids=np.arange(1, len(mesh.position) + 1),
+        position=mesh.position,
+        freedoms=all_freedoms,
+        stiffness=stiffness,
+        mass=PointMass(mesh.position, at_nodes(all_freedoms, freedoms.size), mass),
+        expansion=sp.csr_array(sp.eye_array(freedoms.size)),
+        elements=Tetrahedra(mesh.nodes, freedoms, mesh.position, material),
+        triangles=surface(mesh.nodes),
+        solids=mesh.nodes,
+        volume=mesh.volume,
+        notes=(note,),
+    )
+
+
+def _numbers(elements: Whole) -> str:
+    shown = ", ".join(str(each + 1) for each in elements[:6])
+    return shown if len(elements) <= 6 else f"{shown}, …"
+
+
+def matrices(mesh: SolidMesh, material: Material) -> tuple[Sparse, sp.csr_array]:
+    """Stiffness (3 n, 3 n) [N/m], node by node x, y, z, and scalar mass (n, n) [kg], by scikit-fem."""
+    import meshio
+    import skfem
+    from skfem.io.meshio import from_meshio
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+    from skfem.models.poisson import mass as mass_form
+
+    grid = from_meshio(meshio.Mesh(mesh.position, [("tetra10", mesh.nodes)]))
+    vector: Any = skfem.Basis(grid, skfem.ElementVector(skfem.ElementTetP2()), intorder=STIFFNESS_DEGREE)
+    scalar: Any = skfem.Basis(grid, skfem.ElementTetP2(), intorder=MASS_DEGREE)
+    K = linear_elasticity(*lame_parameters(material.youngs_modulus, material.poisson_ratio)).assemble(vector)
+    m = mass_form.assemble(scalar) * material.density
+    node = _nodes_of(scalar.doflocs.T, mesh.position)
+    order = np.empty(3 * len(node), dtype=np.int64)
+    for axis in range(3):
+        for ours, theirs in (
+            (scalar.nodal_dofs[0], vector.nodal_dofs[axis]),
+            (scalar.edge_dofs[0], vector.edge_dofs[axis]),
+        ):
+            order[3 * node[ours] + axis] = theirs
+    back = np.argsort(node)
+    stiffness: Sparse = sp.csr_array(K)
+    scalar_mass: Sparse = sp.csr_array(m)
+    return sp.csc_array(stiffness[order][:, order]), sp.csr_array(scalar_mass[back][:, back])
+
+
+def _nodes_of(places: Array, position: Array) -> Whole:
+    """(n,) the node at each place."""
+    found: Any = KDTree(position).query(places)
+    distance, node = found
+    if distance.max() > 1e-6 * np.ptp(position, axis=0).max() or len(np.unique(node)) != len(node):
+        raise ModelError("the mesh has nodes that coincide, or elements whose edges are not shared: merge them first")
+    return node

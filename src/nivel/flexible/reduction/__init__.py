@@ -1,0 +1,1 @@
+"""Reduction of a finite-element model to modes."""

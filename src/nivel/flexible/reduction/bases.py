@@ -1,0 +1,177 @@
+"""Bases of reduced bodies: the displacements that span its reduced model, each method a function.
+
+Every basis also spans the rigid motions or is combined with them by the reduction, which takes them out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+import scipy.sparse as sp
+
+from nivel.errors import ModelError
+from nivel.flexible.model.model import Array
+from nivel.flexible.model.sparse import Sparse
+from nivel.flexible.reduction.factor import Factor, Whole, lowest_modes, pivots
+from nivel.flexible.reduction.free_body import FreeBody
+from nivel.flexible.reduction.inertia_loads import inertia_loads
+
+LIMIT_START = 16  # modes that are computed first where a frequency is the limit
+MOST_MODES = 1000
+NEXT = 6  # modes beyond those that are kept, by which a run tells whether it lacks them
+MOST_BOUNDARY = 1200  # interface freedoms: each makes a correction mode
+
+
+@dataclass(frozen=True)
+class ModeCount:
+    """How many normal modes: `count` of them, or all `up_to` a frequency [Hz], or both (whatever is less)."""
+
+    count: int | None = None
+    up_to: float | None = None
+
+
+@dataclass(frozen=True)
+class Basis:
+    """`vectors` (N, k): `extra` ones that may depend on the others, interface modes, and `normal` modes at the end with their
+    `frequencies` [Hz], of the body as it was held. left : (N, c) the next normal modes, which are not taken; `held` : whether they leave
+    the interfaces where they are.
+    """
+
+    vectors: Array
+    normal: int
+    frequencies: Array
+    left: Array
+    held: bool = False
+    extra: int = 0
+
+
+def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
+    """Correction modes of the `boundary` freedoms and fixed-interface normal modes. Rantalainen 2007, eqs (3.28)–(3.31).
+
+    Where the boundary does not stop every rigid motion, the rest of them are zero-frequency normal modes of the body
+    held there. They are not computed: the reduction knows the rigid motions. The boundary is then held with some more
+    freedoms for the correction modes, which changes these by rigid motions only.
+    """
+    if len(boundary) > MOST_BOUNDARY:
+        raise ModelError(
+            f"the interfaces have {len(boundary)} degrees of freedom, and each makes a mode; "
+            f"{MOST_BOUNDARY} are allowed. Tie surfaces to reference nodes"
+        )
+    held = _with_pins(body, boundary)
+    inner = np.setdiff1d(np.arange(body.model.count), boundary)
+    corrections, factor, free = _correction_modes(body, boundary, held)
+    if len(held) == len(boundary):
+        found = _chosen(modes, lambda n: lowest_modes(*_within(body, inner), n, factor.solve))
+    else:
+        rigid = _rigid_within(body, boundary, inner)
+        K, M = _within(body, inner)
+        position = np.searchsorted(inner, free)
+
+        def solve(load: Array) -> Array:
+            balanced = load - M @ (rigid @ (rigid.T @ load))
+            moved = np.zeros_like(load)
+            moved[position] = factor.solve(balanced[position])
+            return moved - rigid @ (rigid.T @ (M @ moved))
+
+        found = _chosen(modes, lambda n: lowest_modes(K, M, n, solve, rigid))
+    values, inside, next_inside = found
+    normal, left = (np.zeros((body.model.count, each.shape[1])) for each in (inside, next_inside))
+    normal[inner], left[inner] = inside, next_inside
+    frequencies = np.sqrt(values) / (2.0 * np.pi)
+    return Basis(np.hstack([corrections, normal]), len(values), frequencies, left, held=len(boundary) > 0)
+
+
+def inertia_modes(body: FreeBody, boundary: Whole) -> Array:
+    """(N, 12) static displacement under the inertia forces of unit accelerations and spins, with the boundary held.
+
+    With these in the basis, the reduced body answers exactly to its own inertia while it moves steadily.
+    """
+    held = _with_pins(body, boundary)
+    free = np.setdiff1d(np.arange(body.model.count), held)
+    loads = np.hstack(list(inertia_loads(body).values()))
+    out = np.zeros_like(loads)
+    out[free] = Factor(sp.csc_array(body.K[free][:, free])).solve(loads[free])
+    return out
+
+
+def free_interface(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
+    """Free–free normal modes and attachment modes of the residual flexibility for unit loads on the `boundary` freedoms.
+
+    Rubin 1975 (AIAA J. 13): with the mass of the residual modes, which MacNeal 1971 neglects.
+    """
+    values, normal, left = _chosen(modes, body.elastic_modes)
+    flexible, loads = attachments(body, boundary)
+    residual = flexible - normal @ ((normal.T @ loads) / values[:, None])
+    return Basis(np.hstack([residual, normal]), len(values), np.sqrt(values) / (2.0 * np.pi), left)
+
+
+def normal_only(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
+    """Free–free normal modes alone. Left out is also the static answer to loads on the `boundary` freedoms."""
+    values, normal, left = _chosen(modes, body.elastic_modes)
+    left = np.hstack([left, attachments(body, boundary)[0]])
+    return Basis(normal, len(values), np.sqrt(values) / (2.0 * np.pi), left)
+
+
+def attachments(body: FreeBody, boundary: Whole) -> tuple[Array, Array]:
+    """(N, b) displacements under unit loads on the `boundary` freedoms, balanced by inertia; and these loads."""
+    loads = np.zeros((body.model.count, len(boundary)))
+    loads[boundary, np.arange(len(boundary))] = 1.0
+    return body.elastic_solution(loads), loads
+
+
+def _chosen(modes: ModeCount, compute: Callable[[int], tuple[Array, Array]]) -> tuple[Array, Array, Array]:
+    """Eigenvalues and vectors of as many modes as are wanted, and the vectors of some that come next."""
+    if modes.up_to is None:
+        wanted = modes.count or 0
+        values, vectors = compute(wanted + NEXT)
+        return values[:wanted], vectors[:, :wanted], vectors[:, wanted:]
+    limit = (2.0 * np.pi * modes.up_to) ** 2
+    most = np.inf if modes.count is None else modes.count
+    count = int(min(LIMIT_START, most + NEXT))
+    while True:
+        values, vectors = compute(count)
+        if len(values) < count or count >= most + NEXT or (len(values) and values[-1] > limit):
+            keep = int(min(np.count_nonzero(values <= limit), most))
+            return values[:keep], vectors[:, :keep], vectors[:, keep : keep + NEXT]
+        if count >= MOST_MODES:
+            raise ModelError(
+                f"more than {MOST_MODES} normal modes lie below {modes.up_to:g} Hz; lower `reduction.modes.up_to`, or limit the `count`"
+            )
+        count = int(min(2 * count, most + NEXT))
+
+
+def _with_pins(body: FreeBody, boundary: Whole) -> Whole:
+    """The boundary freedoms and, where these leave rigid motions, the fewest others that stop them."""
+    R = body.model.rigid_modes(body.model.position.mean(axis=0))
+    R = R / np.abs(R).max(axis=0)
+    left = la.null_space(R[boundary], rcond=1e-9) if len(boundary) else np.eye(6)
+    if left.shape[1] == 0:
+        return boundary
+    return np.concatenate([boundary, pivots((R @ left).T)[: left.shape[1]]])
+
+
+def _rigid_within(body: FreeBody, boundary: Whole, inner: Whole) -> Array:
+    """(I, k) M-orthonormal rigid motions that do not move the boundary."""
+    R = body.rigid
+    left = la.null_space(R[boundary], rcond=1e-9) if len(boundary) else np.eye(6)
+    motions = (R @ left)[inner]
+    gram = motions.T @ (body.M[inner][:, inner] @ motions)
+    return la.solve_triangular(la.cholesky(gram, lower=True), motions.T, lower=True).T
+
+
+def _within(body: FreeBody, inner: Whole) -> tuple[Sparse, sp.csc_array]:
+    return sp.csc_array(body.K[inner][:, inner]), sp.csc_array(body.M[inner][:, inner])
+
+
+def _correction_modes(body: FreeBody, boundary: Whole, held: Whole) -> tuple[Array, Factor, Whole]:
+    """(N, b) static displacement for unit motion of each boundary freedom; the factor of the rest, and that rest."""
+    free = np.setdiff1d(np.arange(body.model.count), held)
+    factor = Factor(sp.csc_array(body.K[free][:, free]))
+    out = np.zeros((body.model.count, len(boundary)))
+    out[boundary, np.arange(len(boundary))] = 1.0
+    if len(boundary):
+        out[free] = -factor.solve(body.K[free][:, boundary].toarray())
+    return out, factor, free

@@ -1,0 +1,177 @@
+"""A rigid or flexible body, or a point mass, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Final, Literal
+
+from pydantic import BeforeValidator
+
+from nivel.machine.bodies.flexibility import FlexibleBody
+from nivel.machine.bodies.inertia import InertiaTensor, impossible, mass_properties
+from nivel.machine.bodies.shape import Mesh, Shape, Sphere
+from nivel.machine.bodies.solids import volume, why_not_solid
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.coefficient import PositiveNumber, Truth
+from nivel.machine.core.orientation import Orientation
+from nivel.machine.core.record import GROUND, Name
+from nivel.machine.given import Field, ManyRecords, Maybe, OneRecord
+from nivel.machine.units.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
+
+LIGHTEST: Final = 1e-2  # [kg/m³] mean density below which a unit must have slipped: a hundredth of that of air
+DENSEST: Final = 1e5  # [kg/m³] and above which: four times that of the densest metal
+LIGHTEST_BODY: Final = 1e-40  # [kg] squares of inertias of lighter bodies leave the range of numbers
+
+_OF_A_RIGID_BODY: Final = (
+    "centre_of_mass",
+    "inertia",
+    "orientation",
+    "angular_velocity",
+    "angular_velocity_body",
+    "density",
+    "flexible",
+)
+
+
+class Body(Checked):
+    """A rigid body. Its frame may be anywhere; the centre of mass is given in it.
+
+    It has mass and inertia, or a shape and a density, or a shape and a mass. A point mass has a mass alone, a flexible body the file of
+    its modes.
+    """
+
+    collection: ClassVar[str] = "bodies"
+    tagged = {"shape": 1, "looks": 2}  # noqa: RUF012
+
+    name: Name
+    mass: Maybe[Mass] = Field(default=None)
+    centre_of_mass: Maybe[Position] = Field(
+        default=None, description="in the body frame; default the origin, or the shape's centre"
+    )
+    inertia: Maybe[InertiaTensor] = Field(
+        default=None, description="body axes: [xx, yy, zz], {xx, yy, zz, xy, xz, yz} or 3×3 matrix"
+    )
+    inertia_about: Literal["centre-of-mass", "origin"] = "centre-of-mass"
+    position: Maybe[Position] = Field(
+        default=None, description="of the body frame's origin, global; default the global origin"
+    )
+    orientation: Maybe[OneRecord[Orientation]] = Field(
+        default=None, description="of the body frame; default not turned"
+    )
+    velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of the body frame's origin, global axes")
+    angular_velocity: Maybe[AngularVelocityVector] = Field(default=None, description="global axes")
+    angular_velocity_body: Maybe[AngularVelocityVector] = Field(default=None, description="body axes")
+    shape: Maybe[OneRecord[Shape]] = Field(default=None)
+    looks: Annotated[ManyRecords[Shape], BeforeValidator(listed)] = Field(
+        default=(), description="further solids that are drawn, in the body frame; they have no mass and touch nothing"
+    )
+    density: Maybe[Density] = Field(default=None)
+    flexible: Maybe[FlexibleBody] = Field(
+        default=None, description="modes by which it bends; its mass is in their file"
+    )
+    point_mass: Truth = Field(default=False, description="a mass at a point, which does not turn")
+    hold: Truth = Field(default=False, description="the assembly does not move it")
+    assembly_weight: PositiveNumber = Field(
+        default=1.0, description="weight of its displacement in the assembly; a larger weight is moved less"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        if self.name == GROUND:
+            yield Problem((), f"`{GROUND}` is the fixed world and cannot be a body")
+        if self.mass is not None and self.mass < LIGHTEST_BODY:
+            yield Problem(("mass",), f"a mass of {self.mass:.3g} kg: a slip of a unit?")
+        yield from self._problems_of_looks()
+        if self.point_mass:
+            yield from self._problems_of_point_mass()
+            return
+        if self.flexible is not None:
+            yield from self._problems_of_flexible()
+        else:
+            yield from self._problems_of_inertia()
+        if self.angular_velocity is not None and self.angular_velocity_body is not None:
+            yield Problem((), "give `angular_velocity` (global axes) or `angular_velocity_body` (body axes), not both")
+        if self.shape is not None and not isinstance(self.shape, Sphere | Mesh) and self.shape.from_ is not None:
+            for name in ("position", "orientation"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "follows from the shape's `from` and `to` and must not be given")
+        yield from self._problems_of_density()
+
+    def _problems_of_looks(self) -> Iterator[Problem]:
+        for k, each in enumerate(self.looks):
+            if isinstance(each, Mesh):
+                yield Problem(("looks", k), "a mesh is a `shape`; `looks` are solids of a few numbers")
+            elif not isinstance(each, Sphere) and each.from_ is not None:
+                yield Problem(
+                    ("looks", k), "`looks` stand in the body frame, at their `centre`: `from` and `to` are global"
+                )
+
+    def _problems_of_point_mass(self) -> Iterator[Problem]:
+        if self.mass is None:
+            yield Problem((), "`mass` is missing: a point mass is given by its `mass`")
+        for name in _OF_A_RIGID_BODY:
+            if getattr(self, name) is not None:
+                yield superfluous(name, "does not belong to a point mass, which has a `mass` at its origin and no turn")
+        if self.inertia_about == "origin":
+            yield superfluous("inertia_about", "does not belong to a point mass, which has no inertia")
+        if self.shape is not None and not isinstance(self.shape, Sphere):
+            yield Problem(("shape",), f"a point mass is drawn as a sphere, not as a {self.shape.type}")
+        elif self.shape is not None and self.shape.centre is not None and any(self.shape.centre):
+            yield Problem(("shape", "centre"), "the sphere of a point mass has its centre at the mass")
+
+    def _problems_of_flexible(self) -> Iterator[Problem]:
+        for name in ("mass", "centre_of_mass", "inertia", "density"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "is known from the file of the flexible body and must not be given")
+        if self.inertia_about == "origin":
+            yield superfluous("inertia_about", "does not belong to a flexible body, whose inertia is in its file")
+        shape = self.shape
+        if isinstance(shape, Mesh) or (shape is not None and not isinstance(shape, Sphere) and shape.from_ is not None):
+            message = (
+                "a flexible body is drawn from its file; its `shape` is what touches in a contact, a solid about a `centre` that is at an "
+                "interface"
+            )
+            yield Problem(("shape",), message)
+
+    def _problems_of_inertia(self) -> Iterator[Problem]:
+        if self.density is not None:
+            if self.shape is None:
+                yield Problem(("density",), "`density` needs a `shape`")
+            else:
+                for name in ("mass", "centre_of_mass", "inertia"):
+                    if getattr(self, name) is not None:
+                        yield superfluous(name, "follows from `shape` and `density` and must not be given")
+        elif self.mass is None:
+            yield Problem((), "`mass` is missing: give `mass` and `inertia`, or `shape` with `density` or `mass`")
+        elif self.inertia is None and self.shape is None:
+            yield Problem((), "`inertia` is missing: give `inertia` or a `shape` to compute it from")
+        elif self.inertia is None and self.centre_of_mass is not None:
+            message = "`centre_of_mass` follows from `shape`; give `inertia` as well, or remove it"
+            yield Problem(("centre_of_mass",), message, at_key=True)
+        if self.inertia is None and self.inertia_about == "origin":
+            yield superfluous("inertia_about", "belongs to an `inertia`, and none is given")
+        if self.inertia is not None and self.mass is not None:
+            why = impossible(mass_properties(self).inertia)
+            shifted = " about the centre of mass" if self.inertia_about == "origin" else ""
+            if why:
+                yield Problem(("inertia",), f"`inertia`{shifted}: {why}")
+
+    def _problems_of_density(self) -> Iterator[Problem]:
+        if self.density is not None and not LIGHTEST <= self.density <= DENSEST:
+            yield Problem(("density",), f"a density of {self.density:.3g} kg/m^3: a slip of a unit?")
+        if isinstance(self.shape, Mesh):
+            why = why_not_solid(self.shape)
+            if why and self.inertia is None:
+                yield Problem(("shape",), f"{why}; close it, or give `mass` and `inertia`")
+            if why:
+                return
+        if self.shape is not None and self.density is not None and self.density * volume(self.shape) < LIGHTEST_BODY:
+            mass = self.density * volume(self.shape)
+            yield Problem(("shape",), f"with this density its mass is {mass:.3g} kg: a slip of a unit?")
+        if self.shape is None or self.mass is None or self.density is not None:
+            return
+        if self.inertia is not None:  # the shape is for looks only
+            return
+        mean = self.mass / volume(self.shape)
+        if not LIGHTEST <= mean <= DENSEST:
+            message = f"a mass of {self.mass:.6g} kg with this shape gives a density of {mean:.3g} kg/m^3"
+            yield Problem(("mass",), f"{message}: a slip of a unit?")

@@ -1,0 +1,232 @@
+"""Homogeneous solids: box, cylinder, capsule, tube, sphere, extrusion, mesh. They give a body its looks and, with a density or mass,
+its inertia.
+
+A shape stands in the body frame with its centre at `centre`, a mesh with the origin of its file at `position`. All but spheres and
+meshes may instead be laid between two global points `from:` and `to:`; then they define the body frame too (placement.py) and the
+centre is its origin.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Annotated, Any, Final, Literal
+
+import numpy as np
+from pydantic import BeforeValidator, model_validator
+
+from nivel.machine.bodies.colour import Colour
+from nivel.machine.bodies.polygon import bad_outline
+from nivel.machine.bodies.surface import surface_arrays
+from nivel.machine.core.orientation import Orientation
+from nivel.machine.core.record import Record
+from nivel.machine.given import Field, ManyCorners, Maybe, OneRecord, ThreeNumbers, TwoNumbers
+from nivel.machine.units.quantity import Length, Position, PositiveLength, fault, listed
+
+Along = Literal["x", "y", "z"]
+_NEAR: Final = 1e-9  # [m] two end points closer than this have no direction
+
+_FROM = Field(
+    default=None, key="from", description="global point where the body x axis starts; then the body needs no position"
+)
+_TO = Field(default=None, description="global point to which the body x axis points")
+_CENTRE = Field(default=None, description="centre of the shape in the body frame; default the origin")
+
+
+class _Coloured(Record):
+    """What is drawn."""
+
+    colour: Colour | None = Field(
+        default=None, description="a name or '#rrggbb'; default follows from the body's number"
+    )
+
+
+class _Between(_Coloured):
+    """A shape that may be laid between two points."""
+
+    from_: Maybe[Position] = _FROM
+    to: Maybe[Position] = _TO
+    centre: Maybe[Position] = _CENTRE
+
+    @model_validator(mode="after")
+    def _whole(self) -> _Between:
+        if (self.from_ is None) != (self.to is None):
+            raise fault("`from` and `to` belong together")
+        extent = self._extent()
+        if self.from_ is None or self.to is None:
+            missing = [name for name, value in extent.items() if value is None]
+            if missing:
+                raise fault(f"{' and '.join(f'`{name}`' for name in missing)} or `from` and `to` must be given")
+            return self
+        given = [name for name, value in {**extent, "centre": self.centre}.items() if value is not None]
+        if given:
+            raise fault(f"`{given[0]}` follows from `from` and `to` and must not be given")
+        if np.linalg.norm(np.subtract(self.to, self.from_)) < _NEAR:
+            raise fault("`from` and `to` are the same point")
+        return self
+
+    @abstractmethod
+    def _extent(self) -> dict[str, object]:
+        """The fields that say how long the shape is when no two points do."""
+
+
+class Box(_Between):
+    """A block: `size` along the body x, y, z axes; or `from`, `to`, `width` (along y) and `height` (along z)."""
+
+    type: Literal["box"] = "box"
+    size: Maybe[ThreeNumbers[PositiveLength]] = Field(default=None)
+    width: Maybe[PositiveLength] = Field(default=None)
+    height: Maybe[PositiveLength] = Field(default=None)
+
+    def _extent(self) -> dict[str, object]:
+        return {"size": self.size}
+
+    @model_validator(mode="after")
+    def _cross_section(self) -> Box:
+        for name in ("width", "height"):
+            given = getattr(self, name) is not None
+            if given and self.from_ is None:
+                raise fault(f"`{name}` belongs to a box between `from` and `to`; this one has a `size`")
+            if not given and self.from_ is not None:
+                raise fault(f"`{name}` is missing")
+        return self
+
+
+class Cylinder(_Between):
+    """A round bar: `radius`, `length` and the body axis it lies `along` (default x); or `radius`, `from` and `to`."""
+
+    type: Literal["cylinder"] = "cylinder"
+    radius: PositiveLength
+    length: Maybe[PositiveLength] = Field(default=None)
+    along: Along | None = Field(default=None, description="body axis; default x")
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _along_x(self) -> Cylinder:
+        _refuse_along(self)
+        return self
+
+
+class Tube(_Between):
+    """A hollow round bar: `outer_radius`, `inner_radius`, `length` and `along` (default x); or the radii, `from` and
+    `to`.
+    """
+
+    type: Literal["tube"] = "tube"
+    outer_radius: PositiveLength
+    inner_radius: PositiveLength
+    length: Maybe[PositiveLength] = Field(default=None)
+    along: Along | None = Field(default=None, description="body axis; default x")
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _hollow(self) -> Tube:
+        if self.inner_radius >= self.outer_radius:
+            raise fault(
+                f"`inner_radius` {self.inner_radius:g} m must be smaller than `outer_radius` {self.outer_radius:g} m"
+            )
+        _refuse_along(self)
+        return self
+
+
+class Capsule(_Between):
+    """A round bar with hemispheres at its ends: `radius`, `length` of the straight part and `along` (default x); or `radius`,
+    `from` and `to`, the centres of the balls.
+    """
+
+    type: Literal["capsule"] = "capsule"
+    radius: PositiveLength
+    length: Maybe[PositiveLength] = Field(
+        default=None, description="of the straight part, between the centres of the balls"
+    )
+    along: Along | None = Field(default=None, description="body axis; default x")
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _along_x(self) -> Capsule:
+        _refuse_along(self)
+        return self
+
+
+Corner = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
+
+
+class Extrusion(_Between):
+    """A prism: an `outline`, drawn along `length` to both sides of it, and `along` (default x); or the outline, `from` and `to`.
+
+    The outline's corners are given in the two body axes that follow `along`: y and z for x, z and x for y, x and y for z.
+    """
+
+    type: Literal["extrusion"] = "extrusion"
+    outline: Annotated[ManyCorners[Corner], BeforeValidator(listed)] = Field(
+        description="corners in their order, at least three; lines between them do not cross"
+    )
+    length: Maybe[PositiveLength] = Field(default=None)
+    along: Along | None = Field(default=None, description="body axis; default x")
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _sound(self) -> Extrusion:
+        _refuse_along(self)
+        why = bad_outline(np.array(self.outline, dtype=float).reshape(-1, 2))
+        if why:
+            raise fault(f"`outline`: {why}")
+        return self
+
+
+class Mesh(_Coloured):
+    """A surface of triangles from a `file`: STL, OBJ or glTF. With a density or mass it must be closed.
+
+    `surface` holds the triangles (surface.py) in the axes and the unit of the file; it is filled when the machine file is read, in
+    Python by `nivel.files.read_mesh`.
+    """
+
+    type: Literal["mesh"] = "mesh"
+    file: str = Field(default="", description="STL, OBJ or glTF file, relative to the folder of the machine file")
+    unit: PositiveLength = Field(default=1.0, description="length of one unit of the file")
+    position: Maybe[Position] = Field(
+        default=None, description="of the file's origin in the body frame; default the origin"
+    )
+    orientation: Maybe[OneRecord[Orientation]] = Field(
+        default=None, description="of the file's axes in the body frame; default not turned"
+    )
+    surface: str | None = Field(default=None, description="the triangles, filled when the file is read")
+
+    @model_validator(mode="after")
+    def _readable(self) -> Mesh:
+        if self.surface is None and not self.file:
+            raise fault("a mesh needs the name of a `file`")
+        if self.surface is None:
+            raise fault(f"the file `{self.file}` was not read; in Python use nivel.files.read_mesh")
+        try:
+            surface_arrays(self.surface)
+        except ValueError:
+            raise fault("`surface` holds no triangles; leave it out, it is filled when `file` is read") from None
+        return self
+
+    def __repr_args__(self) -> Any:
+        return [(name, value) for name, value in super().__repr_args__() if name != "surface"]
+
+
+class Sphere(_Coloured):
+    """A solid ball: `radius`."""
+
+    type: Literal["sphere"] = "sphere"
+    radius: PositiveLength
+    centre: Maybe[Position] = _CENTRE
+
+
+Shape = Annotated[Box | Cylinder | Capsule | Tube | Sphere | Extrusion | Mesh, Field(discriminator="type")]
+Long = Box | Cylinder | Capsule | Tube | Extrusion  # those that may be laid between two points
+
+
+def _refuse_along(shape: Cylinder | Capsule | Tube | Extrusion) -> None:
+    if shape.along is not None and shape.from_ is not None:
+        raise fault("`along` must not be given: between `from` and `to` the shape lies along the body x axis")

@@ -1,0 +1,1 @@
+"""Records, named elements, markers, and places and directions in space."""

@@ -1,0 +1,209 @@
+"""Quantities of force elements: stiffness, damping and the like, with their bounds.
+
+What belongs to a joint coordinate is in metres or in radians: `OfCoordinate` asks the record's field `coordinate`,
+which must stand before, what kind it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    ValidationError,
+    ValidationInfo,
+)
+from pydantic_core import CoreSchema, InitErrorDetails, core_schema
+
+from nivel.machine.given import ManyNumbers, OneNumber
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
+from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.quantity import (
+    Quantity,
+    expression_fault,
+    fault,
+    listed,
+    parameters_of,
+    read_quantity,
+    reported,
+    shown,
+)
+from nivel.machine.uses.coordinate_reference import kind_of
+from nivel.words.arguments import plain
+
+THINNEST: Final = 1e-9  # [m] of a section; fourth powers of smaller numbers, and of larger ones, are lost in round-off
+THICKEST: Final = 1e6
+
+Bound = Literal["", "positive", "not negative"]
+
+# kinds of what belongs to a coordinate: where it is a length, where it is an angle
+COORDINATE: Final = ("length", "angle")
+COORDINATE_RATE: Final = ("velocity", "angular velocity")
+COORDINATE_EFFORT: Final = ("force", "torque")
+COORDINATE_STIFFNESS: Final = ("stiffness", "torsional stiffness")
+COORDINATE_INTEGRAL: Final = ("stiffness per time", "torsional stiffness per time")
+COORDINATE_DAMPING: Final = ("damping", "torsional damping")
+
+
+def _not_negative(value: float) -> float:
+    if value < 0:
+        raise fault(f"zero or more was expected, got `{value:g}`")
+    return value
+
+
+def _size_of_section(value: float) -> float:
+    if not THINNEST <= value <= THICKEST:
+        raise fault(
+            f"{value:.3g} m is no size of a beam's section: between {THINNEST:g} and {THICKEST:g} m was expected"
+        )
+    return value
+
+
+def _fraction(value: float) -> float:
+    if not 0 < value <= 1:
+        raise fault(f"a number above 0 and up to 1 was expected, got `{value:g}`")
+    return value
+
+
+def _exponent(value: float) -> float:
+    if value < 1:
+        raise fault(f"a number of 1 or more was expected, got `{value:g}`")
+    return value
+
+
+def _poisson_ratio(value: float) -> float:
+    if not -1 < value <= 0.5:
+        raise fault(f"a number above -1 and up to 0.5 was expected, got `{value:g}`")
+    return value
+
+
+def _truth(value: Any) -> bool:
+    if not isinstance(value := plain(value), bool):
+        raise fault(f"true or false was expected, got {shown(value)}")
+    return value
+
+
+def kind_for(reference: object, kinds: tuple[str, str]) -> str | tuple[str, str]:
+    """The first of `kinds` where the coordinate `reference` is a length, the second where it is an angle, both where
+    its text does not say.
+    """
+    kind = kind_of(reference)
+    return kinds if kind is None else kinds[0] if kind == "length" else kinds[1]
+
+
+@dataclass(frozen=True)
+class OfCoordinate:
+    """Annotation of a float field of a record with a `coordinate`: a quantity of the first of `kinds` for a length, of
+    the second for an angle.
+    """
+
+    kinds: tuple[str, str]
+    bound: Bound = ""
+
+    def read(self, value: Any, info: ValidationInfo) -> float:
+        try:
+            kind = kind_for((info.data or {}).get("coordinate"), self.kinds)
+            number = read_quantity(value, kind, parameters_of(info))
+        except FaultyParameterError:
+            raise reported() from None
+        except ExpressionError as problem:
+            raise expression_fault(problem, value, parameters_of(info)) from None
+        if self.bound == "positive" and number <= 0:
+            raise fault(f"a value greater than zero was expected, got {shown(value)}")
+        return _not_negative(number) if self.bound == "not negative" else number
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        number: dict[str, Any] = {"type": "number"}
+        if self.bound:
+            number["exclusiveMinimum" if self.bound == "positive" else "minimum"] = 0
+        meaning = " or ".join(f"{KINDS[each][0]} in {KINDS[each][1]}" for each in self.kinds)
+        return {"anyOf": [number, {"type": "string"}], "description": meaning}
+
+
+def columns_of_coordinate(kinds: Mapping[str, tuple[str, str]]) -> Callable[[Any, ValidationInfo], Any]:
+    """Validator of a table, before it is read, in a record with a `coordinate`: the entries of each column are of the
+    first of its `kinds` for a length, of the second for an angle.
+    """
+
+    def check(table: Any, info: ValidationInfo) -> Any:
+        lines = []
+        for column, its in kinds.items() if isinstance(table, Mapping) else ():
+            kind = kind_for((info.data or {}).get("coordinate"), its)
+            entries = listed(table.get(column))
+            for at, entry in enumerate(entries if isinstance(entries, list | tuple) else ()):
+                try:
+                    read_quantity(entry, kind, parameters_of(info))
+                except FaultyParameterError:
+                    lines.append(InitErrorDetails(type=reported(), loc=(column, at), input=None))
+                except ExpressionError as problem:
+                    lines.append(
+                        InitErrorDetails(
+                            type=expression_fault(problem, entry, parameters_of(info)), loc=(column, at), input=None
+                        )
+                    )
+        if lines:
+            raise ValidationError.from_exception_data("table", lines)
+        return table
+
+    return check
+
+
+Truth = Annotated[bool, BeforeValidator(_truth)]
+
+NotNegative = AfterValidator(_not_negative)
+PositiveNumber = Annotated[OneNumber, Quantity("number", positive=True)]
+NotNegativeNumber = Annotated[OneNumber, Quantity("number"), NotNegative]
+NotNegativeLength = Annotated[OneNumber, Quantity("length"), NotNegative]
+SectionLength = Annotated[OneNumber, Quantity("length", positive=True), AfterValidator(_size_of_section)]
+PositiveForce = Annotated[OneNumber, Quantity("force", positive=True)]
+NotNegativeForce = Annotated[OneNumber, Quantity("force"), NotNegative]
+ForceValue = Annotated[OneNumber, Quantity("force")]
+TorqueValue = Annotated[OneNumber, Quantity("torque")]
+PositiveSpeed = Annotated[OneNumber, Quantity("velocity", positive=True)]
+Stiffness = Annotated[OneNumber, Quantity("stiffness"), NotNegative]
+FoundationModulus = Annotated[OneNumber, Quantity("foundation modulus", positive=True)]
+Damping = Annotated[OneNumber, Quantity("damping"), NotNegative]
+TorsionalStiffness = Annotated[OneNumber, Quantity("torsional stiffness"), NotNegative]
+TorsionalDamping = Annotated[OneNumber, Quantity("torsional damping"), NotNegative]
+StiffnessPerLoad = Annotated[OneNumber, Quantity("stiffness per load", positive=True)]
+DampingPerLoad = Annotated[OneNumber, Quantity("damping per load"), NotNegative]
+NotNegativePressure = Annotated[OneNumber, Quantity("pressure"), NotNegative]
+Volume = Annotated[OneNumber, Quantity("volume", positive=True)]
+NotNegativeVolume = Annotated[OneNumber, Quantity("volume"), NotNegative]
+VolumeFlow = Annotated[OneNumber, Quantity("volume flow", positive=True)]
+Displacement = Annotated[OneNumber, Quantity("displacement", positive=True)]
+Leakage = Annotated[OneNumber, Quantity("leakage"), NotNegative]
+SonicConductance = Annotated[OneNumber, Quantity("leakage", positive=True)]
+Temperature = Annotated[OneNumber, Quantity("temperature", positive=True)]
+ThermalConductance = Annotated[OneNumber, Quantity("thermal conductance"), NotNegative]
+NotNegativeDuration = Annotated[OneNumber, Quantity("time"), NotNegative]
+Viscosity = Annotated[OneNumber, Quantity("kinematic viscosity", positive=True)]
+Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
+NotNegativeTorque = Annotated[OneNumber, Quantity("torque"), NotNegative]
+Share = Annotated[OneNumber, Quantity("number"), AfterValidator(_fraction)]
+Pressure = Annotated[OneNumber, Quantity("pressure", positive=True)]
+PoissonRatio = Annotated[OneNumber, Quantity("number"), AfterValidator(_poisson_ratio)]
+Restitution = Annotated[OneNumber, Quantity("number"), AfterValidator(_fraction)]
+Exponent = Annotated[OneNumber, Quantity("number"), AfterValidator(_exponent)]
+
+Lengths = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("length")]], BeforeValidator(listed)]
+Angles = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("angle")]], BeforeValidator(listed)]
+Forces = Annotated[ManyNumbers[ForceValue], BeforeValidator(listed)]
+Torques = Annotated[ManyNumbers[TorqueValue], BeforeValidator(listed)]
+Numbers = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("number")]], BeforeValidator(listed)]
+
+CoordinateValue = Annotated[OneNumber, OfCoordinate(COORDINATE)]
+CoordinateEffort = Annotated[OneNumber, OfCoordinate(COORDINATE_EFFORT)]
+PositiveEffort = Annotated[OneNumber, OfCoordinate(COORDINATE_EFFORT, "positive")]
+CoordinateStiffness = Annotated[OneNumber, OfCoordinate(COORDINATE_STIFFNESS, "not negative")]
+CoordinateDamping = Annotated[OneNumber, OfCoordinate(COORDINATE_DAMPING, "not negative")]
+CoordinateIntegral = Annotated[OneNumber, OfCoordinate(COORDINATE_INTEGRAL, "not negative")]
+PositiveGain = Annotated[OneNumber, OfCoordinate(COORDINATE_DAMPING, "positive")]

@@ -1,0 +1,58 @@
+"""A frame on a body in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, ClassVar
+
+from pydantic import BeforeValidator
+
+from nivel.machine.core.axes import bad_axis_pair
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.orientation import Orientation
+from nivel.machine.core.record import GROUND, BodyName, Name
+from nivel.machine.given import Field, Given, Maybe, OneRecord
+from nivel.machine.units.quantity import Direction, Position, fault, shown
+
+
+class Marker(Checked):
+    """A point and axes fixed in a body. Joints act along the marker's z axis.
+
+    Its axes are turned by `orientation`, or have z along `axis` and x along `x_axis` made perpendicular; default the
+    body's axes.
+    """
+
+    collection: ClassVar[str] = "markers"
+
+    name: Name | None = Field(default=None, description="not needed where the marker stands inside an element")
+    body: BodyName = Field(description="a body, a station of a beam `BEAM.STATION`, or `ground`")
+    position: Position = Field(default=(0.0, 0.0, 0.0), description="in the body frame")
+    interface: Name | None = Field(default=None, description="of a flexible body, by name, instead of `position`")
+    orientation: Maybe[OneRecord[Orientation]] = Field(default=None, description="of the marker in the body frame")
+    axis: Maybe[Direction] = Field(default=None, description="z axis of the marker in the body frame, of any length")
+    x_axis: Maybe[Direction] = Field(default=None, description="x axis, made perpendicular to `axis`")
+
+    def problems(self) -> Iterator[Problem]:
+        if self.name == GROUND:
+            yield Problem(("name",), f"`{GROUND}` is the fixed world and cannot be a marker")
+        if self.interface is not None and any(self.position):
+            yield Problem(("position",), "give `position` or `interface`, not both", at_key=True)
+        if self.orientation is not None and (self.axis is not None or self.x_axis is not None):
+            yield Problem(("orientation",), "give `orientation` or `axis`, not both")
+            return
+        yield from bad_axis_pair(self.axis, self.x_axis)
+
+
+def _name_or_marker(value: Any) -> Any:
+    if isinstance(value, str | Marker | dict):
+        return value
+    raise fault(f"the name of a marker, or a marker {{body: …, position: …}}, was expected, got {shown(value)}")
+
+
+MarkerPlace = Annotated[
+    Given[Name | Marker, str | Marker, str | Marker | Mapping[str, Any]], BeforeValidator(_name_or_marker)
+]
+ManyMarkers = Given[tuple[MarkerPlace, ...], tuple[str | Marker, ...], Sequence[str | Marker | Mapping[str, Any]]]
+TwoMarkers = Given[
+    tuple[MarkerPlace, MarkerPlace], tuple[str | Marker, str | Marker], Sequence[str | Marker | Mapping[str, Any]]
+]

@@ -1,0 +1,173 @@
+"""Orientation of a frame: Euler angles, axis and angle, matrix or Euler parameters, and their common numbers.
+
+A rotation matrix A has the axes of the turned frame as columns, given in the parent frame: v = A v_b.
+Euler parameters are (cos φ/2, n sin φ/2), scalar first, for a turn by φ about the unit axis n.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, model_validator
+
+from nivel.machine.core.record import Record, unknown_word
+from nivel.machine.core.vectors import cross
+from nivel.machine.given import Field, FourNumbers, Maybe, ThreeNumbers, ThreeRows
+from nivel.machine.units.quantity import Angle, Direction, Scalar, fault, listed, shown
+
+Array = NDArray[np.float64]
+
+SEQUENCES: Final = ("xyx", "xyz", "xzx", "xzy", "yxy", "yxz", "yzx", "yzy", "zxy", "zxz", "zyx", "zyz")
+TOLERANCE: Final = 1e-3  # data printed with three digits are taken, and made exact
+
+
+def _sequence(value: Any) -> str:
+    text = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    if not isinstance(text, str):
+        raise fault(f"a sequence of three axes such as `zxz` was expected, got {shown(value)}")
+    axes = text.translate(str.maketrans("123", "xyz"))
+    if axes in SEQUENCES:
+        return axes
+    if axes.lower() in SEQUENCES:
+        raise fault(
+            f"`{text}`: capital letters mean fixed axes in some programs; here every turn is about the moving axes: "
+            f"write `{axes.lower()}`, or for turns about fixed axes `{axes.lower()[::-1]}` with the angles reversed"
+        )
+    raise fault(unknown_word(text, SEQUENCES, "sequence"))
+
+
+AxisSequence = Annotated[str, BeforeValidator(_sequence, json_schema_input_type=str | int)]
+_Row = Direction
+_FORMS = ("euler", "axis", "matrix", "euler_parameters")
+
+
+class Orientation(Record):
+    """One of: `euler` with `sequence` (turns about the moving axes), `axis` with `angle`, `matrix`, `euler_parameters`.
+
+    None of them: not turned.
+    """
+
+    euler: Annotated[Maybe[ThreeNumbers[Angle]], BeforeValidator(listed)] = Field(
+        default=None, description="three angles, each about an axis of the frame as turned so far"
+    )
+    sequence: AxisSequence | None = Field(
+        default=None, description="axes of the three turns; zxz is the classical 3-1-3"
+    )
+    axis: Maybe[Direction] = Field(default=None, description="axis of the turn, of any length")
+    angle: Maybe[Angle] = Field(default=None, description="turn about `axis`, right-handed")
+    matrix: Annotated[Maybe[ThreeRows[_Row]], BeforeValidator(listed)] = Field(
+        default=None, description="rows of the rotation matrix; its columns are the axes of the turned frame"
+    )
+    euler_parameters: Annotated[Maybe[FourNumbers[Scalar]], BeforeValidator(listed)] = Field(
+        default=None, description="four numbers, scalar first"
+    )
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Orientation:
+        given = [name for name in _FORMS if getattr(self, name) is not None]
+        if len(given) > 1:
+            raise fault(f"give one of {', '.join(_FORMS)}; got {' and '.join(given)}")
+        if (self.euler is None) != (self.sequence is None):
+            raise fault("`euler` and `sequence` belong together, e.g. `{euler: [0, 30 deg, 0], sequence: zxz}`")
+        if (self.axis is None) != (self.angle is None):
+            raise fault("`axis` and `angle` belong together, e.g. `{axis: [1, 0, 0], angle: 30 deg}`")
+        if self.axis is not None and not np.any(self.axis):
+            raise fault("`axis` has no direction: it is zero")
+        if self.matrix is not None:
+            _check_matrix(np.array(self.matrix))
+        if self.euler_parameters is not None and abs(np.linalg.norm(self.euler_parameters) - 1) > TOLERANCE:
+            raise fault(f"`euler_parameters` must have length 1, not {np.linalg.norm(self.euler_parameters):.6g}")
+        return self
+
+
+def _check_matrix(matrix: Array) -> None:
+    error = np.abs(matrix.T @ matrix - np.eye(3)).max()
+    if error > TOLERANCE:
+        raise fault(
+            f"`matrix` is no rotation: its columns are not perpendicular unit vectors (they miss by {error:.2g})"
+        )
+    if np.linalg.det(matrix) < 0:
+        raise fault("`matrix` is a reflection, not a rotation: its third column must be the first × the second")
+
+
+def elementary_rotation(axis: int, angle: float) -> Array:
+    """(3, 3) turn by `angle` about axis 0, 1 or 2 (x, y, z)."""
+    c, s = np.cos(angle), np.sin(angle)
+    matrix = np.eye(3)
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    matrix[j, j] = matrix[k, k] = c
+    matrix[k, j], matrix[j, k] = s, -s
+    return matrix
+
+
+def rotation_matrix(orientation: Orientation | None) -> Array:
+    """(3, 3): columns are the axes of the turned frame in the parent frame. None: not turned."""
+    if orientation is None:
+        return np.eye(3)
+    if orientation.matrix is not None:
+        left, _, right = np.linalg.svd(np.array(orientation.matrix))
+        return left @ right  # the nearest rotation
+    if orientation.euler is not None and orientation.sequence is not None:
+        first, second, third = (
+            elementary_rotation("xyz".index(axis), angle)
+            for axis, angle in zip(orientation.sequence, orientation.euler, strict=True)
+        )
+        return first @ second @ third  # each turn about the axes as turned so far
+    return matrix_from_euler_parameters(euler_parameters(orientation))
+
+
+def euler_parameters(orientation: Orientation | None) -> Array:
+    """(4,) of unit length, scalar first and not negative."""
+    if orientation is None:
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    if orientation.euler_parameters is not None:
+        return _normalised(np.array(orientation.euler_parameters))
+    if orientation.axis is not None and orientation.angle is not None:
+        axis = np.array(orientation.axis)
+        axis = axis / np.abs(axis).max()  # no overflow in the norm
+        half = orientation.angle / 2
+        return _normalised(np.concatenate([[np.cos(half)], np.sin(half) * axis / np.linalg.norm(axis)]))
+    if orientation.matrix is None and orientation.euler is None:
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    return euler_parameters_from_matrix(rotation_matrix(orientation))
+
+
+def _normalised(parameters: Array) -> Array:
+    """Unit length and the sign that makes the scalar part not negative."""
+    return parameters / np.linalg.norm(parameters) * (-1.0 if parameters[0] < 0 else 1.0)
+
+
+def matrix_from_euler_parameters(parameters: Array) -> Array:
+    """(3, 3) rotation matrix of unit Euler parameters (4,)."""
+    e0, e = parameters[0], parameters[1:]
+    tilde = np.array([[0.0, -e[2], e[1]], [e[2], 0.0, -e[0]], [-e[1], e[0], 0.0]])
+    return (e0**2 - e @ e) * np.eye(3) + 2 * np.outer(e, e) + 2 * e0 * tilde
+
+
+def euler_parameters_from_matrix(matrix: Array) -> Array:
+    """(4,) of a rotation matrix, scalar part not negative.
+
+    4 θ θᵀ is linear in the matrix; the row with the largest diagonal is the best conditioned multiple of θ.
+    """
+    A = matrix
+    trace = np.trace(A)
+    skew = np.array([A[2, 1] - A[1, 2], A[0, 2] - A[2, 0], A[1, 0] - A[0, 1]])
+    four = np.empty((4, 4))
+    four[0, 0] = 1 + trace
+    four[0, 1:] = four[1:, 0] = skew
+    four[1:, 1:] = A + A.T + (1 - trace) * np.eye(3)
+    return _normalised(four[np.argmax(np.diag(four))])
+
+
+def product(first: Array, second: Array) -> Array:
+    """Euler parameters (…, 4) of A(first) A(second)."""
+    a0, a, b0, b = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
+    scalar = a0 * b0 - np.sum(a * b, axis=-1, keepdims=True)
+    return np.concatenate([scalar, a0 * b + b0 * a + cross(a, b)], axis=-1)
+
+
+def conjugate(theta: Array) -> Array:
+    """Euler parameters (…, 4) of Aᵀ."""
+    return theta * np.array([1.0, -1.0, -1.0, -1.0])

@@ -1,0 +1,273 @@
+"""Base of all records of a machine: frozen, nothing unknown accepted, faults in plain words and all at once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import ErrorDetails, InitErrorDetails
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.example_line import list_line, mapping_line, missing_line
+from nivel.machine.given import RecordClass
+from nivel.machine.laws.signature import PlainSignature, words_of
+from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
+from nivel.words.arguments import checked_arguments
+from nivel.words.wording import shown, unknown_word
+
+NAME = re.compile(r"[^\W\d_][\w-]*")
+_ROUGHLY = r"^[^\s\d._-][^\s.]*$"  # in the schema: regular expressions of JSON know no classes of letters
+GROUND = "ground"
+
+
+def _named(value: Any) -> str:
+    if not isinstance(value, str):
+        raise fault(f"a name was expected, got {shown(value)}")
+    if not NAME.fullmatch(value):
+        raise fault(f"`{value}` is not a name: a name starts with a letter and has letters, digits, `-` and `_` only")
+    return value
+
+
+Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string", "pattern": _ROUGHLY})]
+
+
+STATION = re.compile(rf"{NAME.pattern}(\.[\w-]+)?")
+
+
+def _named_body(value: Any) -> str:
+    if isinstance(value, str) and STATION.fullmatch(value):
+        return value
+    return _named(value)
+
+
+# of something that markers can be on: a body, or `BEAM.STATION`
+BodyName = Annotated[
+    str, BeforeValidator(_named_body), WithJsonSchema({"type": "string", "pattern": r"^[^\s\d._-][^\s]*$"})
+]
+
+
+class Record(BaseModel, metaclass=RecordClass):
+    """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True, allow_inf_nan=False
+    )
+    collection: ClassVar[str] = ""  # the section of the machine that holds such records
+    # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
+    tagged: ClassVar[Mapping[str, int]] = {}
+
+    @checked_arguments
+    def __init__(self, /, **data: Any) -> None:
+        """Raises ModelError with everything that is wrong."""
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            raise ModelError(_faults(type(self), data, error)) from None
+
+    # Without this mark pydantic would call __init__ for nested records too, and lose the places of faults in them.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    @checked_arguments
+    def replace(self, **changes: Any) -> Self:
+        """A copy in which `changes` hold, checked like a new record."""
+        given = {name: getattr(self, name) for name in self.model_fields_set}
+        return type(self)(**(given | changes))
+
+    def __setattr__(self, field: str, value: Any) -> None:
+        """Refused: nothing changes a record. Raises ModelError with the line to write."""
+        own = str(getattr(self, "name", None) or self.collection)
+        line = (
+            f"machine = machine.with_values({{'{own}.{field}': {value!r}}})" if own else f"replace({field}={value!r})"
+        )
+        message = f"a record never changes; write `{line}`, which gives another one"
+        raise ModelError(Fault("", 0, 0, f"{own}.{field}" if own else field, message))
+
+    def __dir__(self) -> list[str]:
+        """What completion offers: the fields, and what a record can do; not the machinery below it."""
+        own = {name for each in type(self).__mro__ if issubclass(each, Record) for name in vars(each)}
+        return [
+            *type(self).model_fields,
+            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "model_config"}),
+        ]
+
+    def __str__(self) -> str:
+        return repr(self)
+
+    def __repr_args__(self) -> Any:
+        """Only what differs from the default."""
+        fields = type(self).model_fields
+        return [
+            (name, value)
+            for name, value in super().__repr_args__()
+            if name and value != fields[name].get_default(call_default_factory=True)
+        ]
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """Help and editors show what each field takes, in words; found out when somebody asks."""
+        super().__pydantic_init_subclass__(**kwargs)
+        cls.__signature__ = PlainSignature()  # type: ignore[assignment]
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise restated(error, cls) from None
+
+
+def restated(error: ValidationError, record: type[Record], more: Sequence[InitErrorDetails] = ()) -> ValidationError:
+    """The same error in our own words, with `more` lines."""
+    lines = [_restated_line(line, record) for line in error.errors(include_url=False)]
+    return ValidationError.from_exception_data(record.__name__, [*lines, *more])
+
+
+def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails:
+    kind = (
+        reported()
+        if line["type"] == REPORTED
+        else fault(_sentence(line, record), at_key=_is_about_key(line), lacking=line.get("ctx", {}).get("lacking"))
+    )
+    place = [step for step in line["loc"] if step != "[key]"]
+    tag = record.tagged.get(str(place[0])) if place else None
+    if tag is not None and len(place) > tag:
+        del place[tag]
+    if line["type"] == "missing":
+        place.pop()  # its parent lacks it
+    return InitErrorDetails(type=kind, loc=tuple(place), input=line["input"])
+
+
+def _is_about_key(line: ErrorDetails) -> bool:
+    return line["type"] == "extra_forbidden" or "[key]" in line["loc"] or bool(line.get("ctx", {}).get("at_key"))
+
+
+_SENTENCES = {
+    "tuple_type": "a list was expected, got {input}",
+    "model_type": "a mapping was expected, got {input}",
+    "model_attributes_type": "a mapping was expected, got {input}",
+    "dict_type": "a mapping was expected, got {input}",
+    "string_type": "a text was expected, got {input}",
+    **dict.fromkeys(("float_type", "float_parsing"), "a number was expected, got {input}"),
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "a whole number was expected, got {input}"),
+    "finite_number": "a finite number is needed, got {input}",
+    "greater_than": "a number greater than {gt:g} was expected, got {input}",
+    "greater_than_equal": "a number of at least {ge:g} was expected, got {input}",
+    "less_than": "a number less than {lt:g} was expected, got {input}",
+    "less_than_equal": "a number of at most {le:g} was expected, got {input}",
+}
+
+
+def _sentence(line: ErrorDetails, record: type[Record]) -> str:
+    """What pydantic found, in the words of a machine file."""
+    context = line.get("ctx", {})
+    match line["type"]:
+        case "nivel":
+            return str(context["message"])
+        case "missing" if isinstance(line["loc"][-1], int):
+            return _too_few(line["input"], line["loc"])
+        case "missing":
+            return f"`{line['loc'][-1]}` is missing{_of_missing(str(line['loc'][-1]), record)}"
+        case "extra_forbidden":
+            return unknown_word(str(line["loc"][-1]), field_words(record), "key")
+        case "too_short" | "too_long":
+            count = context.get("actual_length")
+            wanted = context.get("min_length", context.get("max_length"))
+            return f"{wanted} entries were expected, got {'more' if count is None else count}"
+        case "literal_error" if isinstance(line["input"], list | tuple | Mapping):
+            return f"one of {', '.join(_quoted(context['expected']))} was expected, got {shown(line['input'])}"
+        case "literal_error":
+            return unknown_word(shown(line["input"]).strip("`"), _quoted(context["expected"]), "word")
+        case "union_tag_invalid":
+            return unknown_word(shown(context["tag"]).strip("`"), _quoted(context["expected_tags"]), "type")
+        case "union_tag_not_found":
+            if isinstance(line["input"], Mapping | Record):
+                return "`type` is missing"
+            return f"a mapping was expected, got {shown(line['input'])}" + mapping_line(
+                str(line["loc"][-1]), line["input"]
+            )
+        case kind if kind in _SENTENCES:
+            sentence = _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
+            return sentence + _line_to_write(line, record)
+    return line["msg"]
+
+
+_IN_SPACE = ("position", "point", "velocity", "centre_of_mass", "centre", "gravity", "vector", "axis", "x_axis")
+
+
+def _too_few(given: Sequence[Any], place: Sequence[int | str]) -> str:
+    """That a list is too short; of two components in space also the line to write."""
+    said = f"entries are missing: there {'is' if len(given) == 1 else 'are'} only {len(given)}"
+    in_space = len(place) > 1 and place[-2] in _IN_SPACE and isinstance(given, list | tuple) and len(given) == 2
+    return f"{said}; write `{place[-2]}: [{given[0]}, {given[1]}, 0]`" if in_space else said
+
+
+def _of_missing(key: str, record: type[Record]) -> str:
+    """What the field `key` takes, as the end of the sentence that it is missing."""
+    if line := missing_line(key):
+        return line
+    field = next((each for name, each in record.model_fields.items() if key in (name, each.alias)), None)
+    if field is None:
+        return ""
+    said = words_of(field)
+    takes = f"one of {said.replace(chr(39), '').replace(' |', ',')}" if said.startswith("'") else said
+    told = [each for each in (takes if takes.startswith(("a ", "an ", "one of ")) else "", field.description) if each]
+    return f": {', '.join(told)}" if told else ""
+
+
+def _line_to_write(line: ErrorDetails, record: type[Record]) -> str:
+    """What would be right where a list or a mapping was expected, as the end of the sentence."""
+    field = next((step for step in reversed(line["loc"]) if isinstance(step, str)), record.__name__.lower())
+    if line["type"] == "tuple_type":
+        return list_line(field, line["input"])
+    return mapping_line(field, line["input"]) if _SENTENCES[line["type"]].startswith("a mapping") else ""
+
+
+def _quoted(text: object) -> list[str]:
+    """The words in quotes in pydantic's list of what it expected."""
+    return re.findall(r"'([^']*)'", str(text))
+
+
+def field_words(record: type[Record]) -> list[str]:
+    """The keys that `record` knows, as they are written in a file."""
+    return [field.alias or name for name, field in record.model_fields.items()]
+
+
+def _faults(record: type[Record], data: Mapping[str, Any], error: ValidationError) -> list[Fault]:
+    """The faults of a record that was made in Python: no file, the element in words."""
+    start = [record.collection, str(data["name"])] if record.collection and "name" in data else []
+    return [
+        Fault("", 0, 0, ".".join([*start, *words(line["loc"], data)]), line["msg"])
+        for line in error.errors(include_url=False)
+        if line["type"] == FAULT
+    ]
+
+
+def words(location: Sequence[int | str], data: Any) -> list[str]:
+    """`location` in `data`, with the names of named elements in place of their numbers."""
+    path: list[str] = []
+    for step in location:
+        if isinstance(step, int):
+            data = data[step] if isinstance(data, Sequence) and step < len(data) else None
+            path.append(str(entry(data, "name") or step))
+        else:
+            data = entry(data, step)
+            path.append(step)
+    return path
+
+
+def entry(data: Any, key: str) -> Any:
+    """What stands under `key` in a mapping or a record; None if nothing does."""
+    if isinstance(data, Mapping):
+        return data.get(key)
+    return getattr(data, key, None) if isinstance(data, Record) else None

@@ -1,0 +1,1 @@
+"""Joints, couplings between them, and drivers."""

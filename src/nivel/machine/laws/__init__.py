@@ -1,0 +1,1 @@
+"""Functions of time, of coordinates and of signals: tables, expressions, Python functions."""

@@ -1,0 +1,142 @@
+"""The `functions:` of a machine file: expressions with arguments, and curves through points, by name.
+
+    functions:
+      bump(x): 5 cm * exp(-(x/20 cm)^2)
+      torque_curve: {points: [0, 100, 300], values: [50 N m, 80 N m, 20 N m], interpolation: monotone}
+
+They may use parameters and each other, in any order. Where an expression calls one, its body is put in.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Final
+
+from pydantic import ValidationError
+
+from nivel.machine.laws.table import read_table
+from nivel.machine.units.arithmetic import (
+    NOT_FOR_PARAMETERS,
+    RESERVED,
+    ExpressionError,
+    FaultyParameterError,
+    Function,
+    Lookup,
+    Node,
+    Number,
+    Parameters,
+    Signal,
+    bind,
+    calls,
+    given,
+)
+from nivel.machine.units.grammar import parse
+from nivel.machine.units.quantity import ANY, FAULT, shown
+from nivel.machine.units.unit import UNITS
+
+_HEAD: Final = re.compile(r"([^\W\d]\w*)\s*(?:\(\s*([^()]*?)\s*\))?")
+_OF_CURVE: Final = "argument"
+Place = tuple[str | int, ...]
+Faults = dict[Place, str]
+
+
+def resolve_functions(
+    section: Mapping[str, object], parameters: Parameters
+) -> tuple[dict[str, Function | None], Faults]:
+    """The functions by name, and what is wrong with some, by place in the section. One at fault is None."""
+    faults: Faults = {}
+    trees: dict[str, tuple[str, tuple[str, ...], Node, str]] = {}
+    done: dict[str, Function | None] = {}
+    for key, value in section.items():
+        try:
+            name, arguments = _head(key, value, parameters)
+        except ExpressionError as problem:
+            faults[key,] = str(problem)
+            continue
+        done[name] = None
+        try:
+            if isinstance(value, Mapping):
+                done[name] = _curve(value, parameters)
+            else:
+                trees[name] = (key, arguments, _body(value), value if isinstance(value, str) else "")
+        except ExpressionError as problem:
+            faults[key,] = str(problem)
+        except ValidationError as error:
+            faults |= {(key, *line["loc"]): line["msg"] for line in error.errors() if line["type"] == FAULT}
+    for name in trees:
+        _resolve(name, trees, done, parameters, faults, ())
+    return done, faults
+
+
+def _head(key: str, value: object, parameters: Parameters) -> tuple[str, tuple[str, ...]]:
+    """Name and arguments of `bump(x)`; a curve has no arguments in its name."""
+    found = _HEAD.fullmatch(key)
+    if found is None:
+        raise ExpressionError(
+            f"`{key}` is not the head of a function; write `{key.split('(', maxsplit=1)[0].strip() or 'NAME'}(x): …`"
+        )
+    name, listed = found[1], found[2]
+    if name in RESERVED or name in UNITS:
+        raise ExpressionError(f"`{name}` has a meaning already; choose another name")
+    if name in parameters:
+        raise ExpressionError(f"`{name}` is a parameter; choose another name")
+    if isinstance(value, Mapping):
+        if listed is not None:
+            raise ExpressionError(f"a curve is named without arguments: write `{name}:`")
+        return name, ()
+    if not listed:
+        raise ExpressionError(f"the arguments are missing: write `{name}(x): …`; a number with a name is a parameter")
+    arguments = tuple(each.strip() for each in listed.split(","))
+    for argument in arguments:
+        if not argument.isidentifier() or argument in NOT_FOR_PARAMETERS:
+            raise ExpressionError(f"`{argument}` cannot be an argument; choose another name")
+    if len(set(arguments)) < len(arguments):
+        raise ExpressionError("two arguments have the same name")
+    return name, arguments
+
+
+def _body(value: object) -> Node:
+    if isinstance(value, str):
+        return parse(value)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return Number(given(value))
+    raise ExpressionError(f"an expression, or `{{points: […], values: […]}}` was expected, got {shown(value)}")
+
+
+def _curve(value: Mapping[str, object], parameters: Parameters) -> Function:
+    if "of" in value or "times" in value:
+        key = "of" if "of" in value else "times"
+        hint = "the call says what it depends on: leave `of` out" if key == "of" else "write `points`"
+        raise ExpressionError(f"`{key}` does not belong to a named curve; {hint}")
+    table = read_table({**value, "of": _OF_CURVE}, ANY, parameters, (_OF_CURVE,))
+    points, values = tuple(map(float, table.times)), tuple(map(float, table.values))
+    return Function((_OF_CURVE,), Lookup(Signal(_OF_CURVE), table.interpolation, points, values))
+
+
+def _resolve(
+    name: str,
+    trees: Mapping[str, tuple[str, tuple[str, ...], Node, str]],
+    done: dict[str, Function | None],
+    parameters: Parameters,
+    faults: Faults,
+    users: tuple[str, ...],
+) -> None:
+    """Fill `done[name]`, first those it uses. `users` are the functions that led here."""
+    key, arguments, tree, text = trees[name]
+    if done[name] is not None or (key,) in faults:
+        return
+    if name in users:
+        faults[key,] = f"depends on itself: {' → '.join([*users[users.index(name) :], name])}"
+        return
+    for used in sorted(set(calls(tree)) & trees.keys()):
+        _resolve(used, trees, done, parameters, faults, (*users, name))
+    if (key,) in faults:
+        return
+    known = {each: value for each, value in {**parameters, **done}.items() if each not in arguments}
+    try:
+        done[name] = Function(arguments, bind(tree, known, arguments), key, text)
+    except FaultyParameterError:
+        return
+    except ExpressionError as problem:
+        faults[key,] = str(problem)

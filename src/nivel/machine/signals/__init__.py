@@ -1,0 +1,1 @@
+"""Sensors, states, events and inputs."""

@@ -1,0 +1,1 @@
+"""References of elements to each other by name, and what each element uses."""

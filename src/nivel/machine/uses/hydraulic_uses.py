@@ -1,0 +1,192 @@
+"""Connections of hydraulic circuits: each leads somewhere. Reads raw data too: one fault hides no other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+from nivel.machine.core.index import Index, Place, as_list, elements
+from nivel.machine.core.record import entry
+from nivel.machine.hydraulic_fluids import fluid_faults
+from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.laws.symbols import paths_in, symbol_faults
+from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, find, unknown_name
+
+Faults = Iterator[tuple[Place, str]]
+SENSING: Final = ("LS", "X")  # ports that feel a pressure and take no flow
+SIGNAL: Final = "load-sensing"
+CHAMBERED: Final = ("cylinder", "telescopic-cylinder", "rotary-actuator")
+SAFE: Final = ("relief-valve",)  # what bounds the pressure behind a pump
+PASSING: Final = ("check-valve", "pipe", "orifice")  # what lets a pressure reach a relief valve elsewhere
+
+
+def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faults:
+    """Place and message of everything that is wrong."""
+    components = elements(machine, "hydraulics")
+    nodes = node_types(components)
+    used: set[str] = set()
+    for at, component in enumerate(components):
+        place: Place = ("hydraulics", at)
+        kind = COMPONENT_OF.get(str(entry(component, "type")))
+        yield from _of_ports(component, nodes, used, place)
+        yield from _of_fluid(component, index, place)
+        yield from _of_signal(component, index, used, place)
+        yield from _of_angle(component, index, place)
+        if kind is not None:
+            yield from symbol_faults(component, place, index, parameters, kind.functions)
+            yield from _late(component, kind.functions, index, parameters, place)
+    for at, component in enumerate(components):
+        yield from _unconnected(component, used, ("hydraulics", at))
+    yield from _unrelieved(components, nodes)
+    yield from fluid_faults(machine, makers(components))
+
+
+def node_types(components: Any) -> dict[str, str]:
+    """The nodes of a circuit: name → type of the component that makes it."""
+    out: dict[str, str] = {}
+    for component in components:
+        name, type_ = entry(component, "name"), str(entry(component, "type"))
+        if not isinstance(name, str) or type_ not in COMPONENT_OF:
+            continue
+        ports = ports_of(component)
+        single = entry(component, "acting") == "single"
+        for node in COMPONENT_OF[type_].nodes:
+            attached = node[1:] in ports and type_ in CHAMBERED
+            if not attached and not (single and node == ".B"):
+                out[f"{name}{node}"] = type_
+    return out
+
+
+def makers(components: Any) -> dict[str, Any]:
+    """The component that makes each node."""
+    return {node: component for component in components for node in node_types([component])}
+
+
+def ports_of(component: Any) -> Mapping[str, str]:
+    """The connections of a component, as far as they make sense."""
+    ports = entry(component, "ports")
+    return {k: v for k, v in ports.items() if isinstance(v, str)} if isinstance(ports, Mapping) else {}
+
+
+def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: Place) -> Faults:
+    type_ = str(entry(component, "type"))
+    seen: dict[str, str] = {}
+    for port, node in ports_of(component).items():
+        where = (*place, "ports", port)
+        if port not in SENSING or nodes.get(node) != "volume":  # a tank may be felt alone
+            used.add(node)
+        if node not in nodes:
+            whole = [each for each in nodes if each.startswith(f"{node}.")]
+            hint = f"; a chamber of it is needed: {' or '.join(f'`{each}`' for each in whole)}" if whole else ""
+            yield (
+                where,
+                f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes)),
+            )
+        elif nodes[node] == SIGNAL and port not in SENSING:
+            yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"
+        elif type_ in CHAMBERED and nodes[node] != "volume":
+            yield where, f"a chamber is part of a volume, and `{node}` is a {nodes[node]}"
+        elif port not in SENSING:
+            seen[port] = node
+    if len(seen) > 1 and len(set(seen.values())) == 1 and type_ not in CHAMBERED:
+        node = next(iter(seen.values()))
+        yield (*place, "ports"), f"ports {' and '.join(seen)} are all connected to `{node}`: nothing would flow"
+
+
+def _of_fluid(component: Any, index: Index, place: Place) -> Faults:
+    type_ = COMPONENT_OF.get(str(entry(component, "type")))
+    if type_ is None or "fluid" not in type_.model_fields:
+        return
+    fluid = entry(component, "fluid")
+    if isinstance(fluid, str) and fluid not in index.fluids:
+        yield (*place, "fluid"), unknown_name("fluid", fluid, index.fluids)
+    if fluid is None and len(index.fluids) > 1:
+        yield place, f"`fluid` is missing: there are {', '.join(f'`{each}`' for each in index.fluids)}"
+
+
+def _of_signal(component: Any, index: Index, used: set[str], place: Place) -> Faults:
+    """The valves whose loads a signal is made of."""
+    for at, name in enumerate(as_list(entry(component, "valves"))):
+        valve = index.hydraulics.get(name) if isinstance(name, str) else None
+        if valve is None:
+            known = [each for each, its in index.hydraulics.items() if entry(its, "type") == "directional-valve"]
+            yield (*place, "valves", at), unknown_name("valve", str(name), tuple(known))
+        elif entry(valve, "type") != "directional-valve" or entry(valve, "ways") != "4/3":
+            yield (*place, "valves", at), f"`{name}` is no 4/3 directional valve, whose load could be sensed"
+        else:
+            used.update(ports_of(valve).values())
+
+
+def _of_angle(component: Any, index: Index, place: Place) -> Faults:
+    """The coordinate of what turns is an angle."""
+    reference = entry(component, "coordinate")
+    if not isinstance(reference, str):
+        return
+    try:
+        find(reference, index.joints, "angle")
+    except UnknownCoordinateError:
+        try:
+            find(reference, index.joints)
+        except UnknownCoordinateError:
+            return  # reported as one that does not exist
+        yield (*place, "coordinate"), f"`{reference}` is a length; what turns needs an angle"
+
+
+def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Parameters, place: Place) -> Faults:
+    """Signals of components that are known only after what a component is told."""
+    for key in keys:
+        for where, path in paths_in(entry(component, key), (*place, key), index, parameters):
+            name, _, quantity = path.partition(".")
+            kind = COMPONENT_OF.get(str(entry(index.hydraulics.get(name), "type")))
+            if kind is not None and quantity in kind.late and name not in index.joints and name not in index.states:
+                early = [f"`{name}.{each}`" for each in kind.early]
+                hint = f"{' or '.join(early)}, or " if early else ""
+                yield (
+                    where,
+                    f"`{path}` follows from the flows, and cannot steer them at once; use {hint}a state that follows it",
+                )
+            if entry(component, "type") == "tank" and (name in index.control or kind is not None):
+                yield where, f"`{path}` follows from pressures, of which this is one; use a state that follows it"
+
+
+def _unconnected(component: Any, used: set[str], place: Place) -> Faults:
+    """Nodes that nothing is connected to: closed volumes without an outlet."""
+    name, type_ = entry(component, "name"), str(entry(component, "type"))
+    if not isinstance(name, str) or type_ not in ("volume", "tank", *CHAMBERED):
+        return
+    for node in node_types([component]):
+        if node in used:
+            continue
+        if type_ == "volume":
+            what = f"nothing flows into the volume `{node}` or out of it"
+            yield place, f"{what}; name it in the `ports` of a component, at another port than {' or '.join(SENSING)}"
+        elif type_ == "tank":
+            yield place, f"nothing is connected to `{node}`; name it in the `ports` of a component"
+
+
+def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
+    """Pumps of a fixed displacement behind which nothing bounds the pressure."""
+    joined: dict[str, set[str]] = {}
+    safe: set[str] = set()
+    for component in components:
+        type_, ports = str(entry(component, "type")), ports_of(component)
+        if type_ in SAFE and "P" in ports:
+            safe.add(ports["P"])
+        if type_ in PASSING and {"A", "B"} <= set(ports):
+            joined.setdefault(ports["A"], set()).add(ports["B"])
+            if type_ != "check-valve":
+                joined.setdefault(ports["B"], set()).add(ports["A"])
+    tanks = {name for name, type_ in nodes.items() if type_ == "tank"}
+    for at, component in enumerate(components):
+        type_, ports = str(entry(component, "type")), ports_of(component)
+        if type_ not in ("pump", "flow-source") or "B" not in ports or entry(component, "margin") is not None:
+            continue
+        reached, front = {ports["B"]}, [ports["B"]]
+        while front:
+            front = [node for each in front for node in joined.get(each, ()) if node not in reached]
+            reached.update(front)
+        node = ports["B"]
+        if node in nodes and not reached & (safe | tanks):
+            line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, …}}"
+            yield ("hydraulics", at), f"no relief valve bounds the pressure at `{node}`; add one such as `{line}`"

@@ -1,0 +1,47 @@
+"""Markers and joints at interfaces, which flexible bodies alone have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from nivel.machine.core.checked import Place, Problem
+from nivel.machine.core.marker import Marker
+
+if TYPE_CHECKING:
+    from nivel.machine.machine_record import MachineRecord
+
+
+def problems_of_interfaces(machine: MachineRecord) -> Iterator[Problem]:
+    """Interfaces that are asked for on bodies that are not flexible."""
+    flexible = {body.name for body in machine.bodies if body.flexible is not None}
+    for place, marker in markers_of(machine):
+        if marker.interface is not None and marker.body not in flexible:
+            yield Problem(
+                (*place, "interface"), f"`{marker.body}` is not flexible and has no interfaces: give a `position`"
+            )
+    for at, joint in enumerate(machine.joints):
+        if joint.interface is not None and not flexible & set(joint.bodies or ()):
+            yield Problem(
+                ("joints", at, "interface"), "neither of the bodies is flexible and has interfaces: give a `point`"
+            )
+
+
+def markers_of(machine: MachineRecord) -> Iterator[tuple[Place, Marker]]:
+    """Every marker of the machine, also those written out inside an element."""
+    for at, marker in enumerate(machine.markers):
+        yield ("markers", at), marker
+    keys = {
+        "joints": ("markers",),
+        "forces": ("markers", "plane"),
+        "hydraulics": ("markers",),
+        "sensors": ("distance", "angle"),
+    }
+    for section, names in keys.items():
+        for at, element in enumerate(getattr(machine, section)):
+            for key in names:
+                ends = getattr(element, key, None)
+                if isinstance(ends, Marker):
+                    yield (section, at, key), ends
+                elif isinstance(ends, tuple):
+                    yield from (((section, at, key, k), end) for k, end in enumerate(ends) if isinstance(end, Marker))

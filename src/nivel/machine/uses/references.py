@@ -1,0 +1,261 @@
+"""References of a machine: everything that it mentions exists. Reads raw data too: one fault hides no other."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Final
+
+from nivel.machine.bodies.point_masses import point_mass_faults
+from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
+from nivel.machine.core.record import GROUND, Record, entry, unknown_word
+from nivel.machine.forces import Contact
+from nivel.machine.forces.contact import HULLS, SHAPES_ON_PLANE
+from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.laws.symbols import outputs_of, states_of, symbol_faults
+from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.uses.coordinate_reference import unknown_name
+from nivel.machine.uses.coordinate_uses import coordinate_faults
+from nivel.machine.uses.hydraulic_uses import hydraulic_faults
+
+__all__ = ["SECTIONS", "reference_faults"]
+
+Faults = Iterator[tuple[Place, str]]
+
+WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
+# keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
+CONTROL_KEYS: Final = (
+    "value",
+    "input",
+    "inputs",
+    "reference",
+    "measured",
+    "feedforward",
+    "measured_speed",
+    "speed_reference",
+    "then",
+    "otherwise",
+    "law",
+)
+SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
+_SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
+
+
+def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faults:
+    """Place and message of every name that is used twice or mentioned in vain. `machine` is a record, or what it is
+    made of, with the `parameters` of its file.
+    """
+    index = Index.of(machine)
+    yield from _twice(machine)
+    for at, marker in enumerate(elements(machine, "markers")):
+        yield from _unknown_body(entry(marker, "body"), index, ("markers", at, "body"))
+        if isinstance(marker, Mapping | Record) and entry(marker, "name") is None:
+            yield ("markers", at), "`name` is missing"
+    for at, joint in enumerate(elements(machine, "joints")):
+        yield from _of_joint(joint, index, ("joints", at))
+    for at, driver in enumerate(elements(machine, "drivers")):
+        yield from _of_driver(driver, index, ("drivers", at))
+    for at, force in enumerate(elements(machine, "forces")):
+        yield from _of_force(force, index, ("forces", at))
+    for at, sensor in enumerate(elements(machine, "sensors")):
+        yield from _of_sensor(sensor, index, ("sensors", at))
+    for at, block in enumerate(elements(machine, "control")):
+        yield from symbol_faults(block, ("control", at), index, parameters or {}, CONTROL_KEYS)
+    yield from hydraulic_faults(machine, index, parameters or {})
+    for at, component in enumerate(elements(machine, "hydraulics")):
+        yield from _of_pair(component, index, ("hydraulics", at), "a cylinder needs two different bodies")
+    for section in ("forces", "states", "sensors", "events"):
+        for at, element in enumerate(elements(machine, section)):
+            yield from symbol_faults(element, (section, at), index, parameters or {})
+    events = [name for event in elements(machine, "events") if isinstance(name := entry(event, "name"), str)]
+    for at, state in enumerate(elements(machine, "states")):
+        yield from _unknown(entry(state, "event"), events, "event", ("states", at, "event"))
+    for at, name in enumerate(as_list(entry(entry(machine, "simulation"), "cut"))):
+        yield from _unknown(name, tuple(index.joints), "joint", ("simulation", "cut", at))
+    yield from coordinate_faults(machine, index)
+    yield from point_mass_faults(machine, index)
+
+
+def _twice(machine: Any) -> Faults:
+    for sections in (
+        ("bodies", "beams"),
+        ("markers",),
+        WITH_ROWS,
+        ("forces",),
+        ("fluids",),
+        ("hydraulics",),
+        ("inputs",),
+        ("states", "control"),
+        ("sensors",),
+        ("events",),
+    ):
+        seen: dict[str, str] = {}
+        for section in sections:
+            for at, element in enumerate(elements(machine, section)):
+                name = entry(element, "name")
+                if not isinstance(name, str):
+                    continue
+                if name not in seen:
+                    seen[name] = section
+                    continue
+                message = f"the name `{name}` stands twice in {section}"
+                if seen[name] != section:
+                    sharing = SHARING.get(section, "joints, couplings and drivers")
+                    message = f"the name `{name}` stands in {seen[name]}; {sharing} share their names"
+                yield (section, at, "name"), message
+
+
+def _of_driver(driver: Any, index: Index, place: Place) -> Faults:
+    marker, seen_from = entry(driver, "marker"), entry(driver, "relative_to")
+    yield from _unknown_marker(marker, index, (*place, "marker"))
+    if seen_from != GROUND:
+        yield from _unknown_marker(seen_from, index, (*place, "relative_to"))
+    on = index.body_of(marker) if isinstance(marker, str) else None
+    against = GROUND if seen_from in (None, GROUND) else index.body_of(seen_from)
+    if on is not None and on == against and marker != seen_from:
+        yield (*place, "marker"), f"the marker `{marker}` is on `{on}`, relative to which it is driven; it cannot move"
+
+
+def _of_force(force: Any, index: Index, place: Place) -> Faults:
+    if entry(force, "type") == Contact.model_fields["type"].default:
+        yield from _of_contact(force, index, place)
+        return
+    yield from _unknown_body(entry(force, "body"), index, (*place, "body"))
+    marker = entry(force, "marker")
+    yield from _unknown_marker(marker, index, (*place, "marker"))
+    if isinstance(marker, str) and index.body_of(marker) == GROUND:
+        yield (*place, "marker"), f"the marker `{marker}` is on `{GROUND}`: a force there moves nothing"
+    yield from _of_pair(force, index, place, "a force needs two different bodies")
+
+
+def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
+    body, plane = entry(contact, "body"), entry(contact, "plane")
+    yield from _of_shape(body, index, SHAPES_ON_PLANE, (*place, "body"))
+    yield from _of_touching_pair(contact, index, place)
+    yield from _of_end(plane, index, (*place, "plane"))
+    if isinstance(body, str) and index.body_of(plane) == body:
+        yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
+    shape = index.bodies.get(body, "") if isinstance(body, str) else ""
+    if entry(contact, "materials") is not None and shape in SHAPES_ON_PLANE and shape != "sphere":
+        message = f"`materials` give the stiffness of spheres (Hertz); the shape of `{body}` is `{shape}`: give its `stiffness`"
+        yield (*place, "materials"), message
+
+
+def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
+    """Two spheres, or two hulls: what the first is, the second must be."""
+    pair = as_list(entry(contact, "bodies"))
+    shapes = [index.bodies.get(body, "") if isinstance(body, str) else "" for body in pair]
+    hulls = any(each in HULLS for each in shapes)
+    known = hulls or "sphere" in shapes
+    allowed = HULLS if hulls else ("sphere",) if known else ("sphere", *HULLS)
+    if hulls and "sphere" in shapes:
+        said = " and ".join(f"`{body}` a {shape}" for body, shape in zip(pair, shapes, strict=True))
+        yield (*place, "bodies"), f"{said}: two spheres can touch, or two of {', '.join(HULLS)}"
+        return
+    for at, name in enumerate(pair):
+        yield from _of_shape(name, index, allowed, (*place, "bodies", at))
+    if hulls and all(each in HULLS for each in shapes):
+        for key in ("stiffness", "materials", "law"):
+            if entry(contact, key) is not None:
+                message = f"`{key}` is not for two of {', '.join(HULLS)}: give `foundation_modulus: 1e10 N/m^3`, pressure by depth"
+                yield (*place, key), message
+    elif pair and known and entry(contact, "foundation_modulus") is not None:
+        yield (
+            (*place, "foundation_modulus"),
+            f"is for two of {', '.join(HULLS)}; two spheres take a `stiffness`",
+        )
+
+
+def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -> Faults:
+    """Whether `body` is there and has one of the `allowed` shapes."""
+    yield from _unknown_body(body, index, place)
+    if not isinstance(body, str) or body not in index.bodies:
+        return
+    shape = index.bodies[body]
+    wanted = " or ".join(", ".join(allowed).rsplit(", ", 1))
+    if not shape:
+        yield place, f"the body `{body}` has no shape; a contact here needs a {wanted}"
+    elif shape in _SHAPES and shape not in allowed:
+        yield place, f"the shape of `{body}` is `{shape}`; a contact here needs a {wanted}"
+
+
+def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:
+    yield from _unknown_marker(entry(sensor, "marker"), index, (*place, "marker"))
+    seen_from = entry(sensor, "relative_to")
+    if seen_from != GROUND:
+        yield from _unknown_marker(seen_from, index, (*place, "relative_to"))
+    for form in ("distance", "angle"):
+        for at, end in enumerate(as_list(entry(sensor, form))):
+            yield from _of_end(end, index, (*place, form, at))
+    force, quantity = entry(sensor, "force"), entry(sensor, "quantity")
+    yield from _unknown(force, index.forces, "force", (*place, "force"))
+    known = index.forces.get(force) if isinstance(force, str) else None
+    outputs = (*outputs_of(known), *states_of(known)) if known is not None else ()
+    if outputs and isinstance(quantity, str) and quantity not in outputs:
+        type_ = entry(index.forces[str(force)], "type")
+        message = f"of the {type_} `{force}`, {unknown_word(quantity, outputs, 'quantity')}"
+        yield (*place, "quantity"), message
+
+
+def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
+    kind = JOINT_KINDS.get(str(entry(joint, "type")))
+    bodies = as_list(entry(joint, "bodies"))
+    placed = bool(entry(joint, "nodes"))  # its beam is nodes already
+    if kind is None or not kind.rail or placed or len(bodies) != 2:
+        yield from _of_pair(joint, index, place, "a joint needs two different bodies")
+        return
+    slider, beam = bodies
+    if isinstance(slider, str) and slider in index.beams:
+        yield (*place, "bodies", 0), f"`{slider}` is a beam; what slides comes first, the beam second"
+    else:
+        yield from _unknown_body(slider, index, (*place, "bodies", 0))
+    if not isinstance(beam, str):
+        return
+    if beam not in index.beams:
+        known = ", ".join(f"`{each}`" for each in index.beams) or "none"
+        whole = beam.partition(".")[0]
+        hint = f"write `{whole}`, the whole beam" if whole in index.beams else f"there are {known}"
+        yield (*place, "bodies", 1), f"`{beam}` is not a beam, along which this joint slides; {hint}"
+    elif isinstance(slider, str) and slider.partition(".")[0] == beam:
+        yield (*place, "bodies"), f"`{slider}` is on the beam `{beam}` itself, and cannot slide along it"
+
+
+def _of_pair(element: Any, index: Index, place: Place, needs: str) -> Faults:
+    """The two bodies or markers between which something acts."""
+    for at, body in enumerate(as_list(entry(element, "bodies"))):
+        yield from _unknown_body(body, index, (*place, "bodies", at))
+    ends = as_list(entry(element, "markers"))
+    for at, end in enumerate(ends):
+        yield from _of_end(end, index, (*place, "markers", at))
+    on = [index.body_of(end) for end in ends]
+    if len(on) == 2 and on[0] is not None and on[0] == on[1]:
+        yield (*place, "markers"), f"both markers are on `{on[0]}`; {needs}"
+
+
+def _of_end(end: Any, index: Index, place: Place) -> Faults:
+    """A marker by name, or written out."""
+    if isinstance(end, str):
+        yield from _unknown_marker(end, index, place)
+    else:
+        yield from _unknown_body(entry(end, "body"), index, (*place, "body"))
+
+
+def _unknown_body(name: Any, index: Index, place: Place) -> Faults:
+    beam, dot, station = name.partition(".") if isinstance(name, str) else ("", "", "")
+    if beam not in index.beams or name in index.bodies:
+        yield from _unknown(name, index.bodies_and_ground, "body", place)
+        return
+    stations = ", ".join(f"`{each}`" for each in index.beams[beam])
+    what = f"the beam `{beam}` has no station `{station}`" if dot else f"`{beam}` is a beam; a place on it is needed"
+    yield place, f"{what}; there are {stations}"
+
+
+def _unknown_marker(name: Any, index: Index, place: Place) -> Faults:
+    if isinstance(name, str) and name in index.bodies and "." in name:
+        yield place, f"`{name}` is a station of a beam; name a marker on it: `markers: {{tip: {{body: {name}}}}}`"
+        return
+    yield from _unknown(name, tuple(index.markers), "marker", place)
+
+
+def _unknown(name: Any, known: Collection[str], what: str, place: Place) -> Faults:
+    if isinstance(name, str) and name not in known:
+        yield place, unknown_name(what, name, tuple(known))

@@ -1,0 +1,26 @@
+"""Pages that results open: reports and views, by the functions that make them.
+
+These functions stand in packages above results, so they are imported by name, when a page is asked for.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, Final
+
+MAKERS: Final = {
+    "comparison": ("nivel.report.compare_page", "write_comparison"),
+    "efforts": ("nivel.report.efforts_page", "efforts_html"),
+    "linear model": ("nivel.report.linear_page", "linear_html"),
+    "linear sweep": ("nivel.report.sweep_page", "sweep_html"),
+    "mechanism": ("nivel.report.mechanism_page", "mechanism_html"),
+    "report": ("nivel.report.write", "write_report"),
+    "notebook": ("nivel.view.inline", "Inline"),
+    "scene": ("nivel.view.export", "write_scene"),
+}
+
+
+def page_maker(page: str) -> Any:
+    """The function or class that makes the page."""
+    module, name = MAKERS[page]
+    return getattr(import_module(module), name)

@@ -1,0 +1,1 @@
+"""Arrays of beams: nodes, elements, segments, tangents."""

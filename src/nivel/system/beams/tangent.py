@@ -1,0 +1,136 @@
+"""Tables for derivatives of beams by hand: which unknowns move an element, and where what they do stands in the matrix."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.kernels.forces.elastic_beam import apply as elastic_beam
+from nivel.kernels.record.beam_record import BeamTangent
+from nivel.kernels.record.hook import FAMILIES
+from nivel.kernels.record.record import FREE, NONE, Record
+from nivel.system.beams.beams import empty_tangent
+from nivel.system.elimination.tangent_plan import TangentPlan
+from nivel.system.system import System
+from nivel.system.tables import index_array
+
+# columns of an element in `Elements.columns`, see `nivel.kernels.elements.beam_element`
+COUNT = 4
+Index = NDArray[np.integer]
+
+
+def elastic_family(record: Record) -> int:
+    """Number of the family of elements without damping among the families of forces; -1: there are none."""
+    families = [FAMILIES[int(address)] for address in record.elements.address]
+    return families.index(elastic_beam) if elastic_beam in families else -1
+
+
+def has_elastic_beams(record: Record) -> bool:
+    """Whether the machine has elements without damping."""
+    return elastic_family(record) >= 0
+
+
+def rail_of(record: Record, n: int) -> tuple[int, ...]:
+    """The nodes of the beam along which the body of node n of the tree slides, as bodies; none where it does not."""
+    if not len(record.tree.slider) or record.tree.slider_of[n] == NONE:
+        return ()
+    along = int(record.tree.slider[record.tree.slider_of[n], 1])
+    first, last = record.coordinates.start[along : along + 2].astype(int)
+    return tuple(record.markers.body[record.coordinates.part_marker[first + 1 : last]].tolist())
+
+
+def has_carried_nodes(record: Record) -> bool:
+    """Whether an element without damping has a node that is moved by modes of a flexible body, or by a beam along which it, or what carries
+    it, slides."""
+    if not has_elastic_beams(record):
+        return False
+    carried: set[int] = set()
+    for child, parent, kind in record.tree.node[:, :3].tolist():
+        if parent in carried or kind > FREE:
+            carried.add(child)
+    return any(body in carried for nodes in _nodes(record) for body in record.markers.body[nodes].tolist())
+
+
+def plain_nodes(system: System, part: Index) -> dict[int, int]:
+    """Bodies that nothing but such elements takes hold of, and their groups of unknowns. part : of all rows, as in `Residual`."""
+    record = system.record
+    own = Counter(frozenset(record.markers.body[nodes].tolist()) for nodes in _nodes(record))
+    others = Counter(each.bodies for each in system.coupled) - own
+    touched = {body for bodies in others for body in bodies} | set(part[:, 3].tolist())
+    bodies = {body for nodes in own for body in nodes} - touched
+    bodies = {body for body in bodies if not record.bodies.centre_b[body].any()}
+    tree = record.tree.node.tolist()
+    if not tree:
+        return {body: body for body in sorted(bodies)}
+    carrying = {parent for _, parent, *_ in tree} | {body for n in range(len(tree)) for body in rail_of(record, n)}
+    ground = system.body_count
+    free = {child: k for k, (child, parent, kind, *_) in enumerate(tree) if kind == FREE and parent == ground}
+    return {body: free[body] for body in sorted(bodies) if body in free and body not in carrying}
+
+
+def _nodes(record: Record) -> list[list[int]]:
+    """Markers of the nodes of each element without damping."""
+    first, last = record.elements.span[elastic_family(record)]
+    return [row[: row[COUNT]] for row in record.elements.columns[first:last].tolist()]
+
+
+def tangent_tables(record: Record, plan: TangentPlan, plain: Mapping[int, int]) -> BeamTangent:
+    """For the matrix planned and the plain nodes."""
+    elements = _nodes(record)
+    tree = record.tree.node.tolist()
+    branch = {child: (parent, first, last) for child, parent, _, _, first, last in tree}
+    unknown: list[tuple[int, int, int, int]] = []
+    start, rows, columns, place_start = [0], [], [], []
+    count = 0
+    for nodes in elements:
+        bodies = record.markers.body[nodes].tolist()
+        moved: dict[int, list[int]] = {}
+        for a, body in enumerate(bodies):
+            for j, mover in _movers(branch, body):
+                moved.setdefault(j, [mover, 0])[1] |= 1 << a
+        own = np.array(list(moved), dtype=np.int64)
+        for j, (mover, nodes_moved) in moved.items():
+            unknown.append((j, mover, nodes_moved, bodies.index(mover) if mover in plain else NONE))
+        rows.append(np.repeat(own, len(own)))
+        columns.append(np.tile(own, len(own)))
+        place_start.append(count)
+        count += len(own) ** 2
+        start.append(len(unknown))
+    place = plan.factor.entry(np.concatenate(rows), np.concatenate(columns))
+    pairs = {tuple(pair): k for k, pair in reversed(list(enumerate(record.shared.pair[:, 2:].tolist())))}
+    spans = []
+    for nodes in elements:
+        first = pairs.get((nodes[0], nodes[1]), NONE)
+        spans.append((first, first + len(nodes) * (len(nodes) - 1) // 2) if first != NONE else (0, 0))
+    return empty_tangent(len(elements), int(np.diff(start).max()))._replace(
+        first=index_array([record.elements.span[elastic_family(record), 0]], 1),
+        start=index_array(start, 1),
+        unknown=index_array(unknown, 4),
+        place_start=index_array(place_start, 1),
+        place=place,
+        pair=index_array(spans, 2),
+        plain=_plain_table(branch, plan, plain),
+    )
+
+
+def _movers(branch: Mapping[int, tuple[int, int, int]], body: int) -> list[tuple[int, int]]:
+    """Unknowns that move a body, with the body that each of them moves first."""
+    if not branch:
+        return [(6 * body + i, body) for i in range(6)]
+    out: list[tuple[int, int]] = []
+    while body in branch:
+        parent, first, last = branch[body]
+        out += [(j, body) for j in range(first, last)]
+        body = parent
+    return out
+
+
+def _plain_table(branch: Mapping[int, tuple[int, int, int]], plan: TangentPlan, plain: Mapping[int, int]) -> Index:
+    firsts = [branch[body][1] if branch else 6 * body for body in plain]
+    at = np.array(firsts, dtype=np.int64).reshape(-1, 1)
+    places = plan.factor.entry(at + np.arange(6), at) if firsts else np.zeros((0, 6))
+    table = np.column_stack([np.array(list(plain), dtype=np.int64).reshape(-1, 1), at, places])
+    return np.ascontiguousarray(table.astype(np.uint32).reshape(-1, 8))

@@ -1,0 +1,1 @@
+"""Arrays of joints: constraint rows, joint frames, drivers, rails and interfaces."""

@@ -1,0 +1,118 @@
+"""Joints that slide along a beam: which nodes they may come by, and where they start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.beams.beam import Beam
+from nivel.machine.core.checked import Problem
+from nivel.machine.joints.joint import JOINT_KINDS, Joint
+from nivel.system.tables import Array
+
+SAMPLES = 8  # of the line between two nodes, from which the nearest point is looked for
+OFF = 1e-3  # of the length of a beam by which the point of a joint may miss its line: the joint is on the line
+
+
+class OnBeam(Joint):
+    """A joint whose second body is a beam, as placed: on the line through its nodes, axis along the line and x along the sections' y.
+
+    Its second body is the nearest node. nodes : all nodes of the beam as bodies. stations : their places along its unstressed line [m].
+    place : that of the joint's point.
+    """
+
+    nodes: tuple[str, ...] = ()
+    stations: tuple[float, ...] = ()
+    place: float = 0.0
+
+    def problems(self) -> Iterator[Problem]:
+        """None: the joint that it is made of was checked."""
+        yield from ()
+
+
+def on_beams(joints: Sequence[Joint], beams: Sequence[Beam]) -> tuple[Joint, ...]:
+    """The joints, those that slide along one of the `beams` as `OnBeam`. Raises ModelError where their points are beside the beam."""
+    named, made, faults = {beam.name: beam for beam in beams}, [], []
+    for joint in joints:
+        try:
+            made.append(_on_beam(joint, named))
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+    return tuple(made)
+
+
+def stretches(nodes: Sequence[int], *, turned: bool) -> Iterator[tuple[int, ...]]:
+    """The nodes of a beam that a slider looks at at one time, for each place along it: two, and the next ones where they turn it."""
+    more = 1 if turned else 0
+    return (tuple(nodes[max(e - more, 0) : e + 2 + more]) for e in range(len(nodes) - 1))
+
+
+def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
+    if not JOINT_KINDS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
+        return joint
+    assert joint.point is not None  # the record was checked
+    beam = beams[joint.bodies[1]]
+    stations = beam.line.length * beam.shares
+    places, axes = beam.frames(beam.shares)
+    place, point = _nearest(stations, places, axes[:, :, 0], np.array(joint.point))
+    gap = float(np.linalg.norm(point - joint.point))
+    if gap > OFF * beam.line.length:
+        near = ", ".join(f"{x:.6g}" for x in point)
+        message = f"the `point` is {gap:.3g} m beside the line of the beam `{beam.name}`; the nearest point on it is [{near}] m"
+        raise ModelError(Fault("", 0, 0, f"joints.{joint.name}.point", message))
+    e = element_of(stations, place)
+    along, across = (between(stations, axes[:, :, k], e)(place) for k in (0, 1))
+    across -= (across @ along) * along / (along @ along)
+    given: dict[str, Any] = {name: getattr(joint, name) for name in type(joint).model_fields}
+    given |= {
+        "bodies": (joint.bodies[0], beam.node_names[int(np.argmin(np.abs(stations - place)))]),
+        "point": tuple(point.tolist()),
+        "axis": tuple(along.tolist()),
+        "x_axis": tuple(across.tolist()),
+        "nodes": beam.node_names,
+        "stations": tuple(stations.tolist()),
+        "place": place,
+    }
+    return OnBeam.model_construct(joint.model_fields_set | {"axis", "x_axis"}, **given)
+
+
+def element_of(stations: Array, place: float) -> int:
+    """Number of the node before a place, of those that are not the last; at a node the one before it."""
+    return min(max(int(np.searchsorted(stations, place, side="left")) - 1, 0), len(stations) - 2)
+
+
+def between(stations: Array, values: Array, e: int) -> Any:
+    """An axis of the sections, or its rate, between the nodes e and e + 1, from its values (N, 3) at all nodes: slopes at nodes are those
+    between their neighbours. A spline of scipy."""
+    from scipy.interpolate import CubicHermiteSpline
+
+    slopes = []
+    for n in (e, e + 1):
+        before, after = max(n - 1, 0), min(n + 1, len(values) - 1)
+        slopes.append((values[after] - values[before]) / (stations[after] - stations[before]))
+    return CubicHermiteSpline(stations[e : e + 2], values[e : e + 2], np.array(slopes))
+
+
+def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> tuple[float, Array]:
+    """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], and the point there."""
+    from scipy.interpolate import CubicHermiteSpline
+    from scipy.optimize import minimize_scalar
+
+    line = CubicHermiteSpline(stations, places, tangents)
+    samples = np.linspace(stations[0], stations[-1], SAMPLES * (len(stations) - 1) + 1)
+    k = int(np.argmin(np.linalg.norm(line(samples) - point, axis=1)))
+    low, high = float(samples[max(k - 1, 0)]), float(samples[min(k + 1, len(samples) - 1)])
+
+    def square(s: float) -> float:
+        return float(np.sum((line(s) - point) ** 2))
+
+    found = minimize_scalar(
+        square, bounds=(low, high), method="bounded", options={"xatol": 1e-12 * float(stations[-1])}
+    )
+    place = min((float(found.x), low, high), key=square)
+    return place, line(place)

@@ -1,0 +1,1 @@
+"""Arrays of signals: inputs, sensors, states and control."""

@@ -1,0 +1,149 @@
+"""Blocks of a control in numbers: signals are elements that come before all forces, memories are states, samples a table of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.kernels.record.function import OUTPUT, STATE
+from nivel.kernels.record.record import NONE
+from nivel.kernels.signals.control import apply as compute
+from nivel.machine.control.order import PartOf, in_order, parts_of
+from nivel.machine.control.part import VALUE
+from nivel.machine.laws.symbols import find_in, follows_control, is_output
+from nivel.system.builder import SystemBuilder
+from nivel.system.located import located
+from nivel.system.signals.state_facts import StateFact
+
+ONCE = 1e300  # [s] period of what is sampled once
+
+
+@dataclass
+class SampleTable:
+    """Rows of `Sampled`: state, output, at once, function, event, period, offset."""
+
+    rows: list[tuple[int, int, int, int, int, float, float]] = field(default_factory=list)
+
+    def add(
+        self, state: int, function: int, *, period: float, offset: float = 0.0, event: int = NONE, at_once: bool = False
+    ) -> None:
+        """A sample of a state: after a period [s], at an event, or both."""
+        self.rows.append((state, NONE, int(at_once), function, event, period, offset))
+
+    def add_signal(self, output: int, function: int) -> None:
+        """A signal, which is computed anew at all samples."""
+        self.rows.append((NONE, output, 1, function, NONE, 0.0, 0.0))
+
+
+def variable_of(each: PartOf) -> str:
+    """Result variable of a part."""
+    return f"control.{each.block.name}" if each.part.name == VALUE else f"control.{each.path}"
+
+
+def add_control(builder: SystemBuilder) -> None:
+    """All parts of all blocks, and what computes signals and rates in every evaluation."""
+    parts = parts_of(builder.machine.control)
+    for each in parts:
+        if each.part.role == "signal":
+            output = builder.outputs.add((variable_of(each), _units(each), _words(each)))
+            builder.control[each.path] = (OUTPUT, output, 0)
+        else:
+            builder.control[each.path] = (STATE, builder.own_state(_fact(each)), 0)
+    order, _ = in_order(parts)
+    for each in order:
+        if each.part.role == "signal":
+            builder.elements.add(compute, [builder.control[each.path][1], _noted(builder, each)])
+    for each in parts:
+        if each.part.role == "state":
+            builder.elements.add(state_rate, [builder.control[each.path][1], _noted(builder, each), 0])
+        elif each.part.role in ("sample", "memory") and not each.part.holds and not _reads_forces(builder, each):
+            builder.elements.add(state_rate, [builder.control[each.path][1], _noted(builder, each), 1])
+
+
+def add_samples(builder: SystemBuilder, table: SampleTable) -> None:
+    """What is sampled: first what is computed at an instant, in order, then memories, all from the values before."""
+    parts = parts_of(builder.machine.control)
+    if not any(
+        each.part.role != "signal" and (each.block.is_sampled or each.part.begins is not None) for each in parts
+    ):
+        return
+    order, _ = in_order(parts)
+    for each in order:
+        index, place = builder.control[each.path][1], _place(each)
+        with located(place):
+            if each.part.role == "signal":
+                table.add_signal(index, _function(builder, each))
+            elif each.part.begins is not None:
+                table.add(
+                    index,
+                    builder.function(each.present, switching=False),
+                    period=ONCE,
+                    offset=each.block.offset,
+                    at_once=True,
+                )
+            else:
+                table.add(
+                    index,
+                    _function(builder, each),
+                    period=each.block.period,
+                    offset=each.block.offset,
+                    at_once=True,
+                )
+    for each in parts:
+        if each.part.role == "memory":
+            offset = each.block.offset + each.part.offset
+            table.add(builder.control[each.path][1], _function(builder, each), period=each.block.period, offset=offset)
+
+
+def _function(builder: SystemBuilder, each: PartOf) -> int:
+    """Index of the function of a part; one that nothing has asked for before reads what forces report."""
+    if each.path not in builder.functions_of:
+        with located(_place(each)):
+            builder.functions_of[each.path] = builder.function(each.part.function, switching=False)
+    return builder.functions_of[each.path]
+
+
+def _reads_forces(builder: SystemBuilder, each: PartOf) -> bool:
+    """Whether a sample takes something that forces report: it then keeps its value in statics."""
+    index = builder.machine.index
+    paths = [path for path in each.signals if path not in builder.control]
+    symbols = [find_in(path, index) for path in paths]
+    return any(is_output(symbol, index) or follows_control(symbol, index) for symbol in symbols)
+
+
+def _noted(builder: SystemBuilder, each: PartOf) -> int:
+    """The function of a part. What it depends on is noted, also for those that read its signal."""
+    with builder.noting(), located(_place(each)):
+        if each.part.role != "signal":
+            builder.signal_at(each.path)
+        in_motion = each.part.role in ("signal", "state") and not each.block.is_sampled
+        function = builder.function(each.part.function, switching=in_motion)
+    if each.part.role == "signal":
+        builder.behind_signals[each.path] = builder.noted[-1]
+    builder.functions_of[each.path] = function
+    return function
+
+
+def _place(each: PartOf) -> str:
+    return f"control.{each.block.name}{f'.{each.part.key}' if each.part.key else ''}"
+
+
+def _units(each: PartOf) -> str:
+    return (each.block.units if each.part.name == VALUE else "") or "1"
+
+
+def _words(each: PartOf) -> str:
+    return f"{each.part.name.replace('_', ' ')} of {each.block.name}"
+
+
+def _fact(each: PartOf) -> StateFact:
+    name = variable_of(each)
+    return StateFact(
+        name=name,
+        units=_units(each),
+        long_name=_words(each),
+        start=each.part.start,
+        scale=max(each.block.size, abs(each.part.start)),
+        sampled=each.part.role != "state",
+        variable=name,
+    )

@@ -1,0 +1,68 @@
+"""User states in numbers: continuous ones are elements that give a rate, sampled ones stand in a table of their own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.kernels.record.record import NONE, Sampled
+from nivel.machine.signals.state import State
+from nivel.system.builder import SystemBuilder
+from nivel.system.located import located
+from nivel.system.signals.control import ONCE, SampleTable, add_samples
+from nivel.system.signals.state_facts import StateFact
+from nivel.system.tables import index_array
+
+
+def add_states(builder: SystemBuilder) -> None:
+    """All user states, and the rates of continuous ones."""
+    for state in builder.machine.states:
+        with builder.noting():
+            own = builder.own_state(_fact(state))
+            key = "rate" if state.rate is not None else "update"
+            with located(f"states.{state.name}.{key}"):
+                function = builder.function(getattr(state, key), switching=state.rate is not None)
+            if state.rate is not None or state.every is not None:
+                builder.elements.add(state_rate, [own, function, int(state.rate is None)])
+
+
+def _fact(state: State) -> StateFact:
+    return StateFact(
+        name=state.name,
+        units=state.units or "1",
+        long_name=f"state {state.name}",
+        start=state.start,
+        scale=state.size,
+        sampled=state.update is not None,
+    )
+
+
+def sampled_states(builder: SystemBuilder) -> Sampled:
+    """The table of what is sampled: user states, then blocks of the control."""
+    events = [event.name for event in builder.machine.events]
+    table = SampleTable()
+    for state in builder.machine.states:
+        if state.update is None:
+            continue
+        with located(f"states.{state.name}.update"):
+            function = builder.function(state.update, switching=False)
+        event = NONE if state.event is None else events.index(state.event)
+        table.add(builder.state(state.name), function, period=state.every or 0.0, event=event)
+    for state, begins in builder.begins:
+        table.add(state, builder.function(begins, switching=False), period=ONCE)
+    add_samples(builder, table)
+    count = len(table.rows)
+    state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7
+    return Sampled(
+        state=index_array(state, 1),
+        output=index_array(output, 1),
+        at_once=index_array(at_once, 1),
+        function=index_array(function, 1),
+        event=index_array(event, 1),
+        period=np.array(period, dtype=float),
+        offset=np.array(offset, dtype=float),
+        at_rest=np.zeros(1, dtype=np.uint32),
+        came=np.zeros(len(events), dtype=np.uint32),
+        due=np.zeros(count, dtype=np.uint32),
+        value=np.zeros(count),
+    )

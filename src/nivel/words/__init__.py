@@ -1,0 +1,1 @@
+"""Words of machine files and messages: vocabulary of other programs, sentences, lines that a message proposes."""

@@ -1,0 +1,66 @@
+"""Wording of messages: what stood there, and what would be right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+from typing import Final
+
+from nivel.words.vocabulary import translated
+
+LONGEST: Final = 40  # characters of a value in a message
+MOST_NAMES: Final = 8  # of a list of names in a sentence
+
+
+def shown(value: object) -> str:
+    """`value` in a message: as in the file, short, and in one line."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, Mapping):
+        return "a mapping"
+    if isinstance(value, list | tuple) or getattr(value, "ndim", 0):
+        return "a list"
+    if isinstance(value, int) and abs(value) > 1e40:
+        return "a number of more than 40 digits"  # Python does not write integers of thousands of digits
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    text = str(value)
+    line = (text.splitlines() or [""])[0]
+    return f"`{text}`" if line == text and len(text) <= LONGEST else f"`{line[: LONGEST - 3]}…`"
+
+
+def set_in_motion(names: Sequence[str]) -> str:
+    """A sentence without its full stop about bodies that move at the start though no velocity was given to them."""
+    few = names if len(names) <= MOST_NAMES else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
+    return (
+        f"velocities that are not given follow from the joints and the masses (least kinetic energy): {', '.join(few)}"
+    )
+
+
+def label_of(name: str) -> str:
+    """A name as a label for people: `lift_lever` is "Lift lever"."""
+    words = " ".join(re.split(r"[\s_-]+", name)).strip()
+    return words[:1].upper() + words[1:]
+
+
+def seconds(value: float) -> str:
+    """A time [s] in the unit that suits it: 31 ms, 3.9 µs, 2.5 s."""
+    for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
+        if abs(value) * factor >= 1.0:
+            return f"{value * factor:.3g} {unit}"
+    return f"{value * 1e9:.3g} ns"
+
+
+def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
+    """A sentence that refuses `word` and offers what it is called here, the nearest of `valid`, or all of them."""
+    if answer := translated(word, valid):
+        return f"the {what} `{word}` is not known; {answer}"
+    near = get_close_matches(word, valid, n=1, cutoff=0.6)
+    if near:
+        return f"the {what} `{word}` is not known; did you mean `{near[0]}`?"
+    if not valid:
+        return f"the {what} `{word}` is not known; there are none"
+    return f"the {what} `{word}` is not known; there {'are' if len(valid) > 1 else 'is'} {', '.join(valid)}"

@@ -12,12 +12,15 @@ import click
 def key_page() -> str:
     """Every key of every element: what it takes, its default and meaning."""
     from nivel.files.assembly import Assembly
+    from nivel.files.schema import schema
 
     lines = [
         "# Every key",
         "",
         "This page is made from the records that read machine files, so that nothing is missing and nothing is out of date. "
         "What the keys mean together stands in [machine files](machine-files.md).",
+        "",
+        f"At the top of a file there are {', '.join(f'`{key}`' for key in schema()['properties'])}.",
         "",
     ]
     found = sections()

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 import cart
+from nivel.analysis.progress.listener import Listener
 from nivel.cli.budget import command
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LONGEST, count_into
@@ -54,6 +55,13 @@ def test_the_cost_of_methods_is_measured_and_shared_out():
     said = in_a_sentence("cart", "rk4", rk4.timing, rk4.parts)
     assert said.startswith("cart at 1 kHz costs ")
     assert said.endswith(f"it would hold {1e-3 / rk4.timing.computing[3]:.3g} kHz")
+
+
+def test_a_budget_that_takes_minutes_says_which_method_it_measures():
+    heard = []
+    listener = Listener(lambda text, _total: heard.append(text))
+    assert len([*costs(cart.machine().record, {}, None, ["rk4", "euler"], compiled_only=False, listener=listener)]) == 2
+    assert [each for each in heard if each.startswith("measuring")] == ["measuring rk4", "measuring euler"]
 
 
 def test_a_method_that_moved_levers_overthrow_is_not_called_cheap():

@@ -12,6 +12,7 @@ from click.testing import CliRunner
 import cart
 from cart import DAMPING, FORCE, MASS, machine, operate, running, until
 from nivel.api import Machine
+from nivel.cli.live import introduction
 from nivel.cli.replay import command
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
@@ -303,3 +304,10 @@ def test_the_hand_lets_go_before_it_takes_another_point():
     loose = grip(holding, 5, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     assert loose == [0.0, *holding[1:]]
     assert grip(loose, 5, [0.0, 0.0, 0.0], far) == [0.0, 5.0, 0.0, 0.0, 0.0, *far]
+
+
+def test_the_terminal_names_levers_and_keys_as_the_page_does():
+    text = cart.CART.replace("lever: {range: [-1, 1],", "lever: {range: [-1, 1], description: moves the cart,")
+    text = text.replace("raise: d, lower: a", "raise: ArrowUp, lower: a")
+    with session_of(Machine.from_record(parse_machine(text)), {}, urgent=False) as session:
+        assert [*introduction(session)][1:] == ["  Lever (moves the cart): ↑, the other way A"]

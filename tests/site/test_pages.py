@@ -245,6 +245,14 @@ def browser():
         yield running
 
 
+def test_the_first_page_frames_nothing_that_was_left_out(site):
+    """Without pictures there is no page for the frame in which the crane works."""
+    text = (site / "index.html").read_text(encoding="utf-8")
+    for place in re.findall(r'<(?:iframe|img)\b[^>]*?src="?([^">#\s]+)', text):
+        assert (site / place).exists(), place
+    assert "viewer.png" in text
+
+
 def test_the_keys_of_a_machine_file_stand_on_one_screen(site, browser):
     with watched(browser, width=1280, height=800) as seen:
         seen.page.goto((site / "cheat-sheet.html").as_uri())
@@ -273,6 +281,7 @@ def test_every_key_stands_on_the_pages_of_keys(module, page, monkeypatch):
     words |= {"markers", "bodies", "points"} if "ends" in words else set()
     assert {kind for kind in found if kind} <= words
     assert set().union(*(keys for _, keys in keys_of_the_schema())) <= words
+    assert set(file_schema()["properties"]) <= words
 
 
 def test_the_site_is_searched_when_it_is_opened_from_a_disk(site, browser):

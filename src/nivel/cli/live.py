@@ -27,6 +27,13 @@ if TYPE_CHECKING:
     from nivel.view.opening import Stop
 
 SIGNALLED: Final = 128  # and the number of the signal: the exit code
+KEYS: Final = {
+    "ArrowLeft": "←",
+    "ArrowRight": "→",
+    "ArrowUp": "↑",
+    "ArrowDown": "↓",
+    " ": "space",
+}  # as the page shows them
 TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 
 
@@ -220,10 +227,14 @@ def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], 
 
 
 def introduction(session: Session) -> Iterator[str]:
-    """What the machine is run with, and its keys."""
+    """What the machine is run with, and what its keys move."""
+    from nivel.words.wording import label_of
+
     pace = session.pace
     steps = "one step" if pace.substeps == 1 else f"{pace.substeps} steps"
     yield f"{session.plan.machine.name}: ticks of {1e3 * pace.tick:g} ms, each of {steps}; {', '.join(session.said)}"
     for each in session.inputs:
         if each.keys is not None:
-            yield f"  {each.name}: {each.keys.raise_ or '–'} raises, {each.keys.lower or '–'} lowers"
+            up, down = (KEYS.get(key or "", key or "–").upper() for key in (each.keys.raise_, each.keys.lower))
+            moves = f" ({each.description})" if each.description else ""
+            yield f"  {each.label or label_of(each.name)}{moves}: {up}, the other way {down}"

@@ -137,6 +137,7 @@ def costs(
                 continue
             plan, pace = live_plan(machine, chosen, tick)
             build([*run_entries(plan), drive, *ENTRIES], listener)
+            (listener or Listener()).say(f"measuring {name}")
             if first:
                 exact = _exact(machine, chosen, pace)
             yield _cost(name, plan, pace, exact, at_rest=first)

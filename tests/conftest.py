@@ -6,14 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from nivel.api import Machine
-
 # the first example of a test may compile a kernel, so there is no deadline; the same examples every time keep CI steady
 settings.register_profile("nivel", deadline=None, derandomize=True)
 settings.load_profile("nivel")
-
-# a second run is made by tests of it alone, which say `verify=True`: all others would take twice their time
-Machine.simulate.__wrapped__.__kwdefaults__["verify"] = False
 
 
 def pytest_collection_modifyitems(items):
@@ -21,10 +16,16 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: item.get_closest_marker("house") is None)
 
 
-@pytest.fixture
-def verified(monkeypatch):
-    """Runs are verified unless they say otherwise, as they are outside of the tests."""
-    monkeypatch.setitem(Machine.simulate.__wrapped__.__kwdefaults__, "verify", True)
+if os.environ.get("NUMBA_DISABLE_JIT") != "1":  # kernels as plain Python are imported by `tests/interpreted/plain.py`
+    from nivel.api import Machine
+
+    # a second run is made by tests of it alone, which say `verify=True`: all others would take twice their time
+    Machine.simulate.__wrapped__.__kwdefaults__["verify"] = False
+
+    @pytest.fixture
+    def verified(monkeypatch):
+        """Runs are verified unless they say otherwise, as they are outside of the tests."""
+        monkeypatch.setitem(Machine.simulate.__wrapped__.__kwdefaults__, "verify", True)
 
 
 @pytest.fixture

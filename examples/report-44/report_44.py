@@ -20,7 +20,7 @@ from report_44_program import Array, Machine, Settings, simulate
 
 import nivel
 
-FOLDER = Path(__file__).parent
+MECHANISMS = Path(__file__).parents[1] / "mechanisms"
 STEP = 0.01
 STABILISATIONS = ("none", "baumgarte", "direct")
 INTEGRATORS = ("rk4", "rkn4", "gear")
@@ -166,7 +166,7 @@ def of_nivel(name: str, stabilisation: str, integrator: str) -> Errors:
     }
     if stabilisation == "baumgarte":
         settings["baumgarte"] = {"alpha": 5.0, "beta": 5.0}
-    machine = nivel.load(FOLDER / f"{name}.yaml", OVERRIDES.get(name)).with_settings(settings)
+    machine = nivel.load(MECHANISMS / f"{name}.yaml", OVERRIDES.get(name)).with_settings(settings)
     try:
         result = machine.simulate(
             verify=False,

@@ -23,7 +23,7 @@ from report_44_program import Equations, Settings
 
 import nivel
 
-FOLDER = Path(__file__).parent
+MECHANISMS = Path(__file__).parents[1] / "mechanisms"
 IN_LINE = 2.610
 # Where the four-bar is looked at: past the position in line, before its next fast turn at 3.94 s
 DURATION = 3.5
@@ -71,7 +71,7 @@ def four_bar_run(step: float, **methods: Any) -> nivel.Result:
     """The four-bar of report 44 for DURATION with these methods; raises SolveError."""
     given = {"coordinates": "absolute", "step": step, "output_interval": INTERVAL, "duration": DURATION} | methods
     return (
-        nivel.load(FOLDER / "four-bar.yaml")
+        nivel.load(MECHANISMS / "four-bar.yaml")
         .with_settings(given)
         .simulate(
             verify=False,
@@ -85,7 +85,7 @@ def reference() -> nivel.Result:
     given = {"coordinates": "relative", "integrator": "dop853", "tolerance": 1e-12}
     settings = given | {"output_interval": INTERVAL, "duration": DURATION}
     return (
-        nivel.load(FOLDER / "four-bar.yaml")
+        nivel.load(MECHANISMS / "four-bar.yaml")
         .with_settings(settings)
         .simulate(
             verify=False,

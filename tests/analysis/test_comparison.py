@@ -202,7 +202,7 @@ def test_without_a_reference_the_other_numbers_stay():
 
 def test_an_interrupt_keeps_what_was_computed():
     def interrupt(text, _total):
-        if text.startswith("2/"):
+        if text.startswith("2 of "):
             raise KeyboardInterrupt
 
     comparison = pendulum().compare(steps=[0.01, 0.005], repeat=1, listener=Listener(interrupt))

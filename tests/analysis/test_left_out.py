@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from nivel.analysis.assembly.redundancy import dependent_rows
-from nivel.analysis.run import preparation
+from nivel.analysis.preparation import preparation
 from nivel.kernels.solve.saddle import LEFT_OUT, PIVOTED, RANK
 from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 from preparing import prepare

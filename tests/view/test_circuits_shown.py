@@ -29,7 +29,7 @@ def test_the_package_has_a_diagram_that_names_what_it_shows(result):
 
 
 def test_machines_without_circuits_have_no_diagram():
-    pendulum = nivel.load(FILE.parents[1] / "simple-pendulum.yaml").simulate(duration=0.01)
+    pendulum = nivel.load(FILE.parents[1] / "mechanisms" / "simple-pendulum.yaml").simulate(duration=0.01)
     assert stage(pendulum, ALONE, Block()).circuit == ""
 
 

@@ -2,13 +2,12 @@
 
 The factor a follows from the approach speed v and the coefficient of restitution e: the motion m v̇ = -K δⁿ (1 + a δ̇) leaves with
 speed e v where ln((1 + x)/(1 - e x)) = x (1 + e), x = a v, whatever K, n and m are (integrate v dv/(1 + a v) over the contact). x is
-a number of the element; v is remembered from the first accepted state in contact, so it is a constant of the contact, of which no
-derivative is taken.
+a number of the element; v is remembered from the first accepted state in contact, and is the rate itself until then.
 """
 
 from __future__ import annotations
 
-from nivel.kernels.algebra.analytic import absolute, real, real_power
+from nivel.kernels.algebra.analytic import absolute, maximum, real, real_power
 from nivel.native.function import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
@@ -25,8 +24,8 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     nothing = 0.0 * rate
     if real(depth) <= 0.0 and not (followed == 1 and remembered > 0.0):
         return nothing, nothing, nothing, nothing
-    speed = remembered if remembered > 0.0 else max(real(rate), SLOWEST)
-    kept = speed + nothing if real(depth) > 0.0 else nothing
+    speed = remembered if remembered > 0.0 else maximum(rate, SLOWEST)
+    kept = speed if real(depth) > 0.0 else nothing
     if followed == 1 and remembered == 0.0:
         return nothing, nothing, nothing, kept
     elastic = stiffness * real_power(absolute(depth), exponent)

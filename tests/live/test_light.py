@@ -36,6 +36,7 @@ def test_the_light_is_that_of_the_trust_report_of_the_same_motion(made, tmp_path
         operate(session, [1.0, 1.0], 0.5)
         operate(session, [-1.0, 1.0], 0.7)
         session.command("pause")
+        until(lambda: session.mode == "paused", "the pause")
         looked = session._looked
         until(lambda: session._looked > looked + 0.5, "a look after the pause")
         light, (take,) = session.light, session.takes

@@ -6,12 +6,12 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from nivel.looks.circuit.symbols import SYMBOLS
 
 import nivel
 from nivel.files import parse_machine
 from nivel.looks.circuit.drawing import circuit_diagram, laid_out
 from nivel.looks.circuit.parts import circuit_of
-from nivel.looks.circuit.symbols import SYMBOLS
 from nivel.machine.hydraulics import COMPONENTS
 
 FILES = sorted((Path(__file__).parents[2] / "examples" / "hydraulics").glob("*.yaml"))

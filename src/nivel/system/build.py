@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -50,7 +50,7 @@ from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
-from nivel.system.hydraulics.components import ACTING, SENSED, add_circuits, add_components
+from nivel.system.hydraulics.elements import add_circuits, add_components, sensed_and_acting
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.joints.driver_rows import add_drivers
 from nivel.system.joints.interfaces import refuse_unknown_interfaces
@@ -81,10 +81,6 @@ def add_inputs(builder: SystemBuilder) -> None:
 DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
 # [s] time within which stiction stops a joint, until a run says better
 STICK = 1e-3
-
-
-# what reads or computes signals, each after what it reads; all other elements follow
-ORDER: Final = (read_inputs, *SENSED, compute, *ACTING)
 
 
 def build(machine: MachineRecord, equations: Equations, *, measured: bool = False) -> System:
@@ -153,7 +149,9 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():
                 builder.coordinate(f"{joint.name}.{name}")
-    builder.elements.order(ORDER)
+    sensed, acting = sensed_and_acting()
+    # what reads or computes signals, each after what it reads; all other elements follow
+    builder.elements.order((read_inputs, *sensed, compute, *acting))
     return builder, rows
 
 

@@ -36,6 +36,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.system.flexible import bending_bodies
+from nivel.system.hydraulics.elements import without_slopes
 from nivel.system.joints.joints import composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
@@ -375,7 +376,19 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
         *(component_in_words(component) for component in machine.hydraulics),
         f"start: {', '.join(pressures)}",
         f"{count} states of components",
+        *_without_slopes(machine),
     )
+
+
+def _without_slopes(machine: MachineRecord) -> Iterator[str]:
+    """What it costs that derivatives of some components are not known by hand."""
+    if without := without_slopes(machine):
+        names = ", ".join(f"{each.name} ({each.type})" for each in without)
+        has = "has" if len(without) == 1 else "have"
+        yield (
+            f"{names} {has} no derivatives by hand: with `extrapolated-euler` every step finds the derivatives of the whole machine on "
+            "complex numbers and costs more; other integrators cost the same"
+        )
 
 
 def _pressures(system: System) -> dict[str, float]:

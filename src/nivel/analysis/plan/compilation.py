@@ -28,8 +28,8 @@ from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.beams.beams import ELASTIC, family_of
 from nivel.system.beams.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
-from nivel.system.hydraulics.components import FAMILIES as CIRCUITS
-from nivel.system.hydraulics.components import families_of
+from nivel.system.hydraulics.elements import families as families_of_circuits
+from nivel.system.hydraulics.elements import families_of
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -207,7 +207,7 @@ def all_entries() -> list[Entry]:
     families = dict.fromkeys(
         [
             *(each for kind in FORCES.values() for each in kind.families),
-            *CIRCUITS,
+            *families_of_circuits(),
             *BEAMS,
             read_inputs,
             compute,

@@ -11,8 +11,7 @@ from nivel.machine.hydraulics import Component
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.hydraulics.components import families_of
-from nivel.system.hydraulics.tangent import DERIVED, WITHOUT
+from nivel.system.hydraulics.elements import has_slopes
 
 MOVING = ("joints", "inputs", "markers", "bodies")  # what signals of the motion are read from
 
@@ -26,7 +25,7 @@ def only_circuits_are_stiff(machine: MachineRecord) -> bool:
         and all(is_soft(machine, each) for each in machine.forces)
         and all(state.update is not None for state in machine.states)
         and all(part.role != "state" for block in machine.control for part in block.parts)
-        and set(families_of(machine)) <= {*DERIVED, *WITHOUT}
+        and has_slopes(machine)
         and all(_waits(machine, path) for component in machine.hydraulics for path in _signals(component))
     )
 

@@ -14,6 +14,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.transfer import lose
 from nivel.kernels.hydraulics.volume import FIXED, GIVEN
 from nivel.kernels.record.function import evaluate_function
@@ -44,6 +45,7 @@ def available_energy(f, temperature, p):
     return heat_capacity(f) * (temperature - f[SURROUNDINGS]) - f[SURROUNDINGS] * entropy
 
 
+@called(Phase.PRESSURES)
 @family
 def apply(machine, number, t):
     """Pressure, temperature, density and available energy of every node of gas; heat through its walls, and work on its pistons."""

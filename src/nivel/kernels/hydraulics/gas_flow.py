@@ -13,6 +13,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.gas import REFERENCE, SURROUNDINGS, heat_capacity
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.restriction import FROM, OUTPUT, TO, opening_of
 from nivel.kernels.hydraulics.transfer import lose, transfer
 from nivel.kernels.record.hook import family
@@ -60,6 +61,7 @@ def carry_heat(machine, a, b, flow):
     return size * (1.0 - f[SURROUNDINGS] / own) * heat_capacity(f) * (warm - own)
 
 
+@called(Phase.FLOWS)
 @family
 def apply(machine, number, t):
     """Flows of gas through all restrictions."""

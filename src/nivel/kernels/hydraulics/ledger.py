@@ -4,6 +4,7 @@ the mass that tanks gave it."""
 from __future__ import annotations
 
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 
@@ -11,6 +12,7 @@ from nivel.kernels.record.record import record_at
 OUTPUT, STATE = 0, 1
 
 
+@called(Phase.BEGIN)
 @family
 def begin(machine, number, t):
     """Nothing is stored and no power flows before nodes and components add theirs."""
@@ -21,6 +23,7 @@ def begin(machine, number, t):
     return OK
 
 
+@called(Phase.BALANCE)
 @family
 def apply(machine, number, t):
     """Rates of these; at rest they are none, since only the state of the machine is asked for."""

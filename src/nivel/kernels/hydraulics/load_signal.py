@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import maximum_within, ramp, step
 from nivel.kernels.hydraulics.spool import clipped
@@ -34,6 +35,7 @@ def feeds(machine, position, n, i):
     return to_a, to_b
 
 
+@called(Phase.FLOWS)
 @family
 def apply(machine, number, t):
     """Rates of the signals."""

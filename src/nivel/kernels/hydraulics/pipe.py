@@ -11,6 +11,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose, transfer
 from nivel.kernels.record.hook import family
@@ -47,6 +48,7 @@ def flow_ratio(y):
     return x if y > 0.0 else -x
 
 
+@called(Phase.FLOWS)
 @family
 def apply(machine, number, t):
     """Flows through pipes; with inertia they are states, L/A d(ṁ)/dt = p_a - p_b - Δp."""

@@ -13,6 +13,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact, meet, part, slopes_of_impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, step
 from nivel.kernels.hydraulics.transfer import DELIVERED
@@ -52,6 +53,7 @@ def swept(n, s):
     return volume, area
 
 
+@called(Phase.VOLUMES)
 @family
 def displace(machine, number, t):
     """Volumes of chambers and their rates."""
@@ -77,6 +79,7 @@ def friction_force(n, v, difference):
     return dry * tanh(v / n[TRANSITION]) + n[VISCOUS] * v
 
 
+@called(Phase.STROKES)
 @family
 def guide(machine, number, t):
     """Friction and end stops of pistons; their outputs begin here."""
@@ -107,6 +110,7 @@ def guide(machine, number, t):
     return OK
 
 
+@called(Phase.FLOWS)
 @family
 def press(machine, number, t):
     """Forces of the pressures in chambers."""

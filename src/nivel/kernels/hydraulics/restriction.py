@@ -12,6 +12,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, root_flow, slope_of_step, step
 from nivel.kernels.hydraulics.spool import FIRST_FACTOR, FIRST_NODE, NODES, clipped, slope_of_poppet
@@ -51,6 +52,7 @@ def opening_of(machine, index, n, t):
     return 0.0 * value[index[OUTPUT]] + 1.0
 
 
+@called(Phase.FLOWS)
 @family
 def apply(machine, number, t):
     """Flows of all restrictions."""

@@ -17,6 +17,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, slope_of_step, step
 from nivel.kernels.hydraulics.spool import clipped
@@ -42,6 +43,7 @@ MARGIN, RANGE, CUT_OFF, TIME = 0, 1, 2, 3
 END = 0.05
 
 
+@called(Phase.POSITIONS)
 @family
 def set_displacement(machine, number, t):
     """Share ε of the displacement: a function, or a state that holds a margin above the sensed pressure,
@@ -79,6 +81,7 @@ def turning(machine, index, n, t):
     return omega, omega * t
 
 
+@called(Phase.FLOWS)
 @family
 def turn(machine, number, t):
     """Flows and torques of pumps and motors."""
@@ -111,6 +114,7 @@ def turn(machine, number, t):
     return OK
 
 
+@called(Phase.FLOWS)
 @family
 def supply(machine, number, t):
     """Sources of flow: ideal pumps; SPEED is the flow. Outputs: flow, power."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import slope_of_step, step
 from nivel.kernels.record.function import evaluate_function
@@ -33,6 +34,7 @@ def clipped(x, least):
     return x
 
 
+@called(Phase.POSITIONS)
 @family
 def move(machine, number, t):
     """Spools: at the command itself, or ü = ω² (u_c - u) - 2 ζ ω u̇, or with a greatest speed r, u̇ = r tanh(ω (u_c - u)/r)."""
@@ -67,6 +69,7 @@ def opening_pressure(machine, index, n, t):
     return pressure
 
 
+@called(Phase.POSITIONS)
 @family
 def lift(machine, number, t):
     """Poppets: the opening S((Σ factor p + setting + offset)/range), or a state that follows it, τ ẋ = S - x."""

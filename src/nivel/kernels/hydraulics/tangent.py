@@ -16,7 +16,7 @@ from nivel.kernels.hydraulics.volume import GIVE, MASS, RATE, VALUE
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
-# families in the order of `CircuitTangent.family`
+# numbers of families in `CircuitTangent.family`; a component states those of its families in `slopes` of its `ComponentKind`
 DISPLACE, GUIDE, PRESS, MOVE, LIFT, SIGNAL, SETTING, TURN, RESTRICT, PIPE = range(10)
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE, DENSITY, EXACT, MOST, specific_volume
+from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.smooth import ramp, step
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
@@ -156,6 +157,7 @@ def give_pressure(machine, node, p):
     circuit.enthalpy[node] = (energy + v * change) / f[DENSITY]
 
 
+@called(Phase.PRESSURES)
 @family
 def apply(machine, number, t):
     """The state of every node."""

@@ -74,11 +74,12 @@ def _line(line: Line, style: str = "") -> str:
 def _symbol(part: Part, pressures: Mapping[str, float]) -> str:
     """A symbol with its name, settings and pressures to its right."""
     x, first = part.x + part.symbol.wide + 6.0, part.y + 4.0 - 6.5 * len(part.words)
+    inner = f'<text text-anchor="middle" y="4">{escape(part.symbol.text)}</text>' if part.symbol.text else ""
     words = ""
     for k, (text, variable) in enumerate(part.words):
         value = _pressure(variable, pressures) if variable else ""
         words += f'<text class="words" x="{x:.1f}" y="{first + 13.0 * (k + 1):.1f}">{escape(text)}{value}</text>'
     return (
         f'<g class="symbol" transform="translate({part.x:.1f} {part.y:.1f})"><title>{escape(part.name)}: {part.type}</title>'
-        f'{part.symbol.body}</g><text class="name" x="{x:.1f}" y="{first:.1f}">{escape(part.label)}</text>{words}'
+        f'{part.symbol.body}{inner}</g><text class="name" x="{x:.1f}" y="{first:.1f}">{escape(part.label)}</text>{words}'
     )

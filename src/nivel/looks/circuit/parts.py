@@ -6,24 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from nivel.looks.circuit.symbols import SYMBOLS, Symbol
+from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.system.hydraulics.components import COMPONENTS
+from nivel.system.hydraulics.symbols import LETTER, Symbol, box
 
-SENSING: Final = ("LS", "X")  # ports that only feel a pressure: dashed lines
-CHAMBERED: Final = ("cylinder", "telescopic-cylinder", "rotary-actuator")
-ACTUATORS: Final = (*CHAMBERED, "hydraulic-motor")
 HIGHEST: Final = 5e5  # Pa; a tank of a constant pressure above is a supply, others have a symbol at each of their pins
-# what is said of a component below its name: key, factor and unit
-SETTINGS: Final[Mapping[str, tuple[str, float, str]]] = {
-    "relief-valve": ("opens_at", 1e-5, "bar"),
-    "counterbalance-valve": ("opens_at", 1e-5, "bar"),
-    "reducing-valve": ("pressure", 1e-5, "bar"),
-    "compensator": ("margin", 1e-5, "bar"),
-    "pump": ("displacement", 6.283185307179586e6, "cm³/rev"),
-    "hydraulic-motor": ("displacement", 6.283185307179586e6, "cm³/rev"),
-    "accumulator": ("volume", 1e3, "L"),
-    "directional-valve": ("ways", 1.0, ""),
-}
-CHARACTER: Final = 6.4  # px, at 11 px
 VALUE: Final = "000.0 bar"  # room for a pressure
 LETTERS: Final = 22  # of a name that are shown
 
@@ -51,7 +38,7 @@ class Part:
     @property
     def label_width(self) -> float:
         """[px] of name and setting."""
-        return CHARACTER * max(
+        return LETTER * max(
             len(self.label), *(len(text) + len(VALUE) * (variable != "") for text, variable in self.words), 0
         )
 
@@ -73,18 +60,18 @@ class Circuit:
 
 
 def circuit_of(record: Mapping[str, Any]) -> Circuit:
-    """The circuit of a machine record as JSON."""
-    components = list(record.get("hydraulics") or ())
+    """The circuit of a machine record as JSON. A component without a symbol is a box with its type; a volume is a line with its name."""
     parts, drains, values = [], set(), {}
-    for data in components:
+    for data in record.get("hydraulics") or ():
         kind, name = str(data["type"]), str(data["name"])
         if kind == "tank" and not _is_supply(data):
             drains.add(name)
-        if kind == "volume":
+        elif _is_line(kind):
             values[name] = f"hydraulics.{name}.pressure"
-        if kind in SYMBOLS and name not in drains:
-            lines = _lines(data, kind, name)
-            parts.append(Part(name, kind, SYMBOLS[kind](data), lines, tuple(_words(data, kind, lines))))
+        else:
+            symbol = _symbol(data, kind)
+            lines = _lines(data, kind, symbol)
+            parts.append(Part(name, kind, symbol, lines, tuple(_words(data, kind, symbol))))
     return Circuit(parts, frozenset(drains), values)
 
 
@@ -93,29 +80,48 @@ def _is_supply(tank: Mapping[str, Any]) -> bool:
     return not isinstance(pressure, float | int) or pressure > HIGHEST
 
 
-def _lines(data: Mapping[str, Any], kind: str, name: str) -> dict[str, str]:
-    """The node at each pin of the symbol."""
-    ports = {str(port): str(node) for port, node in (data.get("ports") or {}).items()}
-    if kind in CHAMBERED:
-        symbol = SYMBOLS[kind](data)
-        return {port: ports.get(port, f"{name}.{port}") for port in (*symbol.above, *symbol.below)}
-    return ports | {"tank": {"P": name}, "load-sensing": {"LS": name}}.get(kind, {})
+def _is_line(kind: str) -> bool:
+    """Whether a component is a node alone, where lines meet."""
+    return kind in COMPONENTS and COMPONENTS[kind].symbol is None and COMPONENTS[kind].add is None
 
 
-def _words(data: Mapping[str, Any], kind: str, lines: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """The setting of a component in a few letters, and its pressures."""
-    name = data["name"]
-    if kind == "pipe":
-        yield f"{data['length']:.3g} m × {1e3 * data['diameter']:.3g} mm", ""
-    key, factor, unit = SETTINGS.get(kind, ("", 1.0, ""))
-    value = data.get(key)
-    if isinstance(value, float | int):
-        yield f"{factor * value:.4g} {unit}", ""
-    elif kind == "directional-valve":
-        yield str(value), ""
-    if kind in ("tank", "accumulator", "load-sensing"):
+def _ports(data: Mapping[str, Any]) -> dict[str, str]:
+    return {str(port): str(node) for port, node in (data.get("ports") or {}).items()}
+
+
+def _nodes(kind: str) -> tuple[str, ...]:
+    """Its nodes that others connect to: "" for itself, ".A" for its chamber A."""
+    return COMPONENT_OF[kind].nodes if kind in COMPONENT_OF else ()
+
+
+def _symbol(data: Mapping[str, Any], kind: str) -> Symbol:
+    """Its symbol, or a box where it has none, or none with a pin for each of its ports."""
+    ports, draw = _ports(data), COMPONENTS[kind].symbol if kind in COMPONENTS else None
+    if draw is not None:
+        symbol = draw(data)
+        if {*ports} <= {*symbol.above, *symbol.below}:
+            return symbol
+    return box(kind, [*dict.fromkeys((*ports, *(node[1:] for node in _nodes(kind))))])
+
+
+def _lines(data: Mapping[str, Any], kind: str, symbol: Symbol) -> dict[str, str]:
+    """The node at each pin of the symbol: what is connected, its chambers, and itself at a pin that is no port."""
+    name, ports, nodes = str(data["name"]), _ports(data), _nodes(kind)
+    own = {}
+    for pin in (*symbol.above, *symbol.below):
+        if f".{pin}" in nodes:
+            own[pin] = ports.get(pin, f"{name}.{pin}")
+        elif "" in nodes and pin not in ports:
+            own[pin] = name
+    return own | {port: node for port, node in ports.items() if port not in own}
+
+
+def _words(data: Mapping[str, Any], kind: str, symbol: Symbol) -> Iterator[tuple[str, str]]:
+    """The settings of a component in a few letters, and its pressures."""
+    name, ports, nodes = data["name"], _ports(data), _nodes(kind)
+    yield from ((setting, "") for setting in symbol.settings)
+    if "" in nodes:
         yield "", f"hydraulics.{name}.pressure"
-    if kind in CHAMBERED:
-        for port in lines:
-            if port not in (data.get("ports") or {}):
-                yield f"{port} ", f"hydraulics.{name}.pressure_{port}"
+    for pin in (*symbol.above, *symbol.below):
+        if f".{pin}" in nodes and pin not in ports:
+            yield f"{pin} ", f"hydraulics.{name}.pressure_{pin}"

@@ -6,11 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from nivel.looks.circuit.parts import ACTUATORS, Circuit, Part
-from nivel.looks.circuit.symbols import flipped
+from nivel.looks.circuit.parts import Circuit, Part
+from nivel.machine.hydraulics.component import SENSING
+from nivel.system.hydraulics.symbols import flipped
 
-LOAD, VALVE, BEFORE, SUPPLY = 1, 2, 3, 4
-BELOW: Final = ("pump", "flow-source", "accumulator", "load-sensing", "tank")
+ACTUATOR, LOAD, VALVE, BEFORE, SUPPLY = 0, 1, 2, 3, 4
+RANKS: Final = {"actuator": ACTUATOR, "valve": VALVE, "supply": SUPPLY}
+UPRIGHT: Final = ("actuator", "valve", "supply")  # never turned upside down
 WIDEST = 7  # parts in a row
 SWEEPS = 4
 
@@ -39,15 +41,12 @@ def place(circuit: Circuit) -> int:
 
 
 def _rank(part: Part, circuit: Circuit) -> int:
-    if part.type in ACTUATORS:
-        return 0
-    if part.type == "directional-valve":
-        return VALVE
-    if part.type in BELOW:
-        return SUPPLY
-    of_actuators = {node for node, other, _ in circuit.pins() if other.type in ACTUATORS}
+    row = part.symbol.row
+    if row in RANKS:
+        return RANKS[row]
+    of_actuators = {node for node, other, _ in circuit.pins() if other.symbol.row == "actuator"}
     at_load = [node in of_actuators for node in part.lines.values() if node not in circuit.drains]
-    if part.type == "relief-valve":
+    if row == "relief":
         return LOAD if at_load and all(at_load) else SUPPLY
     return LOAD if any(at_load) else BEFORE
 
@@ -79,7 +78,7 @@ def _wish(part: Part, circuit: Circuit) -> float:
 
 def _is_upside_down(part: Part, circuit: Circuit) -> bool:
     """Whether the lines at the upper pins lead down more than those at the lower ones."""
-    if part.type in (*ACTUATORS, "directional-valve", *BELOW):
+    if part.symbol.row in UPRIGHT:
         return False
 
     def height(ports: Sequence[str]) -> float:
@@ -87,10 +86,7 @@ def _is_upside_down(part: Part, circuit: Circuit) -> bool:
             float(other.row)
             for port in ports
             for line, other, _ in circuit.pins()
-            if port not in ("LS", "X")
-            and line == part.lines.get(port)
-            and other is not part
-            and line not in circuit.drains
+            if port not in SENSING and line == part.lines.get(port) and other is not part and line not in circuit.drains
         ]
         return sum(rows) / len(rows) if rows else 1e3  # tanks are below all
 

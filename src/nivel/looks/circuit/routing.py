@@ -7,7 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from nivel.looks.circuit.parts import CHARACTER, SENSING, VALUE, Circuit, Part
+from nivel.looks.circuit.parts import VALUE, Circuit, Part
+from nivel.machine.hydraulics.component import SENSING
+from nivel.system.hydraulics.symbols import LETTER
 
 TRACK, LANE, MARGIN, EDGE = 19.0, 11.0, 14.0, 10.0  # [px] between tracks and lanes; above and below tracks; around all
 DRAIN = 26.0  # height of a tank with its line
@@ -170,7 +172,7 @@ class Router:
         return max(self.channels[node])
 
     def _label_width(self, node: str) -> float:
-        return CHARACTER * (len(node) + 2 + len(VALUE)) if node in self.circuit.values else 0.0
+        return LETTER * (len(node) + 2 + len(VALUE)) if node in self.circuit.values else 0.0
 
     def _y(self, node: str, channel: int) -> float:
         return self.top[channel] + TRACK * (self.track[node, channel] + 0.5)

@@ -50,7 +50,9 @@ COMPONENTS: list[type[Component]] = [
     TelescopicCylinder,
     RotaryActuator,
 ]
-COMPONENT_OF = {component.model_fields["type"].default: component for component in COMPONENTS}
+COMPONENT_OF: dict[str, type[Component]] = {
+    component.model_fields["type"].default: component for component in COMPONENTS
+}
 
 
 class _AnyComponent:
@@ -65,6 +67,13 @@ if TYPE_CHECKING:
     HydraulicComponent = Component
 else:
     HydraulicComponent = _AnyComponent
+
+
+def register(kind: type[Component]) -> None:
+    """Add a kind of component. Machines know it from when their record is built anew (`MachineRecord.model_rebuild`)."""
+    COMPONENTS.append(kind)
+    COMPONENT_OF[kind.model_fields["type"].default] = kind
+
 
 __all__ = [
     "COMPONENTS",
@@ -95,4 +104,5 @@ __all__ = [
     "Tank",
     "TelescopicCylinder",
     "Volume",
+    "register",
 ]

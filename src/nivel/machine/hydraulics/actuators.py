@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -21,7 +21,7 @@ from nivel.machine.core.coefficient import (
     ThermalConductance,
     Volume,
 )
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Name, entry
 from nivel.machine.forces.between import Ends
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.hydraulics.component import Component, Rating
@@ -90,6 +90,11 @@ class Actuator(Component):
     def chambers(self) -> tuple[str, ...]:
         """A, or A and B."""
         return ("A", "B")
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        single = entry(data, "acting") == "single" or ".B" not in cls.nodes
+        return tuple(each for each in (*cls.early, *cls.late) if not (single and each == "pressure_B"))
 
 
 class HydraulicCylinder(Ends, Actuator):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from pydantic import BeforeValidator, WithJsonSchema
 
@@ -29,13 +29,16 @@ Ports = Annotated[
     WithJsonSchema({"type": "object", "additionalProperties": {"type": "string"}}),
 ]
 
+SENSING: Final = ("LS", "X")  # ports that feel a pressure and take no flow
+
 
 class Component(Checked):
     """A named part of a circuit.
 
     needs : ports that must be connected; may : those that may be. nodes : what of it others connect to, "" for itself, ".A" for its
     chamber A. functions : fields that may vary. early : signals known before flows are; late : the others. gases : whether gas may flow
-    through it.
+    through it. passes : pairs of ports (from, to) between which fluid passes at any pressure; delivers : port into which it delivers a
+    given flow, whatever the pressure; relieves : port whose pressure it bounds. These ask for a relief valve where none is reached.
     """
 
     collection: ClassVar[str] = "hydraulics"
@@ -46,11 +49,19 @@ class Component(Checked):
     early: ClassVar[tuple[str, ...]] = ()
     late: ClassVar[tuple[str, ...]] = ()
     gases: ClassVar[bool] = False
+    passes: ClassVar[tuple[tuple[str, str], ...]] = ()
+    delivers: ClassVar[str] = ""
+    relieves: ClassVar[str] = ""
 
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
     ports: Ports = Field(default={}, description="nodes that the ports are connected to")
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        """Names of its quantities, by a record or raw data."""
+        return (*cls.early, *cls.late)
 
     def problems(self) -> Iterator[Problem]:
         yield from self.problems_of_ports(self.needs, self.may)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 from pydantic import AfterValidator
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Frequency, Leakage, PositiveNumber, Share
+from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Rated, problem_of_share
 from nivel.machine.laws.time_function import OneFunction, varying
@@ -80,6 +81,13 @@ class DirectionalValve(Rated):
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     rate_limit: Maybe[Rate] = Field(default=None, description="greatest speed of the spool, full strokes per second")
     leakage: Leakage = Field(default=0.0, description="of each edge")
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        ways, centre = str(entry(data, "ways")), str(entry(data, "centre") or "closed")
+        pairs = [edge for edges in EDGES.get(ways, ()) for edge in edges]
+        pairs += [edge for edge in centre_pairs(ways, centre) if edge not in pairs]
+        return ("position", *(f"flow_{pair}" for pair in pairs))
 
     @property
     def edges(self) -> tuple[str, ...]:

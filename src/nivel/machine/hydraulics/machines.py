@@ -25,6 +25,7 @@ class FlowSource(Component):
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     functions: ClassVar[tuple[str, ...]] = ("flow",)
     late: ClassVar[tuple[str, ...]] = ("flow", "power")
+    delivers: ClassVar[str] = "B"
 
     type: Literal["flow-source"] = "flow-source"
     flow: Annotated[OneFunction, varying("volume flow")] = Field(description="at the density of the side it comes from")
@@ -90,6 +91,7 @@ class Pump(RotaryMachine):
 
     may: ClassVar[tuple[str, ...]] = ("LS",)
     functions: ClassVar[tuple[str, ...]] = ("speed", "setting")
+    delivers: ClassVar[str] = "B"
 
     type: Literal["pump"] = "pump"
     speed: Maybe[Speed] = Field(default=None, description="of its shaft, in place of `coordinate`")

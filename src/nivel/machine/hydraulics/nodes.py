@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -94,8 +94,3 @@ class LoadSensing(Component):
         yield from super().problems()
         if not self.valves:
             yield Problem(("valves",), "names of directional valves are needed, got none")
-
-
-def is_signal(component: Any) -> bool:
-    """Whether nothing may flow into the node of a component."""
-    return isinstance(component, LoadSensing)

@@ -22,6 +22,7 @@ class Orifice(Rating, Component):
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     functions: ClassVar[tuple[str, ...]] = ("opening",)
     late: ClassVar[tuple[str, ...]] = ("flow",)
+    passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["orifice"] = "orifice"
     diameter: Maybe[PositiveLength] = Field(default=None)
@@ -53,6 +54,7 @@ class Pipe(Component):
 
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     late: ClassVar[tuple[str, ...]] = ("flow",)
+    passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["pipe"] = "pipe"
     diameter: PositiveLength

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import (
@@ -15,6 +15,7 @@ from nivel.machine.core.coefficient import (
     Truth,
     VolumeFlow,
 )
+from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
 from nivel.machine.laws.time_function import OneFunction, varying
@@ -29,6 +30,7 @@ class CheckValve(Rated):
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     may: ClassVar[tuple[str, ...]] = ("X",)
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
+    passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"),)
 
     type: Literal["check-valve"] = "check-valve"
     opens_at: NotNegativePressure = Field(
@@ -53,6 +55,7 @@ class ReliefValve(Rated):
     needs: ClassVar[tuple[str, ...]] = ("P", "T")
     functions: ClassVar[tuple[str, ...]] = ("opens_at",)
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
+    relieves: ClassVar[str] = "P"
 
     type: Literal["relief-valve"] = "relief-valve"
     opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open")
@@ -106,6 +109,12 @@ class ReducingValve(Rated):
     opening_range: Pressure = Field(default=5e5, description="pressure below that at which it is fully open")
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        ports = entry(data, "ports")
+        relieves = isinstance(ports, Mapping) and "T" in ports
+        return tuple(each for each in cls.late if relieves or each != "relief_flow")
 
 
 class Compensator(Rated):

@@ -8,17 +8,14 @@ from typing import Any, Final
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.record import entry
 from nivel.machine.hydraulic_fluids import fluid_faults
-from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.hydraulics import COMPONENT_OF, Actuator, Component
+from nivel.machine.hydraulics.component import SENSING
 from nivel.machine.laws.symbols import paths_in, symbol_faults
 from nivel.machine.units.arithmetic import Parameters
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, find, unknown_name
 
 Faults = Iterator[tuple[Place, str]]
-SENSING: Final = ("LS", "X")  # ports that feel a pressure and take no flow
 SIGNAL: Final = "load-sensing"
-CHAMBERED: Final = ("cylinder", "telescopic-cylinder", "rotary-actuator")
-SAFE: Final = ("relief-valve",)  # what bounds the pressure behind a pump
-PASSING: Final = ("check-valve", "pipe", "orifice")  # what lets a pressure reach a relief valve elsewhere
 
 
 def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faults:
@@ -52,10 +49,14 @@ def node_types(components: Any) -> dict[str, str]:
         ports = ports_of(component)
         single = entry(component, "acting") == "single"
         for node in COMPONENT_OF[type_].nodes:
-            attached = node[1:] in ports and type_ in CHAMBERED
+            attached = node[1:] in ports and _has_chambers(type_)
             if not attached and not (single and node == ".B"):
                 out[f"{name}{node}"] = type_
     return out
+
+
+def _has_chambers(type_: str) -> bool:
+    return type_ in COMPONENT_OF and issubclass(COMPONENT_OF[type_], Actuator)
 
 
 def makers(components: Any) -> dict[str, Any]:
@@ -85,11 +86,11 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
             )
         elif nodes[node] == SIGNAL and port not in SENSING:
             yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"
-        elif type_ in CHAMBERED and nodes[node] != "volume":
+        elif _has_chambers(type_) and nodes[node] != "volume":
             yield where, f"a chamber is part of a volume, and `{node}` is a {nodes[node]}"
         elif port not in SENSING:
             seen[port] = node
-    if len(seen) > 1 and len(set(seen.values())) == 1 and type_ not in CHAMBERED:
+    if len(seen) > 1 and len(set(seen.values())) == 1 and not _has_chambers(type_):
         node = next(iter(seen.values()))
         yield (*place, "ports"), f"ports {' and '.join(seen)} are all connected to `{node}`: nothing would flow"
 
@@ -153,7 +154,7 @@ def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Param
 def _unconnected(component: Any, used: set[str], place: Place) -> Faults:
     """Nodes that nothing is connected to: closed volumes without an outlet."""
     name, type_ = entry(component, "name"), str(entry(component, "type"))
-    if not isinstance(name, str) or type_ not in ("volume", "tank", *CHAMBERED):
+    if not isinstance(name, str) or not (type_ in ("volume", "tank") or _has_chambers(type_)):
         return
     for node in node_types([component]):
         if node in used:
@@ -170,23 +171,22 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
     joined: dict[str, set[str]] = {}
     safe: set[str] = set()
     for component in components:
-        type_, ports = str(entry(component, "type")), ports_of(component)
-        if type_ in SAFE and "P" in ports:
-            safe.add(ports["P"])
-        if type_ in PASSING and {"A", "B"} <= set(ports):
-            joined.setdefault(ports["A"], set()).add(ports["B"])
-            if type_ != "check-valve":
-                joined.setdefault(ports["B"], set()).add(ports["A"])
+        kind, ports = COMPONENT_OF.get(str(entry(component, "type")), Component), ports_of(component)
+        if kind.relieves in ports:
+            safe.add(ports[kind.relieves])
+        for a, b in kind.passes:
+            if a in ports and b in ports:
+                joined.setdefault(ports[a], set()).add(ports[b])
     tanks = {name for name, type_ in nodes.items() if type_ == "tank"}
     for at, component in enumerate(components):
-        type_, ports = str(entry(component, "type")), ports_of(component)
-        if type_ not in ("pump", "flow-source") or "B" not in ports or entry(component, "margin") is not None:
+        kind, ports = COMPONENT_OF.get(str(entry(component, "type")), Component), ports_of(component)
+        if kind.delivers not in ports or entry(component, "margin") is not None:
             continue
-        reached, front = {ports["B"]}, [ports["B"]]
+        node = ports[kind.delivers]
+        reached, front = {node}, [node]
         while front:
             front = [node for each in front for node in joined.get(each, ()) if node not in reached]
             reached.update(front)
-        node = ports["B"]
         if node in nodes and not reached & (safe | tanks):
             line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, …}}"
             yield ("hydraulics", at), f"no relief valve bounds the pressure at `{node}`; add one such as `{line}`"

@@ -9,30 +9,20 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
+from nivel.kernels.hydraulics import piston, rotary, spool, volume
 from nivel.kernels.record.circuit_record import CircuitTangent
-from nivel.kernels.record.hook import FAMILIES
+from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Record
 from nivel.system.elimination.factor_plan import minimum_degree
 from nivel.system.hydraulics.circuit import tangent_tables
+from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.system import System
 
-# in the order of `nivel.kernels.hydraulics.tangent`
-DERIVED = (
-    piston.displace,
-    piston.guide,
-    piston.press,
-    spool.move,
-    spool.lift,
-    load_signal.apply,
-    rotary.set_displacement,
-    rotary.turn,
-    restriction.apply,
-    pipe.apply,
-)
-# those whose derivatives are those of nodes, or none
-WITHOUT = (ledger.begin, volume.apply, rotary.supply, ledger.apply)
 Index = NDArray[np.uint32]
+NUMBERS: dict[Family, int] = {
+    family: number for kind in COMPONENTS.values() for family, number in (kind.slopes or {}).items()
+}
+DERIVED = tuple(sorted(NUMBERS, key=NUMBERS.__getitem__))  # the families with derivatives by hand
 
 
 def with_circuit_tangent(system: System) -> System:

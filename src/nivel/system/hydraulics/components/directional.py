@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import load_signal, restriction, spool
+from nivel.kernels.hydraulics.tangent import MOVE, RESTRICT, SIGNAL
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import DirectionalValve, LoadSensing
 from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics import symbols
+from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.restrictions import add_flow, rated
 from nivel.system.signals.state_facts import StateFact
 
@@ -85,3 +88,11 @@ def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
         numbers += [valve.overlap, valve.rounding]
     width = 1 + load_signal.WIDE * load_signal.MOST
     builder.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)
+
+
+OF_SPOOLS = {spool.move: MOVE, restriction.apply: RESTRICT}
+OF_SIGNALS = {load_signal.apply: SIGNAL}
+KINDS = (
+    ComponentKind(DirectionalValve, add_directional, tuple(OF_SPOOLS), symbols.directional, OF_SPOOLS),
+    ComponentKind(LoadSensing, add_load_signal, tuple(OF_SIGNALS), symbols.shuttle, OF_SIGNALS),
+)

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import rotary
+from nivel.kernels.hydraulics.tangent import SETTING, TURN
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import FlowSource, HydraulicMotor, Pump
 from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics import symbols
+from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.signals.state_facts import StateFact
 
 WITHOUT_CUT_OFF = 1e12  # Pa
@@ -64,3 +67,11 @@ def _add_setting(builder: SystemBuilder, component: Pump | HydraulicMotor, outpu
         builder.elements.add(rotary.set_displacement, columns, numbers)
         return
     builder.elements.add(rotary.set_displacement, [output, NONE, builder.function(component.setting), NONE, NONE])
+
+
+SLOPES = {rotary.set_displacement: SETTING, rotary.turn: TURN}
+KINDS = (
+    ComponentKind(Pump, add_machine, tuple(SLOPES), symbols.pump, SLOPES),
+    ComponentKind(HydraulicMotor, add_machine, tuple(SLOPES), symbols.motor, SLOPES),
+    ComponentKind(FlowSource, add_flow_source, (rotary.supply,), symbols.pump, {}),  # a given flow has no slopes
+)

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from nivel.kernels.hydraulics import restriction, spool
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.tangent import LIFT, RESTRICT
 from nivel.machine.hydraulics import CheckValve, Compensator, CounterbalanceValve, ReducingValve, ReliefValve
 from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics import symbols
+from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppet, rated
+
+SLOPES = {spool.lift: LIFT, restriction.apply: RESTRICT}
 
 
 def add_check(builder: SystemBuilder, component: CheckValve) -> None:
@@ -65,3 +71,15 @@ def add_compensator(builder: SystemBuilder, component: Compensator) -> None:
     numbers = (component.opening_range, component.lag, 1.0, 0.5 * component.opening_range)
     opening = add_poppet(builder, component.name, "position", factors, numbers, component.margin)
     add_flow(builder, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)
+
+
+KINDS = tuple(
+    ComponentKind(words, add, tuple(SLOPES), symbol, SLOPES)
+    for words, add, symbol in (
+        (CheckValve, add_check, symbols.check),
+        (ReliefValve, add_relief, symbols.relief),
+        (CounterbalanceValve, add_counterbalance, symbols.counterbalance),
+        (ReducingValve, add_reducing, symbols.reducing),
+        (Compensator, add_compensator, symbols.compensator),
+    )
+)

@@ -1,0 +1,47 @@
+"""Phases of the evaluation of a circuit: the order in which its families are called.
+
+    begin → volumes → pressures → strokes → (control) → positions → flows → balance
+
+A control may read at once what is sensed: pressures, and positions, speeds and frictions of pistons. It acts on all that follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import IntEnum
+
+from nivel.kernels.record.hook import Family
+
+
+class Phase(IntEnum):
+    """When a family is called.
+
+    BEGIN : sums are set to zero. VOLUMES : what pistons leave open. PRESSURES : of all nodes. STROKES : of pistons, and their end stops.
+    POSITIONS : of valves, and settings of pumps. FLOWS : flows, forces and the rates that follow from these. BALANCE : energies and mass.
+    """
+
+    BEGIN = 0
+    VOLUMES = 1
+    PRESSURES = 2
+    STROKES = 3
+    POSITIONS = 4
+    FLOWS = 5
+    BALANCE = 6
+
+    @property
+    def sensed(self) -> bool:
+        """Whether a control may read it at once."""
+        return self < Phase.POSITIONS
+
+
+PHASES: dict[Family, Phase] = {}
+
+
+def called(phase: Phase) -> Callable[[Family], Family]:
+    """Decorator above `@family`: the phase in which it is called."""
+
+    def state(family: Family) -> Family:
+        PHASES[family] = phase
+        return family
+
+    return state

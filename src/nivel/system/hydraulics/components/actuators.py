@@ -1,0 +1,43 @@
+"""Cylinders and rotary actuators in numbers; their chambers and pistons are those of `nivel.system.hydraulics.nodes`."""
+
+from __future__ import annotations
+
+from nivel.kernels.hydraulics import piston, restriction, spool
+from nivel.kernels.hydraulics.tangent import DISPLACE, GUIDE, LIFT, PRESS, RESTRICT
+from nivel.machine.hydraulics import HydraulicCylinder, RotaryActuator, TelescopicCylinder
+from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics import symbols
+from nivel.system.hydraulics.kind import ComponentKind
+from nivel.system.hydraulics.nodes import chamber_node
+from nivel.system.hydraulics.restrictions import add_flow, add_poppet, rated
+
+OF_PISTONS = {piston.displace: DISPLACE, piston.guide: GUIDE, piston.press: PRESS}
+WITH_CUSHIONS = {**OF_PISTONS, spool.lift: LIFT, restriction.apply: RESTRICT}
+
+
+def add_cushions(builder: SystemBuilder, component: HydraulicCylinder) -> None:
+    """The throttled outlets of a cylinder, each with a check valve beside it."""
+    for chamber in component.chambers:
+        cushion = getattr(component, f"cushion_{chamber}")
+        if cushion is None:
+            continue
+        inner, port = chamber_node(component, chamber), f"{component.name}.{chamber}"
+        head = rated(cushion, 0.0)
+        end, sign = (0.0, 1.0) if chamber == "A" else (component.stroke, -1.0)
+        position, coupled = builder.circuit.signals[f"{component.name}.position"]
+        builder.note(coupled)
+        numbers = [*head, sign, end, cushion.length, 1.0, cushion.least_opening]
+        add_flow(
+            builder, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (restriction.CUSHION, position)
+        )
+        opening = add_poppet(
+            builder, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, (3e5, 0.0, -1.0, 0.0), 0.5e5
+        )
+        add_flow(builder, component.name, f"check_flow_{chamber}", (port, inner), head, opening)
+
+
+KINDS = (
+    ComponentKind(HydraulicCylinder, add_cushions, tuple(WITH_CUSHIONS), symbols.cylinder, WITH_CUSHIONS),
+    ComponentKind(TelescopicCylinder, None, tuple(OF_PISTONS), symbols.telescope, OF_PISTONS),
+    ComponentKind(RotaryActuator, None, tuple(OF_PISTONS), symbols.rotary, OF_PISTONS),
+)

@@ -1,0 +1,115 @@
+"""Elements of the circuits of a machine: the kernels that they need, and their rows."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from nivel.kernels.hydraulics import gas, gas_flow, ledger, volume
+from nivel.kernels.hydraulics.phase import PHASES
+from nivel.kernels.record.hook import Family
+from nivel.machine.hydraulics import Component, Gas, LoadSensing, Tank
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics.components import COMPONENTS
+from nivel.system.hydraulics.nodes import add_fluids, add_nodes
+from nivel.system.located import located
+from nivel.system.signals.state_facts import StateFact
+
+OF_NODES: Final = (ledger.begin, volume.apply, ledger.apply)  # of every circuit
+OF_GASES: Final = (gas.apply, gas_flow.apply)
+LEDGER: Final = {
+    "supplied": ("J", "energy that shafts and tanks gave to fluids"),
+    "delivered": ("J", "energy that fluids gave to bodies"),
+    "lost": ("J", "energy that fluids lost"),
+    "taken_in": ("kg", "mass that tanks gave to volumes"),
+}
+
+
+def families() -> list[Family]:
+    """All kernels of circuits, in the order of an evaluation."""
+    of_kinds = (family for kind in COMPONENTS.values() for family in kind.families)
+    return sorted(dict.fromkeys((*OF_NODES, *OF_GASES, *of_kinds)), key=PHASES.__getitem__)
+
+
+def sensed_and_acting() -> tuple[list[Family], list[Family]]:
+    """The same, before and after a control."""
+    every = families()
+    return [each for each in every if PHASES[each].sensed], [each for each in every if not PHASES[each].sensed]
+
+
+def families_of(machine: MachineRecord) -> list[Family]:
+    """The kernels that the circuits of a machine may need."""
+    if not machine.hydraulics:
+        return []
+    needed = {*OF_NODES, *(family for each in machine.hydraulics for family in COMPONENTS[each.type].families)}
+    if any(isinstance(fluid, Gas) for fluid in machine.fluids):
+        needed.update(OF_GASES)
+    return [family for family in families() if family in needed]
+
+
+def without_slopes(machine: MachineRecord) -> list[Component]:
+    """The components of a machine whose derivatives are not known by hand."""
+    return [each for each in machine.hydraulics if COMPONENTS[each.type].slopes is None]
+
+
+def has_slopes(machine: MachineRecord) -> bool:
+    """Whether the derivatives of all its circuits are known by hand; those of gases are not."""
+    return not without_slopes(machine) and not any(isinstance(fluid, Gas) for fluid in machine.fluids)
+
+
+def add_circuits(builder: SystemBuilder) -> None:
+    """Fluids, nodes and pressures of all circuits of a machine, and its pistons."""
+    if builder.machine.hydraulics:
+        add_fluids(builder)
+        add_nodes(builder)
+        _add_pressures(builder)
+
+
+def add_components(builder: SystemBuilder) -> None:
+    """What flows through and acts, after the control that steers it."""
+    components = builder.machine.hydraulics
+    if not components:
+        return
+    # positions of valves before what reads them
+    for component in sorted(components, key=lambda each: isinstance(each, LoadSensing)):
+        if (add := COMPONENTS[component.type].add) is not None:
+            with located(f"hydraulics.{component.name}"), builder.noting():
+                add(builder, component)
+            _know_late(builder, component)
+    _add_ledger(builder)
+
+
+def _add_pressures(builder: SystemBuilder) -> None:
+    """One row for each node."""
+    builder.elements.add(ledger.begin, [])
+    given = {each.name: each for each in builder.machine.hydraulics if isinstance(each, Tank)}
+    for k, node in enumerate(builder.circuit.nodes.values()):
+        function = 0
+        if node.kind == volume.GIVEN:
+            with located(f"hydraulics.{node.owner}.pressure"), builder.noting():
+                function = builder.function(given[node.owner].pressure)
+        if node.gas:
+            builder.elements.add(
+                gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls]
+            )
+        else:
+            builder.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
+
+
+def _know_late(builder: SystemBuilder, component: Component) -> None:
+    """What a component reports, as signals."""
+    coupled, start = builder.noted[-1], f"hydraulics.{component.name}."
+    for k, (name, _, _) in enumerate(builder.outputs.entries):
+        if name.startswith(start):
+            builder.circuit.signals.setdefault(name.removeprefix("hydraulics."), (k, coupled))
+
+
+def _add_ledger(builder: SystemBuilder) -> None:
+    """Three energies and a mass as states that nothing depends on."""
+    first = builder.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
+    states = []
+    for name, (units, words) in LEDGER.items():
+        fact = StateFact(f"hydraulics.{name}", units, words, 0.0, 1.0, integral=True)
+        with builder.noting():
+            states.append(builder.own_state(fact))
+    builder.elements.add(ledger.apply, [first, states[0]])

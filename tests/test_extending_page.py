@@ -1,11 +1,13 @@
 """docs/extending.md is followed: its files and lines are put in place, and do what the page says."""
 
 import importlib
+import math
 import os
 import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +15,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nivel
+from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.machine import MachineRecord
 from nivel.machine.forces import FORCES as WORDS
+from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.hydraulics import COMPONENTS as COMPONENT_WORDS
 from nivel.system.forces import FORCES
+from nivel.system.hydraulics.components import COMPONENTS
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
@@ -28,23 +34,35 @@ INTEGRATORS = {"rk4": 1e-6, "generalised-alpha": 3e-4, "radau": 1e-6, "bdf": 1e-
 
 
 @pytest.fixture(scope="module")
-def cart(tmp_path_factory):
-    """The machine of the page, with the force of the page as long as its tests last."""
+def folder(tmp_path_factory):
+    """The files of the page."""
     folder = tmp_path_factory.mktemp("extending")
     for name, text in FILES.items():
         (folder / name).write_text(text, encoding="utf-8")
     sys.path.insert(0, str(folder))
+    yield folder
+    sys.path.remove(str(folder))
+
+
+@pytest.fixture(scope="module")
+def cart(folder):
+    """The machine of the page, with the force of the page as long as its tests last."""
     importlib.import_module("maxwell")
     yield nivel.load(folder / "cart.yaml")
-    sys.path.remove(str(folder))
     del sys.modules["maxwell"]
-    withdraw("maxwell")
+    # other tests speak of the package's own forces
+    WORDS.remove(FORCES.pop("maxwell").words)
+    MachineRecord.model_rebuild(force=True)
 
 
-def withdraw(word):
-    """Other tests speak of the package's own forces."""
-    kind = FORCES.pop(word)
-    WORDS.remove(kind.words)
+@pytest.fixture(scope="module")
+def vessel(folder):
+    """The same with the component of the page."""
+    importlib.import_module("capillary")
+    yield nivel.load(folder / "vessel.yaml")
+    del sys.modules["capillary"]
+    COMPONENT_WORDS.remove(COMPONENTS.pop("capillary").words)
+    del COMPONENT_OF["capillary"]
     MachineRecord.model_rebuild(force=True)
 
 
@@ -83,6 +101,73 @@ def test_a_word_is_taken_once(cart):
         importlib.import_module("maxwell").register_force(
             sys.modules["maxwell"].ForceKind(sys.modules["maxwell"].Maxwell, None, ())
         )
+
+
+# 870 kg/m³ · 46 mm²/s, but for the air; the time constant is V/(K G), G = π d⁴/(128 μ L)
+VISCOSITY = 870.0 * 46e-6
+CONDUCTANCE = math.pi * 1e-12 / (128.0 * VISCOSITY * 0.5)
+DECAY = 1e-3 / (1.5e9 * CONDUCTANCE)
+CIRCUIT_INTEGRATORS = ("rk4", "generalised-alpha", "radau", "bdf", "extrapolated-euler")
+
+
+@pytest.mark.parametrize("integrator", CIRCUIT_INTEGRATORS)
+def test_the_vessel_empties_through_the_capillary_as_the_closed_form_says(vessel, integrator):
+    result = vessel.simulate(integrator=integrator)
+    fall = np.exp(-result.time / DECAY)
+    assert fall[-1] < 0.05
+    # 1e-4 of air at 200 bar changes density and bulk modulus by less than 2e-4, and t exp(-t) is at most 0.37
+    over = np.ravel(result["hydraulics.vessel.pressure"]) - 200e5
+    np.testing.assert_allclose(over, 100e5 * fall, atol=1e-4 * 100e5)
+    np.testing.assert_allclose(
+        np.ravel(result["hydraulics.bleed.flow"]), CONDUCTANCE * over, rtol=2e-4, atol=1e-6 * CONDUCTANCE * 100e5
+    )
+
+
+def test_energy_and_mass_of_the_capillary_are_balanced(vessel):
+    report = vessel.simulate(integrator="radau").trust
+    verdicts = {item.name: item.verdict for item in report.items}
+    assert verdicts["hydraulics"] == verdicts["fluid mass"] == "green"
+
+
+def test_the_capillary_is_drawn_in_report_and_viewer(vessel, tmp_path):
+    result = vessel.simulate(duration=0.01)
+    drawn = circuit_diagram(vessel.record.model_dump(mode="json"), {})
+    for text in (drawn, result.report(tmp_path / "report.html").read_text(encoding="utf-8")):
+        assert "M0 -18 V18 M-5 -11 V11 M5 -11 V11" in text
+        assert "500 mm × 1 mm" in text
+
+
+def test_without_its_symbol_the_capillary_is_a_box_with_its_type(vessel, monkeypatch):
+    kind = COMPONENTS["capillary"]
+    monkeypatch.setitem(COMPONENTS, "capillary", replace(kind, symbol=None))
+    drawn = circuit_diagram(vessel.record.model_dump(mode="json"), {})
+    assert '<text text-anchor="middle" y="4">capillary</text>' in drawn
+
+
+def test_check_tells_what_a_component_without_slopes_costs(vessel):
+    (line,) = [line for line in str(vessel.check()).splitlines() if "derivatives" in line]
+    assert "bleed (capillary)" in line
+    assert "extrapolated-euler" in line
+
+
+def test_the_faults_of_a_component_outside_the_package_are_told(folder):
+    text = FILES["vessel.yaml"].replace("B: supply}, diameter: 1 mm", "C: supply}, diameter: 1 kg")
+    (folder / "wrong.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(nivel.ModelError) as caught:
+        nivel.load(folder / "wrong.yaml")
+    told = str(caught.value)
+    assert "wrong.yaml:11" in told
+    assert "`C`" in told
+    assert "diameter" in told
+
+
+def test_a_component_states_the_phase_of_its_kernels(vessel):
+    kind = COMPONENTS["capillary"]
+    maxwell = importlib.import_module("nivel.kernels.forces.spring").apply
+    with pytest.raises(ValueError, match=r"Phase\.FLOWS"):
+        replace(kind, families=(maxwell,))
+    with pytest.raises(ValueError, match="already"):
+        sys.modules["capillary"].register_component(kind)
 
 
 MACHINE = """

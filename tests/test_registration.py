@@ -9,13 +9,17 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop import workspace
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.integrate.variable_order import variable_workspace
+from nivel.kernels.hydraulics import tangent
 from nivel.machine.forces import FORCES as RECORDS
+from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import SimulationSettings
 from nivel.methods import CHOOSING, EITHER, known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.results.pages import MAKERS, page_maker
 from nivel.system.forces import FORCES
+from nivel.system.hydraulics.components import COMPONENTS
+from nivel.system.hydraulics.tangent import DERIVED, NUMBERS
 from nivel.system.joints.joints import JOINTS
 
 
@@ -52,6 +56,16 @@ def test_multistep_methods_get_the_rows_and_numbers_that_they_use():
 
 def test_forces_have_the_types_that_the_builder_knows():
     assert {record.model_fields["type"].default for record in RECORDS} == set(FORCES)
+
+
+def test_components_have_the_types_that_the_builder_knows():
+    assert {record.model_fields["type"].default for record in COMPONENT_RECORDS} == set(COMPONENTS)
+
+
+def test_every_slope_by_hand_has_one_number():
+    for kind in COMPONENTS.values():
+        assert all(NUMBERS[family] == number for family, number in (kind.slopes or {}).items())
+    assert [NUMBERS[family] for family in DERIVED] == list(range(tangent.PIPE + 1))
 
 
 @pytest.mark.parametrize("page", MAKERS)

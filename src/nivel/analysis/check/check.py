@@ -386,8 +386,8 @@ def _without_slopes(machine: MachineRecord) -> Iterator[str]:
         names = ", ".join(f"{each.name} ({each.type})" for each in without)
         has = "has" if len(without) == 1 else "have"
         yield (
-            f"{names} {has} no derivatives by hand: with `extrapolated-euler` every step finds the derivatives of the whole machine on "
-            "complex numbers and costs more; other integrators cost the same"
+            f"{names} {has} no derivatives by hand: with `extrapolated-euler` every step computes those of the whole machine, which "
+            "takes longer for large machines; other integrators take as long as without"
         )
 
 

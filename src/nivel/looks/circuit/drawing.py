@@ -9,6 +9,7 @@ from typing import Any
 from nivel.looks.circuit.parts import Circuit, Part, circuit_of
 from nivel.looks.circuit.placing import place
 from nivel.looks.circuit.routing import Drawing, Line, Router
+from nivel.system.hydraulics.symbols import Symbol
 
 LARGEST = 120  # components that can be read in one drawing
 STYLE = """
@@ -22,6 +23,7 @@ STYLE = """
 .circuit .name { font-weight: 600; }
 .circuit .words { fill-opacity: 0.65; }
 .circuit .node, .circuit .words tspan { fill: #2f6fb3; fill-opacity: 1; }
+.circuit .port { font-size: 8px; }
 .circuit .leader { stroke: #2f6fb3; stroke-width: 0.6; stroke-opacity: 0.6; }
 """
 
@@ -74,12 +76,22 @@ def _line(line: Line, style: str = "") -> str:
 def _symbol(part: Part, pressures: Mapping[str, float]) -> str:
     """A symbol with its name, settings and pressures to its right."""
     x, first = part.x + part.symbol.wide + 6.0, part.y + 4.0 - 6.5 * len(part.words)
-    inner = f'<text text-anchor="middle" y="4">{escape(part.symbol.text)}</text>' if part.symbol.text else ""
     words = ""
     for k, (text, variable) in enumerate(part.words):
         value = _pressure(variable, pressures) if variable else ""
         words += f'<text class="words" x="{x:.1f}" y="{first + 13.0 * (k + 1):.1f}">{escape(text)}{value}</text>'
     return (
         f'<g class="symbol" transform="translate({part.x:.1f} {part.y:.1f})"><title>{escape(part.name)}: {part.type}</title>'
-        f'{part.symbol.body}{inner}</g><text class="name" x="{x:.1f}" y="{first:.1f}">{escape(part.label)}</text>{words}'
+        f'{part.symbol.body}{_lettering(part.symbol)}</g><text class="name" x="{x:.1f}" y="{first:.1f}">{escape(part.label)}</text>{words}'
     )
+
+
+def _lettering(symbol: Symbol) -> str:
+    """The word in a box, and the ports at its pins."""
+    if not symbol.text:
+        return ""
+    ports = [(port, x, y) for side, y in ((symbol.above, -9.0), (symbol.below, 15.0)) for port, x in side.items()]
+    letters = (
+        f'<text class="port" text-anchor="middle" x="{x:g}" y="{y:g}">{escape(port)}</text>' for port, x, y in ports
+    )
+    return f'<text text-anchor="middle" y="4">{escape(symbol.text)}</text>{"".join(letters)}'

@@ -21,7 +21,7 @@ class Symbol:
 
     body : SVG about (0, 0). wide, high : half of its size. above, below : x of the pin of each port above, or below, the symbol.
     row : where it stands in the diagram; a relief valve beside what it protects, "" between actuators and pumps. settings : said below its
-    name. text : in its middle.
+    name. text : in the middle of a box, whose pins have the letters of their ports.
     """
 
     body: str
@@ -211,9 +211,9 @@ def box(word: str, ports: Sequence[str]) -> Symbol:
         return {port: PIN * (k - 0.5 * (len(side) - 1)) for k, port in enumerate(side)}
 
     pins = (spread(above), spread(below))
-    lines = [*(f"M{x:g} -12 V-20" for x in pins[0].values()), *(f"M{x:g} 12 V20" for x in pins[1].values())]
-    body = path(" ".join([f"M{-wide:g} -12 H{wide:g} V12 H{-wide:g} Z", *lines]))
-    return Symbol(body, wide, 20.0, *pins, text=word)
+    lines = [*(f"M{x:g} -18 V-26" for x in pins[0].values()), *(f"M{x:g} 18 V26" for x in pins[1].values())]
+    body = path(" ".join([f"M{-wide:g} -18 H{wide:g} V18 H{-wide:g} Z", *lines]))
+    return Symbol(body, wide, 26.0, *pins, text=word)
 
 
 def flipped(symbol: Symbol) -> Symbol:

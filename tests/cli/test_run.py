@@ -61,6 +61,16 @@ def test_a_run_into_a_log_says_what_it_does_in_plain_lines(folder):
     assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "")
 
 
+def test_sentences_of_a_log_are_whole_lines(folder):
+    """A terminal of 80 columns folds them; a file does not, so that they can be searched for."""
+    process(folder, "run", "pendulum.yaml")
+    done = process(folder, "run", "pendulum.yaml", "--force", "--integrator", "euler", "--step", "10 ms")
+    sentences = [line for line in done.stderr.splitlines() if line.startswith("  ●")]
+    assert sentences
+    assert all(line.endswith(")") for line in sentences), done.stderr
+    assert max(map(len, sentences)) > 80
+
+
 @pytest.mark.parametrize("call", [nivel, process])
 def test_result_and_report_stand_beside_each_other(folder, call):
     done = call(folder, "run", "pendulum.yaml")

@@ -60,3 +60,8 @@ def test_the_page_gets_labels_ranges_and_limits():
     assert gauge("hinge.angle", "rad", sensors).label == "Hinge.angle"
     assert control(Input(name="lift_lever")).label == "Lift lever"
     assert control(Input(name="lift_lever", label="Boom")).label == "Boom"
+
+
+def test_a_key_cannot_raise_and_lower_an_input():
+    with pytest.raises(ModelError, match="`d` raises it already; another key was expected"):
+        Input(name="lever", keys={"raise": "d", "lower": "D"})

@@ -196,3 +196,7 @@ def test_surroundings_are_solids_at_global_places_and_change_no_number():
         alone.replace(surroundings=[{"type": "capsule", "radius": 0.1, "from": (0, 0, 0), "to": (1, 0, 0)}])
     with pytest.raises(ModelError, match="a mesh belongs to a body"):
         alone.replace(surroundings=[mesh(*box_mesh(1, 1, 1))])
+    with pytest.raises(ModelError, match=r"solids have no names: write `- \{type: box"):
+        alone.replace(surroundings={"floor": wall})
+    with pytest.raises(ModelError, match="meshes belong to bodies"):
+        alone.replace(surroundings=[{"type": "mesh", "file": "quay.stl"}])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from nivel.words.wording import seconds
@@ -16,6 +17,14 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 OUTCOMES = {"done": "completed", "failed": "failed", "interrupted": "interrupted"}
 
 
+def console(*, stderr: bool = True) -> Console:
+    """What prints lines: folded at the width of a terminal, whole in a file or a pipe."""
+    from rich.console import Console
+
+    stream = sys.stderr if stderr else sys.stdout
+    return Console(stderr=stderr, highlight=False, soft_wrap=not stream.isatty())
+
+
 def ended(result: Result) -> str:
     """`completed (t = 8 s)`, with the time that was reached."""
     reached = f" (t = {result.time[-1]:.6g} s)" if len(result.time) else ""
@@ -27,14 +36,14 @@ def computed_in(time: float, steps: int = 0) -> str:
     return f"computed in {seconds(time)}" + (f" ({seconds(time / steps)} per step)" if steps else "")
 
 
-def say_checks(console: Console, trust: Trust) -> None:
+def say_checks(out: Console, trust: Trust) -> None:
     """The checks that are not green, in full, and how many passed."""
     checks = [item for item in trust.items if item.name != "outcome" or item.verdict != "green"]
     open_ones = [item for item in checks if item.verdict != "green"]
     for item in open_ones:
-        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+        out.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
     passed = len(checks) - len(open_ones)
     if not open_ones:
-        console.print(f"All {passed} numerical checks passed; `nivel explain` shows them.")
+        out.print(f"All {passed} numerical checks passed; `nivel explain` shows them.")
     elif passed:
-        console.print(f"  The other {passed} checks passed; `nivel explain` shows them.", soft_wrap=True)
+        out.print(f"  The other {passed} checks passed; `nivel explain` shows them.", soft_wrap=True)

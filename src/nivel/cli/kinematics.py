@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
+from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks
 from nivel.cli.options import (
     allow_code_option,
     file_argument,
@@ -184,13 +184,11 @@ def _alone(options: dict[str, Any], others: tuple[str, ...], option: str) -> Non
 
 
 def _say(result: Result, target: Path, report: Path | None) -> None:
-    from rich.console import Console
-
-    console = Console(stderr=True, highlight=False)
+    out = console()
     time, timing = result.time, result.timing
-    console.print(f"{ended(result)}, {len(time)} positions {computed_in(timing.get('loop_seconds', 0.0))}")
+    out.print(f"{ended(result)}, {len(time)} positions {computed_in(timing.get('loop_seconds', 0.0))}")
     for line in assembly_lines(result):
-        console.print(line)
-    console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
-    say_checks(console, result.trust)
-    console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+        out.print(line)
+    out.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
+    say_checks(out, result.trust)
+    out.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
+from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks
 from nivel.cli.failures import say_faults
 from nivel.cli.options import (
     allow_code_option,
@@ -144,26 +144,24 @@ def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: P
 
 
 def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:
-    from rich.console import Console
-
     from nivel.results.frames.occurrence import in_words
 
-    console = Console(stderr=True, highlight=False)
+    out = console()
     trust = result.trust
     timing = result.timing
     done = ended(result)
     if timing:  # not where the run was broken off
         done += f", {timing['steps']} steps {computed_in(timing['loop_seconds'], timing['steps'])}"
-    console.print(done)
+    out.print(done)
     for note in notes:
-        console.print(f"note: {note}", markup=False, soft_wrap=True)
+        out.print(f"note: {note}", markup=False, soft_wrap=True)
     for line in assembly_lines(result):
-        console.print(line)
+        out.print(line)
     for line in in_words(result.events, result.stopped_by):
-        console.print(f"event: {line}", markup=False)
-    console.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
-    say_checks(console, trust)
-    console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+        out.print(f"event: {line}", markup=False)
+    out.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
+    say_checks(out, trust)
+    out.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
 
 
 def said_in_colour(trust: Trust) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
+from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks
 from nivel.cli.options import (
     allow_code_option,
     file_argument,
@@ -109,27 +109,23 @@ def command(
 
 
 def _say(result: Result, target: Path, report: Path | None) -> None:
-    from rich.console import Console
-
-    console = Console(stderr=True, highlight=False)
+    out = console()
     time, timing = result.time, result.timing
     states = f"{len(time)} state{'s' * (len(time) != 1)}"
     count = timing.get("iterations", 0)
     iterations = f"{count} iteration{'s' * (count != 1)}"
-    console.print(f"{ended(result)}, {states}, {iterations} {computed_in(timing.get('loop_seconds', 0.0))}")
+    out.print(f"{ended(result)}, {states}, {iterations} {computed_in(timing.get('loop_seconds', 0.0))}")
     for line in rest_lines(result):
-        console.print(line, markup=False)
+        out.print(line, markup=False)
     for line in assembly_lines(result):
-        console.print(line)
+        out.print(line)
     for line in vibration_lines(result):
-        console.print(line, markup=False)
+        out.print(line, markup=False)
     for each in json.loads(str(result.attributes.get("buckling", "[]"))):
-        console.print(
-            f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False
-        )
-    console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
-    say_checks(console, result.trust)
-    console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+        out.print(f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False)
+    out.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
+    say_checks(out, result.trust)
+    out.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
 
 
 def rest_lines(result: Result) -> list[str]:

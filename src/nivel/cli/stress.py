@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.ending import console
 from nivel.cli.options import file_argument, force_option, json_option, quiet_option, separated
 from nivel.cli.progress import progress_stage
 
@@ -181,13 +182,11 @@ def _write(
 
 def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
     """The facts as tables for people: on standard output, unless JSON is there."""
-    from rich.console import Console
-
-    console = Console(highlight=False, stderr=to_standard_error)
-    console.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
+    out = console(stderr=to_standard_error)
+    out.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
     for spot in facts["hot_spots"]:
         place = ", ".join(f"{x:.4g}" for x in spot["position"])
-        console.print(
+        out.print(
             f"  {spot['von_mises'] / 1e6:.5g} MPa von Mises, {spot['signed_principal'] / 1e6:+.5g} MPa signed principal at "
             f"{spot['time']:.6g} s, node {spot['node']} {spot['station']} ({place}) m",
             markup=False,
@@ -195,18 +194,18 @@ def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
         )
     for state in facts["states"]:
         where = f"node {state['node']} {state['station']}".strip()
-        console.print(
+        out.print(
             f"at {state['time']:.6g} s: {state['von_mises'] / 1e6:.5g} MPa at {where}, displacement up to "
             f"{1e3 * state['displacement']:.5g} mm",
             markup=False,
             soft_wrap=True,
         )
     for node in facts["nodes"]:
-        console.print(
+        out.print(
             f"node {node['node']}: von Mises up to {node['von_mises'] / 1e6:.5g} MPa at {node['time']:.6g} s; signed principal "
             f"{node['least'] / 1e6:+.5g} to {node['greatest'] / 1e6:+.5g} MPa {node['station']}".rstrip(),
             markup=False,
             soft_wrap=True,
         )
         for low, high, number in node["cycles"]:
-            console.print(f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa", markup=False)
+            out.print(f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa", markup=False)

@@ -57,6 +57,12 @@ class Counts:
     excessive: int = 0
     others: int = 0
 
+    def __str__(self) -> str:
+        return (
+            f"{self.taken} taken; dropped: {self.malformed} malformed, {self.others} of other senders, {self.stale} stale, "
+            f"{self.excessive} excessive"
+        )
+
 
 def packed_inputs(values: Sequence[float], sequence: int, stamp: int) -> bytes:
     """A datagram of inputs."""

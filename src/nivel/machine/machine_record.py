@@ -69,6 +69,15 @@ def _has_none(data: Any, section: str) -> bool:
     return records is None or (isinstance(records, list | tuple) and not records)
 
 
+def _solids(value: Any) -> Any:
+    """A list of solids; they have no names."""
+    if isinstance(value, Mapping):
+        raise fault(
+            "a list was expected, got a mapping; solids have no names: write `- {type: box, size: [4, 4, 0.1]}`"
+        )
+    return listed(value)
+
+
 Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"})]
 
 
@@ -79,7 +88,7 @@ class MachineRecord(Checked):
 
     name: Title
     description: str = ""
-    surroundings: Annotated[ManyRecords[Shape], BeforeValidator(listed)] = Field(
+    surroundings: Annotated[ManyRecords[Shape], BeforeValidator(_solids)] = Field(
         default=(), description="solids that are drawn on the ground, at global places; nothing touches them"
     )
     gravity: AccelerationVector = Field(default=(0.0, 0.0, 0.0))

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Truth
-from nivel.machine.core.record import Name, Record
+from nivel.machine.core.record import Name
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying
@@ -50,11 +50,15 @@ class Gamepad(Checked):
             yield Problem((), "one of `axis` and `button` is needed: its number, from 0")
 
 
-class Keys(Record):
+class Keys(Checked):
     """The keys of a keyboard that raise and lower an input while they are held down."""
 
     raise_: Key | None = Field(default=None, key="raise", description="key that moves the input to its upper end")
     lower: Key | None = Field(default=None, description="key that moves the input to its lower end")
+
+    def problems(self) -> Iterator[Problem]:
+        if self.lower is not None and self.lower == self.raise_:
+            yield Problem(("lower",), f"`{self.lower}` raises it already; another key was expected")
 
 
 class Input(Checked):

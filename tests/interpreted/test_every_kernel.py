@@ -25,7 +25,7 @@ import test_rails
 import test_statics_closed_forms
 import tree_machines
 from nivel.analysis.assembly.implicit import find_tangent
-from nivel.analysis.run import preparation
+from nivel.analysis.preparation import preparation
 from nivel.files import parse_machine
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop import paced as paced_loop
@@ -37,6 +37,7 @@ from nivel.machine import PointForce, Table
 from nivel.motion.catalogue import FLEXIBLE, PATHS
 from running import run
 from simulating import hinge, machine, solid
+from test_end_stops import ram
 from unknowns import SHARES
 
 ROOT = Path(__file__).parents[2]
@@ -437,6 +438,12 @@ def test_circuits_with_derivatives_by_hand():
         step=1e-4,
         coordinates="relative",
     )
+
+
+@pytest.mark.parametrize("coordinates", ["relative", "absolute"])
+def test_an_end_stop_that_is_met_within_the_first_half_of_a_step(coordinates):
+    """0.2 m/s for half a millisecond are 0.1 mm."""
+    short(ram(100, 5e-5).record, "extrapolated-euler", steps=2, step=1e-3, coordinates=coordinates)
 
 
 BOOM = """

@@ -192,13 +192,9 @@ print("speed", np.abs(result.array("speed") - np.sqrt((v * v).sum(axis=2))).max(
 """
 
 
-@pytest.fixture(scope="module")
-def package(tmp_path_factory):
-    """A copy of the package with the edits of the page."""
-    folder = tmp_path_factory.mktemp("package")
+def edited(folder, edits):
+    """A copy of the package in `folder`, with these edits of the page."""
     shutil.copytree(ROOT / "src" / "nivel", folder / "nivel", ignore=shutil.ignore_patterns("__pycache__"))
-    edits = EDIT.findall(PAGE)
-    assert len(edits) == 9
     for path, how, anchor, text in edits:
         file = folder / path.removeprefix("src/")
         if how == "file":
@@ -212,6 +208,27 @@ def package(tmp_path_factory):
         file.write_text("".join(lines), encoding="utf-8")
     (folder / "pair.yaml").write_text(MACHINE, encoding="utf-8")
     return folder
+
+
+def is_of_integrators(path):
+    """Whether an edit of this file is one of the integrators."""
+    return path.startswith("src/nivel/integrate/") or path == "src/nivel/methods.py"
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """A copy of the package with the edits of the page, but those of integrators."""
+    edits = [each for each in EDIT.findall(PAGE) if not is_of_integrators(each[0])]
+    assert len(edits) == 9
+    return edited(tmp_path_factory.mktemp("package"), edits)
+
+
+@pytest.fixture(scope="module")
+def with_integrators(tmp_path_factory):
+    """A copy of the package with the integrators of the page."""
+    edits = [each for each in EDIT.findall(PAGE) if is_of_integrators(each[0])]
+    assert len(edits) == 4
+    return edited(tmp_path_factory.mktemp("integrators"), edits)
 
 
 def run(folder, *command):
@@ -235,3 +252,55 @@ def test_the_joint_and_the_result_variable_of_the_page_are_there(package):
 def test_the_command_of_the_page_is_there(package):
     assert "count" in run(package, "-m", "nivel", "--help")
     assert run(package, "-m", "nivel", "count", "pair.yaml") == "2 bodies\n"
+
+
+SWING = """
+format: 1
+name: swing
+bodies:
+  bob: {mass: 2, inertia: [1, 1, 1], position: [1, 0, 0]}
+joints:
+  rail: {type: translational, bodies: [ground, bob], point: [0, 0, 0], axis: [1, 0, 0]}
+forces:
+  spring:
+    {type: spring-damper, bodies: [ground, bob], points: [[-1, 0, 0], [1, 0, 0]], stiffness: 18 N/m, damping: DAMPING, free_length: 1.5 m}
+simulation: {duration: 1, step: 10 ms, output_interval: 100 ms}
+"""
+
+
+def end_of_swing(t, damping):
+    """Displacement at t of a mass of 2 kg on 18 N/m from rest, 0.5 m from where the spring is free: x_0 (s_2 e^{s_1 t} - s_1 e^{s_2 t})/
+    (s_2 - s_1) - x_0 with the roots of 2 s² + d s + 18 = 0."""
+    first, second = np.roots([2.0, damping, 18.0])
+    x = 0.5 * (second * np.exp(first * t) - first * np.exp(second * t)) / (second - first)
+    return x.real - 0.5
+
+
+INTEGRATE = """
+import sys, nivel
+machine = nivel.load("swing.yaml")
+for integrator in ("midpoint", "implicit-euler"):
+    for step in (0.01, 0.005):
+        result = machine.simulate(integrator=integrator, step=step, coordinates=sys.argv[1])
+        print(float(result["rail.displacement"][-1]))
+"""
+
+
+@pytest.mark.parametrize("coordinates", COORDINATES)
+def test_the_integrators_of_the_page_converge_with_their_orders(with_integrators, coordinates):
+    (with_integrators / "swing.yaml").write_text(SWING.replace("DAMPING", "4 N*s/m"), encoding="utf-8")
+    places = [float(line) for line in run(with_integrators, "-c", INTEGRATE, coordinates).split()]
+    errors = np.abs(np.array(places) - end_of_swing(1.0, 4.0))
+    np.testing.assert_allclose(np.log2(errors[[0, 2]] / errors[[1, 3]]), [2.0, 1.0], atol=0.1)
+
+
+def test_the_implicit_integrator_of_the_page_takes_steps_beyond_the_fastest_rate(with_integrators):
+    # damped at 10⁴ 1/s, a hundred times the step
+    (with_integrators / "swing.yaml").write_text(SWING.replace("DAMPING", "2e4 N*s/m"), encoding="utf-8")
+    follow = "import nivel; r = nivel.load('swing.yaml').simulate(integrator='implicit-euler'); print(float(r['rail.displacement'][-1]))"
+    assert float(run(with_integrators, "-c", follow)) == pytest.approx(end_of_swing(1.0, 2e4), rel=1e-3)
+
+
+def test_the_words_of_the_integrators_of_the_page_are_listed(with_integrators):
+    listed = run(with_integrators, "-m", "nivel", "run", "--help").split()
+    assert {"midpoint,", "implicit-euler,"} <= {*listed}

@@ -1,21 +1,25 @@
 """What the words know and what the numbers know are the same lists."""
 
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
 from typing import get_args
 
 import pytest
 
+import nivel.integrate
 from nivel.cli.options import METHODS
-from nivel.integrate.catalogue import INTEGRATORS
-from nivel.integrate.loop import workspace
+from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
-from nivel.integrate.variable_order import variable_workspace
 from nivel.kernels.hydraulics import tangent
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import SimulationSettings
-from nivel.methods import CHOOSING, EITHER, known_words
+from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
+from nivel.native.entry import Entry
 from nivel.results.pages import MAKERS, page_maker
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS
@@ -39,19 +43,43 @@ def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
 
 
 def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
-    assert words("integrator") == set(INTEGRATORS)
-    assert set(CHOOSING) == {name for name, facts in INTEGRATORS.items() if facts.chooses_steps}
-    assert set(EITHER) == {name for name, facts in INTEGRATORS.items() if facts.optional_control}
+    steps = Counter((facts.name, facts.machines) for facts in all_facts())
+    assert max(steps.values()) == 1
+    assert words("integrator") == {name for name, machines in steps if machines == "all"} == {name for name, _ in steps}
     assert words("formulation") == set(FORMULATIONS)
     assert words("stabilisation") == set(STABILISATIONS)
 
 
-def test_multistep_methods_get_the_rows_and_numbers_that_they_use():
-    for name, facts in INTEGRATORS.items():
-        if name in ("adams", "gear", "bdf"):
-            assert (facts.stages, facts.numbers) == (variable_workspace.ROWS, variable_workspace.NUMBERS)
-        elif name.startswith(("ab", "am", "gear")):
-            assert (facts.stages, facts.numbers) == (workspace.ROWS, workspace.NUMBERS)
+@pytest.mark.parametrize("facts", all_facts(), ids=lambda facts: f"{facts.name}-{facts.machines}")
+def test_facts_of_an_integrator_agree_with_each_other(facts):
+    assert isinstance(facts.step, Entry)
+    assert not (facts.kind == "explicit" and facts.needs != "evaluations")
+    assert all(facts.over_steps) == any(facts.over_steps) == (facts.needs == "whole steps")
+    assert not (facts.machines != "all" and facts.residual)
+    assert facts.held == 1.0 or facts.kind == "explicit"
+
+
+def test_steps_take_nothing_from_the_module_of_facts_but_the_record():
+    # it is not among the sources that machine code depends on
+    for path in Path(nivel.integrate.__path__[0]).glob("*/*.py"):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            assert "integrate.facts" not in line or line == "from nivel.integrate.facts import IntegratorFacts", path
+
+
+def test_facts_of_integrators_are_looked_for_wherever_they_stand():
+    folder = Path(nivel.integrate.__path__[0])
+    stating = {path.parent.name for path in folder.glob("*/*.py") if "\nFACTS = " in path.read_text(encoding="utf-8")}
+    assert stating == set(FAMILIES)
+
+
+def test_an_integrator_loads_no_other_family_than_those_before_it():
+    script = "import sys; from nivel.integrate.catalogue import INTEGRATORS; assert INTEGRATORS['rk4'].order == 4; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
+    assert "nivel.integrate.explicit.runge_kutta" in loaded
+    assert not {"numba", "llvmlite", *(f"nivel.integrate.{family}" for family in FAMILIES[1:])} & {*loaded}
+    assert len(INTEGRATORS) == len(list(INTEGRATORS)) == len(dict(INTEGRATORS))
+    with pytest.raises(KeyError):
+        _ = INTEGRATORS["no such integrator"]
 
 
 def test_forces_have_the_types_that_the_builder_knows():

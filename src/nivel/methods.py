@@ -5,19 +5,20 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import Any, Final, Literal, get_args
 
-Integrator = Literal[
+# Integrators by what their steps are: of a fixed size, chosen for the tolerance, or either, as `step_control` says.
+FixedStep = Literal[
     "euler", "heun", "rk4", "rkn4",
     "ab1", "ab2", "ab3", "ab4", "ab5",
     "am1", "am2", "am3", "am4", "am5",
     "abm1", "abm2", "abm3", "abm4", "abm5",
     "gear1", "gear2", "gear3", "gear4",
-    "dopri5", "dop853", "adams", "gear",
-    "newmark", "hht", "generalised-alpha", "energy-momentum",
-    "bdf", "ros2", "extrapolated-euler", "radau",
+    "energy-momentum", "ros2", "extrapolated-euler",
 ]  # fmt: skip
-# those of them that choose their steps, and those that do so with `step_control: error`
-CHOOSING = ("dopri5", "dop853", "adams", "gear", "bdf", "radau")
-EITHER = ("newmark", "hht", "generalised-alpha")
+ChosenStep = Literal["dopri5", "dop853", "adams", "gear", "bdf", "radau"]
+EitherStep = Literal["newmark", "hht", "generalised-alpha"]
+Integrator = Literal[FixedStep, ChosenStep, EitherStep]
+CHOSEN: Final[tuple[str, ...]] = get_args(ChosenStep)
+EITHER: Final[tuple[str, ...]] = get_args(EitherStep)
 StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
@@ -41,3 +42,8 @@ _WORDS: Final[MappingProxyType[str, Any]] = MappingProxyType(
 def known_words(setting: str) -> tuple[str, ...]:
     """The words that a setting may be, e.g. of `integrator`."""
     return get_args(_WORDS[setting])
+
+
+def chooses(integrator: str, step_control: str) -> bool:
+    """Whether the integrator controls its error in a run with this `step_control`; one that is not known does not."""
+    return integrator in CHOSEN or (integrator in EITHER and step_control == "error")

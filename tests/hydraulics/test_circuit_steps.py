@@ -24,7 +24,7 @@ def after_one_step(built, step):
     settings = built.record.simulation.replace(duration=1.0, step=step, **FAST)
     plan = plan_run(built.record.replace(simulation=settings))
     prepared = prepare(plan.methods)
-    assert prepared.integrator.circuit_tangent
+    assert prepared.integrator.needs == "circuits"
     loop = start_loop(prepared, plan.settings)
     loop.history.record.counter[BUDGET] = 1
     assert loop.advance() == BUDGET_SPENT

@@ -18,7 +18,9 @@ from running import run
 from simulating import G, simulate, slide, solid
 
 IMPLICIT = [
-    name for name, facts in INTEGRATORS.items() if facts.implicit and not facts.residual and not facts.chooses_steps
+    name
+    for name, facts in INTEGRATORS.items()
+    if facts.kind == "corrector" and not facts.residual and not facts.chooses_steps
 ]
 NEWTON = {"iteration": "newton"}
 

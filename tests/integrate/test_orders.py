@@ -39,7 +39,7 @@ def slider_crank_errors(name, steps, duration, **settings):
 
 
 def corrector(name, **more):
-    return {"corrector": {**TIGHT, **more}} if INTEGRATORS[name].implicit else {}
+    return {"corrector": {**TIGHT, **more}} if INTEGRATORS[name].kind == "corrector" else {}
 
 
 @pytest.mark.parametrize("name", FIXED)
@@ -47,7 +47,7 @@ def test_order_on_the_slider_crank_with_direct_correction(name):
     order = INTEGRATORS[name].order
     steps = LONGEST[order] * np.array([1, 1 / 2, 1 / 4, 1 / 8] if FULL else [1, 1 / 2, 1 / 4])
     # one over a whole step closes the positions itself
-    own = {"stabilisation": "none"} if INTEGRATORS[name].step_residual else {}
+    own = {"stabilisation": "none"} if INTEGRATORS[name].needs == "whole steps" else {}
     errors = slider_crank_errors(name, steps, 0.8, **own, **corrector(name))
     assert abs(slope(steps, errors) - order) < 0.2, errors
 

@@ -1,6 +1,5 @@
 """Integrators on differential equations that are no machines: what the tests of their orders are made of."""
 
-from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
@@ -51,7 +50,6 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
     Returns time, y (n, 4), the dense output of every step as a function of θ, orders, evaluations, rejected.
     """
     facts = INTEGRATORS[integrator]
-    function = getattr(import_module(facts.module), facts.function)
     clock, counter = np.zeros(names.CLOCKS), np.zeros(names.COUNTS, dtype=np.int64)
     clock[names.STEP], clock[names.END], clock[names.INTERVAL] = step, end, 1e-9
     clock[names.BOUND] = end
@@ -88,7 +86,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
     while clock[names.TIME] < end:
         evaluate(machine.address, clock[names.TIME], y, run.rate)
         run.previous[:] = y
-        status = function(evaluate.address, machine.address, history.address)
+        status = facts.step(evaluate.address, machine.address, history.address)
         assert status == OK, (status, clock[names.TIME])
         inside.append((run.previous.copy(), run.dense[: counter[names.DENSE]].copy(), int(counter[names.POWERS])))
         clock[names.TIME] = clock[names.REACHED]

@@ -76,7 +76,7 @@ def short(record, integrator=EXPLICIT, *, steps=3, step=STEP, **settings):
     """A run of a few steps."""
     facts = INTEGRATORS[integrator]
     given = {"tolerance": 1e-3} if facts.chooses_steps else {"step": step}
-    given |= {"stabilisation": "none"} if facts.step_residual else {}
+    given |= {"stabilisation": "none"} if facts.needs == "whole steps" else {}
     given |= {"coordinates": "absolute", "integrator": integrator}
     r = run(record, **{**given, "duration": steps * step, "output_interval": 2 * step, **settings})
     assert r.finished.outcome == "done", r.finished.failure
@@ -151,16 +151,16 @@ def test_euler_angles():
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_integrators(integrator, coordinates):
-    if INTEGRATORS[integrator].step_residual and coordinates != "absolute":
+    if INTEGRATORS[integrator].needs == "whole steps" and coordinates != "absolute":
         pytest.skip("absolute coordinates alone")
     short(machines.slider_crank(), integrator, steps=6, coordinates=coordinates)
 
 
-@pytest.mark.parametrize("integrator", [name for name, facts in INTEGRATORS.items() if facts.implicit])
+@pytest.mark.parametrize("integrator", [name for name, facts in INTEGRATORS.items() if facts.kind == "corrector"])
 def test_newton(integrator):
     """The corrector with a matrix."""
     facts = INTEGRATORS[integrator]
-    coordinates = "absolute" if facts.step_residual else "relative"
+    coordinates = "absolute" if facts.needs == "whole steps" else "relative"
     short(machines.slider_crank(), integrator, steps=2, coordinates=coordinates, corrector={"iteration": "newton"})
 
 
@@ -303,7 +303,7 @@ def test_stiffness_of_modes_alone(folder, integrator):
 @pytest.mark.parametrize("mass", ["lumped", "consistent"])
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_beams(integrator, mass, coordinates):
-    if INTEGRATORS[integrator].step_residual and coordinates != "absolute":
+    if INTEGRATORS[integrator].needs == "whole steps" and coordinates != "absolute":
         pytest.skip("absolute coordinates alone")
     short(machine(beams.flying(2, mass, elements=2)).record, integrator, steps=2, step=1e-4, coordinates=coordinates)
 

@@ -20,7 +20,6 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
-from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.paced import (
     CLOCK,
     DEADLINE,
@@ -48,6 +47,7 @@ from nivel.live.snapshot import arrays_of, put_back, taken
 from nivel.live.system_clock import clock_addresses
 from nivel.live.timing import Timing, timing_of
 from nivel.machine import Input, MachineRecord
+from nivel.methods import CHOSEN, known_words
 from nivel.native import library
 
 Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ class Cost:
 
 def fixed_methods() -> list[str]:
     """Integrators that can have fixed steps."""
-    return [name for name, facts in INTEGRATORS.items() if not facts.chooses_steps]
+    return [name for name in known_words("integrator") if name not in CHOSEN]
 
 
 def is_compiled(machine: MachineRecord, settings: Mapping[str, Any], tick: float | None) -> bool:

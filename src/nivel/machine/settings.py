@@ -14,8 +14,6 @@ from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
 from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 from nivel.methods import (
-    CHOOSING,
-    EITHER,
     Coordinates,
     Formulation,
     Integrator,
@@ -23,6 +21,7 @@ from nivel.methods import (
     Stabilisation,
     Start,
     StepControl,
+    chooses,
 )
 
 Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
@@ -137,7 +136,7 @@ class SimulationSettings(Checked):
 
     def problems(self) -> Iterator[Problem]:
         """Each is about several settings, which its message names; the place is that of all of them."""
-        fixed = self.integrator not in CHOOSING and not (self.integrator in EITHER and self.step_control == "error")
+        fixed = not chooses(self.integrator, self.step_control)
         messages = []
         if self.duration < SHORTEST:
             messages.append(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")

@@ -17,7 +17,7 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.plan.settings import FRAMES
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import Fault, ModelError
-from nivel.integrate.catalogue import INTEGRATORS, chooses
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.changes import changed
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given
@@ -32,6 +32,7 @@ from nivel.machine.settings import (
     Tolerance,
 )
 from nivel.machine.units.quantity import Duration, fault, listed
+from nivel.methods import chooses
 from nivel.results.comparison.comparison import Method
 from nivel.words.arguments import plain
 

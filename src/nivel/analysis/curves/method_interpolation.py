@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.curves.path import Steps
-from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.facts import IntegratorFacts
 
 Array = NDArray[np.float64]
-MULTISTEP = ("adams", "moulton", "gear", "bdf")
 # steps that a spline needs
 LEAST_STEPS = 4
 ENDS, SIMPSON, BOOLE = 2, 3, 5
@@ -25,10 +24,8 @@ def as_seen(values: Array, steps: Steps, facts: IntegratorFacts) -> Array:
     them for (n, samples). The number of samples less one is a multiple of four."""
     if facts.order <= 2:
         return _through(values, ENDS)
-    if facts.module.endswith(MULTISTEP):
+    if facts.multistep:
         return _over_steps(values, steps)
-    if facts.implicit and not facts.first_order:
-        return _through(values, ENDS)
     return _through(values, SIMPSON if facts.order <= 4 else BOOLE)
 
 

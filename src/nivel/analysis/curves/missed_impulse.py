@@ -17,7 +17,7 @@ from nivel.analysis.curves.functions import Varying, varying
 from nivel.analysis.curves.method_interpolation import as_seen
 from nivel.analysis.curves.path import Path, Steps, path_of
 from nivel.analysis.curves.switches import cut_at_switches
-from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.facts import IntegratorFacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import TIME
 from nivel.machine.units.bounds import Interval

@@ -26,7 +26,7 @@ from nivel.analysis.run.lockup import find_jam
 from nivel.analysis.run.outcome import failure
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
-from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.positions import follow_positions
 from nivel.integrate.loop.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
 from nivel.integrate.loop.sink import Header, Sink
@@ -45,7 +45,7 @@ from nivel.system.system import Array
 STUCK = 1e-4
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
-FACTS = IntegratorFacts("nivel.integrate.loop.positions", "follow_positions", stages=0, order=1, numbers=1)
+FACTS = IntegratorFacts("", follow_positions, order=1, numbers=1)
 
 
 @dataclass

@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
-from nivel.integrate.catalogue import BY_CIRCUITS, BY_MODES, INTEGRATORS
+from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.machine.forces import Friction
 from nivel.machine.joints.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
@@ -49,13 +49,13 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if settings.cut:
         return "relative"
     facts = INTEGRATORS[settings.integrator]
-    if settings.integrator in BY_CIRCUITS and goes_by_circuits(machine, "relative"):
+    if step_for(settings.integrator, "circuits") and goes_by_circuits(machine, "relative"):
         # there derivatives are found by hand
         return "relative"
     if machine.is_flexible:
         # there ROS2 needs no matrix of all modes
-        return "relative" if settings.integrator in BY_MODES and only_modes_are_stiff(machine) else "absolute"
-    if facts.step_residual or (facts.residual and len(machine.bodies) > MOST_DENSE):
+        return "relative" if step_for(settings.integrator, "modes") and only_modes_are_stiff(machine) else "absolute"
+    if facts.needs == "whole steps" or (facts.residual and len(machine.bodies) > MOST_DENSE):
         return "absolute"
     if not (facts.residual or machine.shares_mass) and slides(machine, "relative", settings.formulation):
         # accelerations by the residual, which explicit methods need for nothing else, cost three times as much or more

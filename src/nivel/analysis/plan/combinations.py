@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from nivel.errors import Fault
-from nivel.integrate.catalogue import INTEGRATORS, chooses
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.settings import SimulationSettings
+from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
 
 
@@ -53,7 +54,7 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     if facts is None or not facts.residual:
         return faults
     name = f"`integrator: {settings.integrator}`"
-    if facts.step_residual:
+    if facts.needs == "whole steps":
         return faults + _refuse_beside_whole_steps(settings, coordinates)
     if (
         settings.stabilisation == "baumgarte"
@@ -66,7 +67,7 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
             f"has order one there: take direct, or own coefficients `baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
         )
         faults.append(_fault("stabilisation", message))
-    if facts.implicit and settings.corrector.iteration == "functional":
+    if facts.kind == "corrector" and settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
         faults.append(_fault("corrector.iteration", message))
     return faults
@@ -107,12 +108,12 @@ def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
     facts = INTEGRATORS.get(settings.integrator)
     if settings.corrector.matrix != "full" or facts is None or (facts.residual and not facts.first_order):
         return []
-    if not (facts.implicit or facts.residual):
+    if facts.kind == "explicit":
         return []  # no corrector at all
     why = "solves with one exact matrix a step and does not iterate"
     if facts.chooses_steps:
         why = "chooses steps and orders by the cost of its matrix so far"
-    elif facts.implicit:
+    elif facts.kind == "corrector":
         why = "computes its matrix by differences, again when the iteration converges slowly"
     message = (
         f"'full' does not go with `integrator: {settings.integrator}`, which {why}: take newmark, hht or generalised-alpha, or leave "

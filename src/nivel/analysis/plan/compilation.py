@@ -11,7 +11,7 @@ from nivel.analysis.curves.switches import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import NivelError
-from nivel.integrate.catalogue import BY_CIRCUITS, BY_FLEXIBLE_CIRCUITS, BY_MODES, INTEGRATORS
+from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record.hook import Family
@@ -52,6 +52,8 @@ POINTS = "nivel.kernels.residual.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.slider_nodes"
 PASSING = "nivel.kernels.residual.element_crossing"
+# modules, besides those of residuals and forces, that exact derivatives may need on complex numbers
+WITH_DERIVATIVES = (MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS)
 # what completes the frames of runs in relative coordinates
 COMPLETIONS = (
     "nivel.kernels.tree.tree_outputs",
@@ -125,12 +127,12 @@ def preparation_entries(methods: Methods) -> list[Entry]:
     twins: list[Entry] = []
     if integrator.residual or methods.solves_residual:
         modules += _node_modules(methods)
-        plain = bool(integrator.step_residual) or integrator.directional_tangent or methods.formulation == "lagrange"
+        plain = integrator.needs in ("whole steps", "directions") or methods.formulation == "lagrange"
         residual = integrator.over_step(machine.is_flexible) or path.residual
         twins = _with_twins(residual, modules, _families(machine), held=not plain)
         twins += _with_twins(path.residual, [], []) if methods.solves_residual else []
         twins.append(entry_of(RESIDUAL))
-    if integrator.accelerations and path.dependent:
+    if integrator.needs == "accelerations" and path.dependent:
         modules.append(path.dependent)
     if methods.coordinates == "relative":
         modules += [COMPLETIONS[0]] * (not methods.solves_residual) + [COMPLETIONS[1]] * methods.solves_residual
@@ -141,11 +143,10 @@ def preparation_entries(methods: Methods) -> list[Entry]:
 def run_entries(plan: Plan) -> list[Entry]:
     """What a run takes."""
     methods = plan.methods
-    step = entry_of(f"{methods.integrator.module}:{methods.integrator.function}")
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
     path = methods.path
     after_steps = f"{path.correction}:correct" if plan.stabilisation.CORRECTS else f"{path.module}:normalise_state"
-    return [*preparation_entries(methods), step, *_entries(modules), entry_of(after_steps)]
+    return [*preparation_entries(methods), methods.integrator.step, *_entries(modules), entry_of(after_steps)]
 
 
 def statics_entries(methods: Methods) -> list[Entry]:
@@ -171,13 +172,13 @@ def linear_entries(methods: Methods) -> list[Entry]:
 
 def all_entries() -> list[Entry]:
     """Every entry that any run may need, those that take longest to compile first."""
-    paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
-    special = (*BY_MODES.values(), *BY_CIRCUITS.values(), *BY_FLEXIBLE_CIRCUITS.values())
-    modules = [facts.module for facts in (*integrators, *special)]
+    paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), all_facts()
+    modules = [facts.module for facts in integrators]
     modules += [
         module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
     ]
-    modules += [module for facts in integrators for module in (facts.step_residual, facts.step_residual_flexible)]
+    over_steps = [module for facts in integrators for module in facts.over_steps]
+    modules += over_steps
     modules += [
         MEASURE,
         FRICTION,
@@ -215,7 +216,8 @@ def all_entries() -> list[Entry]:
             run_expression,
         ]
     )
-    twins = [twin for module in _with_derivatives() for twin in _twins(module)]
+    residuals = [module for module in (*(path.residual for path in paths), *over_steps) if module]
+    twins = [twin for module in dict.fromkeys((*residuals, *WITH_DERIVATIVES)) for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
     return [*dict.fromkeys(entries)]
@@ -241,23 +243,11 @@ def _twins(module: str) -> list[Entry]:
 
 def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], *, held: bool = True) -> list[Entry]:
     """A residual, and on complex numbers it and what a run uses: modules, families. held : elements of beams are found by hand."""
-    needed = [residual, *(module for module in _with_derivatives() if module in used)]
+    needed = [residual, *(module for module in WITH_DERIVATIVES if module in used)]
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
     of_forces = [(hold if held and family is ELASTIC else family).twin for family in families]
     return [*_entries(needed), *of_forces, *(twin for module in needed for twin in _twins(module))]
-
-
-def _with_derivatives() -> list[str]:
-    """Modules, besides those of forces, that exact derivatives may need on complex numbers."""
-    residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
-    residuals += [
-        module
-        for facts in INTEGRATORS.values()
-        for module in (facts.step_residual, facts.step_residual_flexible)
-        if module
-    ]
-    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS]
 
 
 def _families(machine: MachineRecord) -> list[Family]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from nivel.analysis.plan.soft_forces import is_soft
-from nivel.integrate.catalogue import BY_CIRCUITS, BY_FLEXIBLE_CIRCUITS, BY_MODES, INTEGRATORS, IntegratorFacts
+from nivel.integrate.catalogue import INTEGRATORS, step_for
+from nivel.integrate.facts import IntegratorFacts
 from nivel.machine.forces import PointForce, Torque
 from nivel.machine.hydraulics import Component
 from nivel.machine.laws.symbols import find_symbol
@@ -59,17 +60,19 @@ def only_modes_are_stiff(machine: MachineRecord) -> bool:
 def integrator_of(machine: MachineRecord, coordinates: str) -> IntegratorFacts:
     """The integrator of a run of `machine` in these coordinates."""
     name = machine.simulation.integrator
-    if name in BY_CIRCUITS and goes_by_circuits(machine, coordinates):
-        return (BY_FLEXIBLE_CIRCUITS if machine.is_flexible else BY_CIRCUITS)[name]
-    return BY_MODES[name] if name in BY_MODES and goes_by_modes(machine, coordinates) else INTEGRATORS[name]
+    by_circuits = step_for(name, "flexible circuits" if machine.is_flexible else "circuits")
+    if by_circuits and goes_by_circuits(machine, coordinates):
+        return by_circuits
+    by_modes = step_for(name, "modes")
+    return by_modes if by_modes and goes_by_modes(machine, coordinates) else INTEGRATORS[name]
 
 
 def goes_by_circuits(machine: MachineRecord, coordinates: str) -> bool:
-    """Whether a machine is one for the integrators of BY_CIRCUITS."""
+    """Whether a machine is one for integrators that take derivatives of circuits by hand."""
     formulation = machine.simulation.formulation
     return coordinates == "relative" and formulation == "newton-euler" and only_circuits_are_stiff(machine)
 
 
 def goes_by_modes(machine: MachineRecord, coordinates: str) -> bool:
-    """Whether a machine is one for the integrators of BY_MODES."""
+    """Whether a machine is one for integrators that take derivatives of modes alone."""
     return coordinates == "relative" and only_modes_are_stiff(machine)

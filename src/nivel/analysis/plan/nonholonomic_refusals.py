@@ -29,14 +29,14 @@ def refuse_rolling_by_positions(machine: MachineRecord, coordinates: str) -> Non
     """Raises ModelError for methods whose multipliers close positions, and so would let wheels slip."""
     settings = machine.simulation
     integrator = INTEGRATORS[settings.integrator]
-    if integrator.step_residual:
+    if integrator.needs == "whole steps":
         refuse_rolling(
             machine,
             f"`integrator: {settings.integrator}` solves position constraints only; use generalised-alpha, radau or rk4",
         )
     feeds_back = FORMULATIONS[settings.formulation].factor > 0.0
     closes_positions = settings.stabilisation == "none" and not feeds_back and coordinates != "independent"
-    if integrator.accelerations and closes_positions:
+    if integrator.needs == "accelerations" and closes_positions:
         refuse_rolling(
             machine,
             f"with 'none' the multipliers of `integrator: {settings.integrator}` close positions alone (index 3); "

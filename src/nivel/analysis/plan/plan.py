@@ -21,10 +21,12 @@ from nivel.analysis.plan.refusals import (
 )
 from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.errors import Fault, ModelError
-from nivel.integrate.catalogue import INTEGRATORS, IntegratorFacts, chooses
+from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
+from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
 from nivel.system.beams.nodes import with_nodes
 
@@ -51,8 +53,8 @@ def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
         fitting = [each for each, facts in INTEGRATORS.items() if facts.chooses_steps]
         more = "; `step_control: error` lets it choose its steps" if integrator.optional_control else ""
         return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}{more}"
-    if name == "corrector" and integrator and not integrator.implicit:
-        fitting = [each for each, facts in INTEGRATORS.items() if facts.implicit]
+    if name == "corrector" and integrator and integrator.kind != "corrector":
+        fitting = [each for each, facts in INTEGRATORS.items() if facts.kind == "corrector"]
         return f"`integrator: {settings.integrator}` solves no equations; {_choice('it', fitting)}"
     if name in CONSTANTS and settings.integrator != CONSTANTS[name]:
         return f"it is for `integrator: {CONSTANTS[name]}`, and this run has `integrator: {settings.integrator}`"

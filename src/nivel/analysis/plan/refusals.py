@@ -8,7 +8,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.errors import Fault, ModelError
-from nivel.integrate.catalogue import INTEGRATORS, chooses
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.forces import Contact, Friction, Stop
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
@@ -17,6 +17,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.units.expression import Expression
 from nivel.machine.uses.coordinate_reference import resolve
+from nivel.methods import chooses
 from nivel.system.laws.laws import false_derivative
 from nivel.system.layout import reported
 from nivel.system.system import Array
@@ -100,7 +101,7 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
 
 def refuse_stiction_over_steps(machine: MachineRecord) -> None:
     """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
-    if not INTEGRATORS[machine.simulation.integrator].step_residual:
+    if INTEGRATORS[machine.simulation.integrator].needs != "whole steps":
         return
     faults = [
         Fault(
@@ -152,7 +153,7 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
         message = ""
         if isinstance(table, PythonLaw) and (wrong := false_derivative(table, settings.duration)):
             message = f"the law `{table.function}` must return consistent value, rate and acceleration: {wrong}"
-        elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].velocity_jumps:
+        elif isinstance(table, Table) and INTEGRATORS[settings.integrator].ends != "jumps":
             message = _jump_of(table, settings)
         if message:
             faults.append(Fault("", 0, 0, owner, message))
@@ -226,7 +227,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
     gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
-    if INTEGRATORS[machine.simulation.integrator].step_residual and gradients:
+    if INTEGRATORS[machine.simulation.integrator].needs == "whole steps" and gradients:
         message = (
             f"'{machine.simulation.integrator}' does not go with {gradients}, because the velocities of its gradients are not the "
             f"mean of those at both ends of a step: use generalised-alpha, or beams of another `model`"

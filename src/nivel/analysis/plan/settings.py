@@ -7,12 +7,14 @@ from math import ceil
 
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
-from nivel.integrate.catalogue import INTEGRATORS, IntegratorFacts, chooses
+from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS
 
 # Without an output interval: the shortest multiple of the step that gives at most this many frames.
@@ -98,7 +100,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         wanted = f"a `duration` of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         message = f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step, or a shorter duration"
         faults.append(_fault("step", message))
-    if facts is not None and facts.implicit and settings.corrector.tolerance < LEAST_CHANGE:
+    if facts is not None and facts.kind == "corrector" and settings.corrector.tolerance < LEAST_CHANGE:
         message = f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off dominates; use a larger value"
         faults.append(_fault("corrector.tolerance", message))
     steps, every, interval = 0, 0, settings.duration
@@ -139,7 +141,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         rotations=settings.rotations,
         tolerance=settings.tolerance if chosen_steps else None,
         largest_step=settings.largest_step or settings.duration,
-        corrector=_corrector(settings.corrector, facts) if facts is not None and facts.implicit else None,
+        corrector=_corrector(settings.corrector, facts) if facts is not None and facts.kind == "corrector" else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
         constants=_constants(settings),

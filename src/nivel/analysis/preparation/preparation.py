@@ -33,7 +33,7 @@ from nivel.analysis.plan.refusals import (
     refuse_unsettled_multipliers,
 )
 from nivel.errors import Fault, ModelError
-from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.facts import IntegratorFacts
 from nivel.kernels.core.arrays import copied
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
@@ -118,7 +118,7 @@ def prepare(
     if len(system.record.saddle.dense):
         _leave_out_repeated(system, motion, assembly.y, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
-    if integrator.circuit_tangent:
+    if integrator.needs == "circuits":
         prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, residual or _wanted(prepared, methods), path)
@@ -238,11 +238,11 @@ def _wanted(motion: MotionEquations, methods: Methods) -> ResidualOptions:
     return ResidualOptions(
         whole=integrator.over_step(machine.is_flexible),
         corners=corners(machine),
-        shifted=integrator.complex_shift,
+        shifted=integrator.needs == "complex shifts",
         balance=methods.solves_residual,
-        along=integrator.directional_tangent,
-        free=not touches_ground(machine, motion.system) if integrator.step_residual else None,
+        along=integrator.needs == "directions",
+        free=not touches_ground(machine, motion.system) if integrator.needs == "whole steps" else None,
         filtered=integrator.optional_control and methods.chooses_steps,
-        accelerations=integrator.accelerations,
+        accelerations=integrator.needs == "accelerations",
         compliance=saddle.shift if methods.penalised else None,
     )

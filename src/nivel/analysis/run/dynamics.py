@@ -169,7 +169,7 @@ def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     run = start_history(prepared, settings, facts)
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
-    step = getattr(import_module(facts.module), facts.function)
+    step = facts.step
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
 
 
@@ -252,7 +252,7 @@ def failure_of(
         return f"stopped at t = {time:.6g} s: {jam.message}", jam.advice, time
     if status == CRAWLS:
         return *crawling(time, float(run.clock[STEP]), prepared.jumping), time
-    explicit = settings.steps > 0 and not (facts.implicit or facts.residual)
+    explicit = settings.steps > 0 and facts.kind == "explicit"
     message, advice = failure(
         prepared.motion,
         status,

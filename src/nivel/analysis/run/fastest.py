@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
 from nivel.results.trust.findings import Fast
@@ -27,8 +28,6 @@ Vectors = NDArray[np.complex128]
 MOST_ENTRIES, SHARE, TINY = 300, 1e-6, 1e-12
 # Shares of the increments that work is found with.
 PART = 1e-2
-# Largest |rate| times step that a method holds, on the negative real axis; 1 for those that are not here
-HOLDS = {"euler": 2.0, "heun": 2.0, "rk4": 2.7, "ab1": 2.0, "ab2": 1.0, "ab3": 0.5, "ab4": 0.3, "ab5": 0.16}
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ def too_long(prepared: Prepared, settings: RunSettings, last: tuple[float, Array
     """The fastest rate at the start or in the `last` state (time [s], y) of a run, of which an explicit step of fixed size is too large a
     share; None for other methods, and where it is not."""
     facts = prepared.integrator
-    if settings.steps == 0 or facts.implicit or facts.residual:
+    if settings.steps == 0 or facts.kind != "explicit":
         return None
     states = [(0.0, prepared.start), *([last] if last is not None else [])]
     found = [each for each in (fastest(prepared.motion, t, y) for t, y in states) if each is not None]
@@ -56,7 +55,7 @@ def too_long(prepared: Prepared, settings: RunSettings, last: tuple[float, Array
 
 def held_step(integrator: str, rate: float) -> float:
     """The longest step [s] with which an explicit method holds this rate [1/s]."""
-    return HOLDS.get(integrator, 1.0) / rate if rate > 0.0 else np.inf
+    return INTEGRATORS[integrator].held / rate if rate > 0.0 else np.inf
 
 
 def fastest_beyond(prepared: Prepared, integrator: str, step: float, time: float, last: Array) -> Fastest | None:

@@ -52,7 +52,7 @@ def find(
     settings, fixed = plan.settings, plan.settings.steps > 0
     turned, bending = finished.pace[TURNED], modal_bodies(plan)
     bases = modal_bases(plan, prepared)
-    implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
+    implicit = prepared.integrator.needs != "evaluations"
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
         between=tuple(between_samples(plan.machine, float(result.time[-1]))),

@@ -9,7 +9,7 @@ from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.lockup import can_be_asked
-from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import (
     ALL_STEPS,
     ALLOWED,
@@ -59,8 +59,6 @@ LONG = 1e4
 TORN = 0.1
 # Scale of what nothing depends on.
 UNSEEN = 1e30
-# The integrator whose matrix has the secants of restrictions in place of their tangents.
-SECANT = "extrapolated-euler"
 
 
 def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -146,7 +144,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     """Everything that the record remembers of runs before, and what it has to know of this one."""
     record = prepared.motion.system.record
     record.control.iterations[1:] = 0, MOST_UNSETTLED
-    forget(record.partition, formulas=facts.accelerations)
+    forget(record.partition, formulas=facts.needs == "accelerations")
     record.newton.kept[:] = 0.0
     record.newton.balanced[0] = 0.0
     record.residual.vdot[:] = 0.0
@@ -161,7 +159,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record.watched.held[:] = 0.0
     record.sampled.came[:] = 0
     record.circuit.guard[:] = 0.0
-    record.circuit.secant[:] = settings.integrator == SECANT
+    record.circuit.secant[:] = facts.guarded
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0

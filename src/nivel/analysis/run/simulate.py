@@ -20,11 +20,9 @@ from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.fastest import too_long
 from nivel.analysis.run.findings import find
 from nivel.analysis.run.held_friction import resting_frictions
-from nivel.analysis.run.history import SECANT
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.errors import SolveError
-from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import MOVING
 from nivel.integrate.loop.sink import Header
 from nivel.machine.machine_record import MachineRecord
@@ -202,8 +200,7 @@ def _judged(result: Result, facts: Facts, plan: Plan, prepared: Prepared, finish
 
 def guards_circuits(prepared: Prepared) -> bool:
     """Whether the steps of a run guard the pressures of circuits."""
-    guards = prepared.integrator.circuit_tangent or prepared.integrator is INTEGRATORS[SECANT]
-    return bool(guards and prepared.motion.system.nodes)
+    return bool(prepared.integrator.guarded and prepared.motion.system.nodes)
 
 
 def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:

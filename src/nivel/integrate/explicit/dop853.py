@@ -9,6 +9,7 @@ import numpy as np
 
 from nivel.integrate.explicit.dop853_coefficients import ALL_STAGES, E3, E5, STAGES, A, C, D
 from nivel.integrate.explicit.embedded import add_stages, evaluate_stages, fill_cubic, sum_stages, take_step
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.dense import wanted
 from nivel.integrate.loop.run import DENSE, POWERS, STEP_SIGNATURE, run_at
 from nivel.integrate.loop.step_control import size
@@ -60,3 +61,6 @@ def dop853(evaluate, machine, history):
     if h > 0.0 and wanted(run):
         status = _fill_dense(evaluate, machine, history, h)
     return status
+
+
+FACTS = (IntegratorFacts("dop853", dop853, order=8, stages=ALL_STAGES, numbers=2),)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.explicit.embedded import evaluate_stages, fill_cubic, sum_stages, take_step
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.dense import wanted
 from nivel.integrate.loop.run import DENSE, POWERS, STEP_SIGNATURE, run_at
 from nivel.integrate.loop.step_control import size
@@ -73,3 +74,6 @@ def dopri5(evaluate, machine, history):
     if h > 0.0 and wanted(run):
         _fill_dense(run, h)
     return status
+
+
+FACTS = (IntegratorFacts("dopri5", dopri5, order=5, stages=STAGES, numbers=2),)

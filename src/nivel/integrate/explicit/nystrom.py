@@ -14,6 +14,7 @@ X a second integral of it, (q, X) is one system ÿ = f(t, y, ẏ), and the order
 
 from __future__ import annotations
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.core.status import OK
@@ -85,3 +86,6 @@ def rkn4(evaluate, machine, history):
         first[i] = curvature_mean
     place(history, y, h, first, last)
     return OK
+
+
+FACTS = (IntegratorFacts("rkn4", rkn4, order=4, stages=VELOCITY + 1),)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, ORDER, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
@@ -58,3 +59,10 @@ def step(evaluate, machine, history):
     for i in range(run.y.shape[0]):
         run.stages[0, i] = run.rate[i]
     return explicit(evaluate, machine, history, run.counter[ORDER], run.clock[TIME], run.clock[STEP], 0)
+
+
+FACTS = (
+    IntegratorFacts("euler", step, order=1, stages=HIGHEST, held=2.0),
+    IntegratorFacts("heun", step, order=2, stages=HIGHEST, held=2.0),
+    IntegratorFacts("rk4", step, order=4, stages=HIGHEST, held=2.7),
+)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, ITERATIONS, ORDER, REACHED, STEP, STEP_SIGNATURE, run_at
-from nivel.integrate.loop.workspace import KNOWN, RATE
+from nivel.integrate.loop.workspace import KNOWN, NUMBERS, RATE, ROWS
 from nivel.integrate.multistep.adams_weights import BASHFORTH, MOULTON, add_rates, predict_moulton, rates_before
 from nivel.integrate.multistep.multistep import begin, remember
 from nivel.kernels.core.status import OK
@@ -40,3 +41,14 @@ def predict_correct(evaluate, machine, history):
     for i in range(known.shape[0]):
         run.y[i] = known[i] + share * rate[i]
     return OK
+
+
+# by order: the largest |rate| times step that Bashforth's methods hold
+HELD = {1: 2.0, 2: 1.0, 3: 0.5, 4: 0.3, 5: 0.16}
+FACTS = (
+    *(
+        IntegratorFacts(f"ab{order}", bashforth, order, ROWS, NUMBERS, multistep=True, held=held)
+        for order, held in HELD.items()
+    ),
+    *(IntegratorFacts(f"abm{order}", predict_correct, order, ROWS, NUMBERS, multistep=True) for order in HELD),
+)

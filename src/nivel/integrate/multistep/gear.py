@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import NEWTON, ORDER, REACHED, STEP, STEP_SIGNATURE, run_at
-from nivel.integrate.loop.workspace import KNOWN, STATES
+from nivel.integrate.loop.workspace import KNOWN, NUMBERS, ROWS, STATES
 from nivel.integrate.multistep.adams_weights import predict, rates_before
 from nivel.integrate.multistep.corrector import solve
 from nivel.integrate.multistep.diagonal import begin_implicit
@@ -58,3 +59,9 @@ def gear(evaluate, machine, history):
     else:
         predict(history, order)
     return solve(evaluate, machine, history, run.clock[REACHED], run.clock[STEP] * RATE_WEIGHT[order])
+
+
+FACTS = tuple(
+    IntegratorFacts(f"gear{order}", gear, order, ROWS, NUMBERS, kind="corrector", multistep=True)
+    for order in range(1, len(BACKWARD))
+)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.corners import before, is_near, next_corner, pass_corner
 from nivel.integrate.loop.dense import cubic, wanted
 from nivel.integrate.loop.run import (
@@ -208,3 +209,9 @@ def alpha(evaluate, machine, history):
     if run.counter[ALL_STEPS] > 0:
         return fixed_step(evaluate, machine, history)
     return controlled_step(evaluate, machine, history)
+
+
+FACTS = tuple(
+    IntegratorFacts(name, alpha, order=2, stages=12, numbers=14, kind="corrector", needs="accelerations", ends="jumps")
+    for name in ("newmark", "hht", "generalised-alpha")
+)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, REACHED, STEP, STEP_SIGNATURE, run_at
 from nivel.integrate.newmark.newton_state import set_state
 from nivel.integrate.newmark.residual_newton import TOLERANCE as NEWTON_TOLERANCE
@@ -70,3 +71,15 @@ def energy_momentum(evaluate, machine, history):
     for i in range(2):
         run.y[last + i] += h * record.control.power[i]
     return OK
+
+
+FACTS = (
+    IntegratorFacts(
+        "energy-momentum",
+        energy_momentum,
+        order=2,
+        kind="corrector",
+        needs="whole steps",
+        over_steps=("nivel.motion.energy_momentum_residual", "nivel.motion.floating_energy_momentum_residual"),
+    ),
+)

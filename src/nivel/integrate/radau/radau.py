@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.corners import before, next_corner, pass_corner
 from nivel.integrate.loop.dense import wanted
 from nivel.integrate.loop.run import (
@@ -241,3 +242,10 @@ def radau(evaluate, machine, history):
         run.clock[STEP], run.counter[RESTART] = max(run.clock[STEP], wish), 1
         return pass_corner(machine, history, run.clock[REACHED])[0]
     return OK
+
+
+FACTS = (
+    IntegratorFacts(
+        "radau", radau, order=5, stages=14, numbers=11, kind="implicit", needs="complex shifts", ends="corners"
+    ),
+)

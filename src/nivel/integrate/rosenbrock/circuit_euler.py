@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.integrate.rosenbrock.extrapolated_euler import (
     EXTRAPOLATED,
@@ -197,3 +198,17 @@ def attempt_rigid(evaluate, machine, history):
 def circuit_euler(evaluate, machine, history):
     """One step."""
     return step_in_parts(evaluate, machine, history, attempt_rigid, BEGIN)
+
+
+FACTS = (
+    IntegratorFacts(
+        "extrapolated-euler",
+        circuit_euler,
+        order=2,
+        stages=BEGIN + 1,
+        kind="implicit",
+        needs="circuits",
+        machines="circuits",
+        guarded=True,
+    ),
+)

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
@@ -168,3 +169,17 @@ def attempt(evaluate, machine, history):
 def extrapolated_euler(evaluate, machine, history):
     """One step."""
     return step_in_parts(evaluate, machine, history, attempt, BEGIN)
+
+
+FACTS = (
+    IntegratorFacts(
+        "extrapolated-euler",
+        extrapolated_euler,
+        order=2,
+        stages=4,
+        kind="implicit",
+        needs="complex shifts",
+        ends="corners",
+        guarded=True,
+    ),
+)

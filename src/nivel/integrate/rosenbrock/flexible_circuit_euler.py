@@ -6,6 +6,7 @@ part begins.
 
 from __future__ import annotations
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import STEP_SIGNATURE
 from nivel.integrate.rosenbrock.circuit_euler import BEGIN, attempt_over_circuits
 from nivel.integrate.rosenbrock.parts import step_in_parts
@@ -49,3 +50,17 @@ def attempt_flexible(evaluate, machine, history):
 def flexible_circuit_euler(evaluate, machine, history):
     """One step."""
     return step_in_parts(evaluate, machine, history, attempt_flexible, BEGIN)
+
+
+FACTS = (
+    IntegratorFacts(
+        "extrapolated-euler",
+        flexible_circuit_euler,
+        order=2,
+        stages=BEGIN + 1,
+        kind="implicit",
+        needs="circuits",
+        machines="flexible circuits",
+        guarded=True,
+    ),
+)

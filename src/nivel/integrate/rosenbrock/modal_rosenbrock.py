@@ -9,8 +9,9 @@ costs no order, and saves keeping the factors while the second stage is evaluate
 
 from __future__ import annotations
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, run_at
-from nivel.integrate.rosenbrock.rosenbrock import FIRST, GAMMA, SECOND
+from nivel.integrate.rosenbrock.rosenbrock import FIRST, GAMMA, ROWS, SECOND
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
@@ -46,3 +47,7 @@ def ros2(evaluate, machine, history):
     for i in range(y.shape[0]):
         y[i] += 0.5 * h * (3.0 * first[i] + second[i])
     return status
+
+
+# all but the modes is advanced explicitly
+FACTS = (IntegratorFacts("ros2", ros2, order=2, stages=ROWS, machines="modes"),)

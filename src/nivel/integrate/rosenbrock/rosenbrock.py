@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
@@ -52,3 +53,6 @@ def ros2(evaluate, machine, history):
     for i in range(y.shape[0]):
         y[i] += 0.5 * h * (3.0 * first[i] + second[i])
     return status
+
+
+FACTS = (IntegratorFacts("ros2", ros2, order=2, stages=ROWS, kind="implicit", needs="directions"),)

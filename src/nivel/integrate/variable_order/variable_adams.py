@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import STEP_SIGNATURE, run_at
 from nivel.integrate.loop.step_control import allowed
 from nivel.integrate.variable_order.difference_matrix import find_matrix, solve_matrix
 from nivel.integrate.variable_order.multistep_polynomials import ADAMS
 from nivel.integrate.variable_order.variable_corrector import corrector
 from nivel.integrate.variable_order.variable_order import multistep
+from nivel.integrate.variable_order.variable_workspace import NUMBERS, ROWS
 from nivel.native.entry import entry
 
 MOST_ORDER = 11
@@ -20,3 +22,6 @@ variable_step = multistep(ADAMS, MOST_ORDER, *corrector(find_matrix, solve_matri
 def adams(evaluate, machine, history):
     """One accepted step."""
     return variable_step(evaluate, machine, history, allowed(run_at(history), SHARE))
+
+
+FACTS = (IntegratorFacts("adams", adams, 12, ROWS, NUMBERS, kind="corrector", multistep=True),)

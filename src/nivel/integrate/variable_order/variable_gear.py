@@ -6,12 +6,14 @@ for all the steps so far, a share of TOTAL. After many periods the errors have t
 
 from __future__ import annotations
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import DONE_STEPS, STEP_SIGNATURE, run_at
 from nivel.integrate.loop.step_control import allowed
 from nivel.integrate.variable_order.difference_matrix import find_matrix, solve_matrix
 from nivel.integrate.variable_order.multistep_polynomials import BDF
 from nivel.integrate.variable_order.variable_corrector import corrector
 from nivel.integrate.variable_order.variable_order import multistep
+from nivel.integrate.variable_order.variable_workspace import NUMBERS, ROWS
 from nivel.native.entry import entry
 from nivel.native.function import leaf
 
@@ -32,3 +34,6 @@ def of_step(history):
 def gear(evaluate, machine, history):
     """One accepted step."""
     return variable_step(evaluate, machine, history, of_step(history))
+
+
+FACTS = (IntegratorFacts("gear", gear, MOST_ORDER, ROWS, NUMBERS, kind="corrector", multistep=True),)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -18,10 +19,12 @@ import nivel
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.machine import MachineRecord
 from nivel.machine.forces import FORCES as WORDS
-from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.hydraulics import COMPONENT_OF, Volume
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_WORDS
 from nivel.system.forces import FORCES
-from nivel.system.hydraulics.components import COMPONENTS
+from nivel.system.hydraulics.components import COMPONENTS, register_component
+from nivel.system.hydraulics.kind import ComponentKind
+from nivel.system.hydraulics.nodes import volume_nodes
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
@@ -55,15 +58,19 @@ def cart(folder):
     MachineRecord.model_rebuild(force=True)
 
 
+def withdraw_component(word):
+    COMPONENT_WORDS.remove(COMPONENTS.pop(word).words)
+    del COMPONENT_OF[word]
+    MachineRecord.model_rebuild(force=True)
+
+
 @pytest.fixture(scope="module")
 def vessel(folder):
     """The same with the component of the page."""
     importlib.import_module("capillary")
     yield nivel.load(folder / "vessel.yaml")
     del sys.modules["capillary"]
-    COMPONENT_WORDS.remove(COMPONENTS.pop("capillary").words)
-    del COMPONENT_OF["capillary"]
-    MachineRecord.model_rebuild(force=True)
+    withdraw_component("capillary")
 
 
 def solution(times):
@@ -159,6 +166,30 @@ def test_the_faults_of_a_component_outside_the_package_are_told(folder):
     assert "wrong.yaml:11" in told
     assert "`C`" in told
     assert "diameter" in told
+
+
+class Hose(Volume):
+    """A volume by another word."""
+
+    type: Literal["hose"] = "hose"  # type: ignore[assignment]
+
+
+def test_a_component_outside_the_package_may_be_a_node(vessel, folder):
+    register_component(ComponentKind(Hose, None, (), slopes={}, nodes=volume_nodes))
+    try:
+        (folder / "hose.yaml").write_text(FILES["vessel.yaml"].replace("type: volume", "type: hose"), encoding="utf-8")
+        hose = nivel.load(folder / "hose.yaml")
+        ours, theirs = (each.simulate(integrator="rk4")["hydraulics.vessel.pressure"] for each in (hose, vessel))
+        np.testing.assert_array_equal(ours, theirs)
+        drawn = (circuit_diagram(each.record.model_dump(mode="json"), {}) for each in (hose, vessel))
+        assert len({*drawn}) == 1
+    finally:
+        withdraw_component("hose")
+
+
+def test_nodes_that_words_name_are_made():
+    with pytest.raises(ValueError, match="nodes of 'hose'"):
+        ComponentKind(Hose, None, ())
 
 
 def test_a_component_states_the_phase_of_its_kernels(vessel):

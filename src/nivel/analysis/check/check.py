@@ -375,7 +375,7 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
     return (
         *(component_in_words(component) for component in machine.hydraulics),
         f"start: {', '.join(pressures)}",
-        f"{count} states of components",
+        f"{count} state{'s' * (count != 1)} of components",
         *_without_slopes(machine),
     )
 

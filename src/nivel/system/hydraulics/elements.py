@@ -61,7 +61,7 @@ def add_circuits(builder: SystemBuilder) -> None:
     """Fluids, nodes and pressures of all circuits of a machine, and its pistons."""
     if builder.machine.hydraulics:
         add_fluids(builder)
-        add_nodes(builder)
+        add_nodes(builder, {word: kind.nodes for word, kind in COMPONENTS.items() if kind.nodes is not None})
         _add_pressures(builder)
 
 

@@ -10,6 +10,7 @@ from nivel.kernels.hydraulics.phase import PHASES
 from nivel.kernels.record.hook import Family
 from nivel.machine.hydraulics import Component
 from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics.nodes import NodeMaker
 from nivel.system.hydraulics.symbols import Symbol
 
 
@@ -21,9 +22,9 @@ class ComponentKind:
     families : kernels that it may need, each with a phase (`nivel.kernels.hydraulics.phase`). symbol(data) : what is drawn of it, from its
     record as JSON; None: a box with its type. slopes : its families with derivatives by hand, and their numbers in
     `nivel.kernels.hydraulics.tangent`; None where some of its families have none, so that special integrators of circuits do not take
-    machines with it.
+    machines with it. nodes(builder, record, swept) : its nodes, those that its words name.
 
-    Raises ValueError where a family states no phase.
+    Raises ValueError where a family states no phase, and where words name nodes that nothing makes.
     """
 
     words: type[Component]
@@ -31,8 +32,11 @@ class ComponentKind:
     families: tuple[Family, ...]
     symbol: Callable[[Mapping[str, Any]], Symbol] | None = None
     slopes: Mapping[Family, int] | None = None
+    nodes: NodeMaker | None = None
 
     def __post_init__(self) -> None:
+        if bool(self.words.nodes) != (self.nodes is not None):
+            raise ValueError(f"the nodes of '{self.type}' need `nodes` of both its record and its kind")
         for family in self.families:
             if family not in PHASES:
                 name = family.py_func.__name__

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.hydraulics import volume
@@ -36,6 +37,8 @@ from nivel.system.signals.state_facts import Coupled, StateFact
 # pressure that the tolerance is a share of [Pa], and that masses start from until the circuit is at rest
 TYPICAL = 1e7
 TYPICAL_OF_GAS = 5e5
+Swept = dict[str, float]  # what pistons leave open in each node at half their strokes [m³]
+NodeMaker = Callable[[SystemBuilder, Any, Swept], Iterator[Node]]
 RIGID = (0.0, 0.0, 0.0, 1.0, 1.0)  # of `Circuit.room`: no volume, no wall, no gas
 
 
@@ -57,13 +60,13 @@ def fluid_constants(fluid: Fluid | Gas) -> tuple[float, ...]:
     return (*of_liquid, *[0.0] * (FLUID - len(of_liquid)))
 
 
-def add_nodes(builder: SystemBuilder) -> None:
-    """All nodes, and chambers of actuators with their pistons."""
+def add_nodes(builder: SystemBuilder, makers: Mapping[str, NodeMaker]) -> None:
+    """All nodes, and chambers of actuators with their pistons. makers : of the nodes of components, by type."""
     components = builder.machine.hydraulics
     swept = _swept_by_node(components)
     for component in components:
         with located(f"hydraulics.{component.name}"):
-            for node in _own_nodes(builder, component, swept):
+            for node in makers[component.type](builder, component, swept) if component.type in makers else ():
                 builder.circuit.nodes[node.name] = node
     for component in components:
         if isinstance(component, Actuator):
@@ -94,42 +97,48 @@ def _know_pressures(builder: SystemBuilder, component: Component) -> None:
                 circuit.depends.setdefault(node.name, Coupled(frozenset(), node.states))
 
 
-def _own_nodes(builder: SystemBuilder, component: Component, swept: dict[str, float]) -> Iterator[Node]:
-    """The nodes that a component brings."""
-    match component:
-        case Volume():
-            room = (component.volume, _compliance(component.volume, component.wall_modulus), 0.0, 1.0, 1.0)
-            yield _volume(builder, component, component.name, "", room, component.start, swept)
-        case Accumulator():
-            dead = component.dead_volume or DEAD_SHARE * component.volume
-            room = (dead, 0.0, component.volume, component.precharge, component.gas_exponent)
-            yield _volume(builder, component, component.name, "", room, component.start, swept)
-        case Tank():
-            fluid, name = _fluid(builder, component), component.name
-            gas = _gas(builder, fluid) is not None
-            output = _pressure_output(builder, name, "pressure", gas)
-            yield Node(name, volume.GIVEN, fluid, NONE, RIGID, 0.0, None, name, output, gas)
-        case LoadSensing():
-            output = _pressure_output(builder, component.name, "pressure")
-            fact = StateFact(
-                f"{component.name}.pressure", "Pa", f"load signal of {component.name}", ATMOSPHERE, TYPICAL
-            )
-            state = builder.own_state(fact)
-            yield Node(component.name, volume.SIGNAL, 0, state, RIGID, 0.0, None, component.name, output)
-        case Actuator():
-            for chamber, dead in _dead_volumes(component).items():
-                if chamber in component.ports:
-                    continue
-                start = getattr(component, f"start_{chamber}")
-                cushion = getattr(component, f"cushion_{chamber}", None)
-                room = (dead, _compliance(dead, component.wall_modulus), 0.0, 1.0, 1.0)
-                inner = chamber_node(component, chamber)
-                yield _volume(builder, component, inner, f"_{chamber}", room, start, swept)
-                if cushion is not None:
-                    room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
-                    yield _volume(
-                        builder, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept
-                    )
+def volume_nodes(builder: SystemBuilder, component: Volume, swept: Swept) -> Iterator[Node]:
+    """The node that a volume is."""
+    room = (component.volume, _compliance(component.volume, component.wall_modulus), 0.0, 1.0, 1.0)
+    yield _volume(builder, component, component.name, "", room, component.start, swept)
+
+
+def accumulator_nodes(builder: SystemBuilder, component: Accumulator, swept: Swept) -> Iterator[Node]:
+    """The node behind the inlet of an accumulator."""
+    dead = component.dead_volume or DEAD_SHARE * component.volume
+    room = (dead, 0.0, component.volume, component.precharge, component.gas_exponent)
+    yield _volume(builder, component, component.name, "", room, component.start, swept)
+
+
+def tank_nodes(builder: SystemBuilder, component: Tank, _: Swept) -> Iterator[Node]:
+    """A node of given pressure."""
+    fluid, name = _fluid(builder, component), component.name
+    gas = _gas(builder, fluid) is not None
+    output = _pressure_output(builder, name, "pressure", gas)
+    yield Node(name, volume.GIVEN, fluid, NONE, RIGID, 0.0, None, name, output, gas)
+
+
+def signal_nodes(builder: SystemBuilder, component: LoadSensing, _: Swept) -> Iterator[Node]:
+    """A node whose pressure is a signal."""
+    name = component.name
+    output = _pressure_output(builder, name, "pressure")
+    state = builder.own_state(StateFact(f"{name}.pressure", "Pa", f"load signal of {name}", ATMOSPHERE, TYPICAL))
+    yield Node(name, volume.SIGNAL, 0, state, RIGID, 0.0, None, name, output)
+
+
+def chamber_nodes(builder: SystemBuilder, component: Actuator, swept: Swept) -> Iterator[Node]:
+    """The chambers of an actuator that are no parts of other volumes, and what is between a cushion and its port."""
+    for chamber, dead in _dead_volumes(component).items():
+        if chamber in component.ports:
+            continue
+        start = getattr(component, f"start_{chamber}")
+        cushion = getattr(component, f"cushion_{chamber}", None)
+        room = (dead, _compliance(dead, component.wall_modulus), 0.0, 1.0, 1.0)
+        inner = chamber_node(component, chamber)
+        yield _volume(builder, component, inner, f"_{chamber}", room, start, swept)
+        if cushion is not None:
+            room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
+            yield _volume(builder, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept)
 
 
 def chamber_node(component: Actuator, chamber: str) -> str:
@@ -146,7 +155,7 @@ def _volume(
     ending: str,
     room: tuple[float, ...],
     start: float | None,
-    swept: dict[str, float],
+    swept: Swept,
 ) -> Node:
     """A node with mass, at first at TYPICAL pressure."""
     fluid = _fluid(builder, component)
@@ -240,9 +249,9 @@ def _dead_volumes(component: Actuator) -> dict[str, float]:
     return {chamber: given[chamber] or DEAD_SHARE * areas[chamber][0] * stroke for chamber in areas}
 
 
-def _swept_by_node(components: tuple[Component, ...]) -> dict[str, float]:
+def _swept_by_node(components: tuple[Component, ...]) -> Swept:
     """What pistons leave open in each node at half their strokes [m³], with dead volumes of chambers that are parts of other volumes."""
-    out: dict[str, float] = {}
+    out: Swept = {}
     for component in components:
         if not isinstance(component, Actuator):
             continue

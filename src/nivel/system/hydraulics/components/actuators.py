@@ -8,7 +8,7 @@ from nivel.machine.hydraulics import HydraulicCylinder, RotaryActuator, Telescop
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
-from nivel.system.hydraulics.nodes import chamber_node
+from nivel.system.hydraulics.nodes import chamber_node, chamber_nodes
 from nivel.system.hydraulics.restrictions import add_flow, add_poppet, rated
 
 OF_PISTONS = {piston.displace: DISPLACE, piston.guide: GUIDE, piston.press: PRESS}
@@ -37,7 +37,9 @@ def add_cushions(builder: SystemBuilder, component: HydraulicCylinder) -> None:
 
 
 KINDS = (
-    ComponentKind(HydraulicCylinder, add_cushions, tuple(WITH_CUSHIONS), symbols.cylinder, WITH_CUSHIONS),
-    ComponentKind(TelescopicCylinder, None, tuple(OF_PISTONS), symbols.telescope, OF_PISTONS),
-    ComponentKind(RotaryActuator, None, tuple(OF_PISTONS), symbols.rotary, OF_PISTONS),
+    ComponentKind(
+        HydraulicCylinder, add_cushions, tuple(WITH_CUSHIONS), symbols.cylinder, WITH_CUSHIONS, chamber_nodes
+    ),
+    ComponentKind(TelescopicCylinder, None, tuple(OF_PISTONS), symbols.telescope, OF_PISTONS, chamber_nodes),
+    ComponentKind(RotaryActuator, None, tuple(OF_PISTONS), symbols.rotary, OF_PISTONS, chamber_nodes),
 )

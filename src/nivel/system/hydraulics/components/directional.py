@@ -12,6 +12,7 @@ from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
+from nivel.system.hydraulics.nodes import signal_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
 from nivel.system.signals.state_facts import StateFact
 
@@ -94,5 +95,5 @@ OF_SPOOLS = {spool.move: MOVE, restriction.apply: RESTRICT}
 OF_SIGNALS = {load_signal.apply: SIGNAL}
 KINDS = (
     ComponentKind(DirectionalValve, add_directional, tuple(OF_SPOOLS), symbols.directional, OF_SPOOLS),
-    ComponentKind(LoadSensing, add_load_signal, tuple(OF_SIGNALS), symbols.shuttle, OF_SIGNALS),
+    ComponentKind(LoadSensing, add_load_signal, tuple(OF_SIGNALS), symbols.shuttle, OF_SIGNALS, signal_nodes),
 )

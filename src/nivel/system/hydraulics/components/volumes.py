@@ -1,4 +1,4 @@
-"""Volumes, tanks and accumulators in numbers; their nodes are those of `nivel.system.hydraulics.nodes`."""
+"""Volumes, tanks and accumulators in numbers."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from nivel.machine.hydraulics import Accumulator, Tank, Volume
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
+from nivel.system.hydraulics.nodes import accumulator_nodes, tank_nodes, volume_nodes
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow
 
 
@@ -20,7 +21,14 @@ def add_inlet(builder: SystemBuilder, component: Accumulator) -> None:
 
 
 KINDS = (
-    ComponentKind(Volume, None, (), slopes={}),
-    ComponentKind(Tank, None, (), symbols.source, {}),
-    ComponentKind(Accumulator, add_inlet, (restriction.apply,), symbols.accumulator, {restriction.apply: RESTRICT}),
+    ComponentKind(Volume, None, (), slopes={}, nodes=volume_nodes),
+    ComponentKind(Tank, None, (), symbols.source, {}, tank_nodes),
+    ComponentKind(
+        Accumulator,
+        add_inlet,
+        (restriction.apply,),
+        symbols.accumulator,
+        {restriction.apply: RESTRICT},
+        accumulator_nodes,
+    ),
 )

@@ -331,3 +331,11 @@ def test_angles_that_are_held_are_said_in_radians():
     trust = assess(run(attributes=rows, constraint_violation=spike(5, 3, 10, 2e-6)), Facts("done"))
     assert trust.constraint_violation_units == "rad"
     assert "open by at most 2e-6 rad, row hinge.d1.xz" in item(trust, "violation").text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1.02e-4, "1.020e-4"), (0.00996, "0.00996"), (0.0100004, "1.000e-2"), (1e-4, "1e-4"), (3.21e-5, "3.2e-5")],
+)
+def test_an_amber_number_does_not_look_like_the_threshold_that_it_passes(value, text):
+    assert THRESHOLDS["energy"].shown(value) == text

@@ -137,6 +137,8 @@ def command(
             say(line)
         if target is not None:
             say(f"recording: {journal_of(target)}, which becomes {target} when the run ends")
+        if listen:
+            say(f"datagrams: received at {':'.join(map(str, outside.address))}")
         session.command("run")
         try:
             serve(source, host=host, port=port, browser=not no_browser, say=say, stop=stop)

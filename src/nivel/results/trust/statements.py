@@ -66,7 +66,7 @@ def _energy_item(trust: Trust, unresolved: Unresolved | None) -> Item:
     if not math.isfinite(error):
         said = f"the energy is not a number from t = {trust.energy_error_time:.6g} s on"
     elif scale > 0.0:
-        said = f"error {number(fraction)} of the {trust.energy_scale_kind} {quantity(scale, 'J')}"
+        said = f"error {THRESHOLDS['energy'].shown(fraction)} of the {trust.energy_scale_kind} {quantity(scale, 'J')}"
     elif not trust.energy_scale_kind:
         said = "nothing was computed"
     else:

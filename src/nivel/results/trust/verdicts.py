@@ -24,6 +24,14 @@ class Threshold:
             return "green"
         return "amber" if number < self.amber else "red"
 
+    def shown(self, value: float) -> str:
+        """A number in a sentence; with four digits where two would look like a threshold."""
+        text = number(value)
+        if float(text) not in (self.green, self.amber) or value in (self.green, self.amber):
+            return text
+        mantissa, exponent = f"{value:.3e}".split("e")
+        return f"{mantissa}e{int(exponent)}"
+
     def __str__(self) -> str:
         beyond = f"amber below {self.amber:.0e}" if math.isfinite(self.amber) else "amber otherwise"
         return f"green below {self.green:.0e}, {beyond}".replace("e-0", "e-")

@@ -1,5 +1,6 @@
 """What the words know and what the numbers know are the same lists."""
 
+import pickle
 import subprocess
 import sys
 from collections import Counter
@@ -99,3 +100,9 @@ def test_every_slope_by_hand_has_one_number():
 @pytest.mark.parametrize("page", MAKERS)
 def test_every_page_of_a_result_has_a_maker(page):
     assert callable(page_maker(page))
+
+
+@pytest.mark.parametrize("facts", all_facts(), ids=lambda facts: f"{facts.name}-{facts.machines}")
+def test_facts_of_an_integrator_travel_to_another_process(facts):
+    """The solver of a live run is one: it gets the plan, with these facts."""
+    assert pickle.loads(pickle.dumps(facts)) is facts

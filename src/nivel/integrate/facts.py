@@ -5,7 +5,9 @@ Machine code does not depend on this module (`nivel.native.sources`).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Literal
 
 from nivel.methods import CHOSEN, EITHER
@@ -61,6 +63,10 @@ class IntegratorFacts:
     guarded: bool = False
     over_steps: tuple[str, str] = ("", "")
 
+    def __reduce__(self) -> tuple[Callable[[str, str, Machines], IntegratorFacts], tuple[str, str, Machines]]:
+        """Another process finds them beside the step: a compiled function does not travel."""
+        return _beside_the_step, (self.module, self.name, self.machines)
+
     @property
     def module(self) -> str:
         """The module of its step."""
@@ -94,3 +100,8 @@ class IntegratorFacts:
     def over_step(self, flexible: bool) -> str:
         """Module of its residual over a whole step for machines with or without flexible bodies; empty: none."""
         return self.over_steps[flexible]
+
+
+def _beside_the_step(module: str, name: str, machines: Machines) -> IntegratorFacts:
+    found: tuple[IntegratorFacts, ...] = import_module(module).FACTS
+    return next(facts for facts in found if (facts.name, facts.machines) == (name, machines))

@@ -43,9 +43,10 @@ from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN
 from nivel.machine.settings import Baumgarte
 from nivel.machine.signals.input import Gamepad, Input, Keys
 from nivel.machine.signals.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
-from nivel.machine.units.arithmetic import CONSTANTS, FUNCTIONS, ExpressionError, Number
 from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.quantity import read_quantity
+from nivel.machine.units.tree import CONSTANTS, LOOKUP, ExpressionError, Number
 from nivel.machine.units.unit import UNITS
 from nivel.system.joints.joints import JOINTS
 
@@ -274,6 +275,14 @@ def test_simulation_table_has_defaults_and_allowed_words(key):
 def test_all_units_functions_and_sequences_are_mentioned():
     assert not {*UNITS, *FUNCTIONS, *CONSTANTS} - words(section("Numbers"))
     assert not set(SEQUENCES) - words(section("Orientation"))
+
+
+def test_the_table_of_functions_is_that_of_the_package():
+    described = [row for row in rows(section("Functions")) if len(row) == 2][2:]
+    calls = [f"`{name}({', '.join([*kind.names, *['…'] * kind.more])})`" for name, kind in FUNCTIONS.items()]
+    meanings = [kind.meaning for kind in FUNCTIONS.values()]
+    assert described[: len(calls)] == [list(row) for row in zip(calls, meanings, strict=True)]
+    assert {*FUNCTIONS, LOOKUP} <= words(section("Numbers").partition("## ")[0])
 
 
 REFUSED = [row for row in rows(section("What is refused")) if row[0] in KINDS]

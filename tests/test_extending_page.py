@@ -250,7 +250,7 @@ def is_of_integrators(path):
 def package(tmp_path_factory):
     """A copy of the package with the edits of the page, but those of integrators."""
     edits = [each for each in EDIT.findall(PAGE) if not is_of_integrators(each[0])]
-    assert len(edits) == 9
+    assert len(edits) == 10
     return edited(tmp_path_factory.mktemp("package"), edits)
 
 
@@ -269,6 +269,31 @@ def run(folder, *command):
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+CALCULATE = """
+import numpy as np
+from nivel.machine.units.bounds import bounds_of
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.quantity import read_quantity
+from nivel.machine.units.tree import ExpressionError
+from nivel.kernels.record import program
+from nivel.system.laws.program import expression_program
+length = Expression("hypot3(time, 2*time, 2*time)")
+row = np.array([*expression_program(length, ["time"]), 3.0, 0.0, 0.0])
+low, high = bounds_of(length.tree, {"time": (np.array([1.0]), np.array([2.0]))})
+print(length(3.0), program.run.code(row), length.derivative(3.0), low[0], high[0], read_quantity("hypot3(3 m, 4 m, 0)", "length", {}))
+try:
+    read_quantity("hypot3(3 m, 4 kg, 0)", "length", {})
+except ExpressionError as error:
+    print(error)
+"""
+
+
+def test_the_function_of_the_page_is_there(package):
+    numbers, refused = run(package, "-c", CALCULATE).splitlines()
+    assert list(map(float, numbers.split())) == pytest.approx([9.0, 9.0, 3.0, 3.0, 6.0, 5.0], rel=1e-14)
+    assert refused == "a length (m) and a mass (kg) cannot be compared"
 
 
 @pytest.mark.full

@@ -7,24 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nivel.machine.units.arithmetic import (
-    FUNCTIONS,
-    ExpressionError,
-    Number,
-    Signal,
-    bind,
-    evaluate,
-    fold,
-    names,
-    render,
-    signals,
-    varies,
-)
+from nivel.machine.units.arithmetic import bind, evaluate, fold, render
+from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.grammar import parse
+from nivel.machine.units.tree import ExpressionError, Number, Signal, names, signals, varies
 
 PYTHON = {
     "__builtins__": {},
-    **{name: function for name, (function, _) in FUNCTIONS.items()},
+    **{name: kind.value for name, kind in FUNCTIONS.items()},
     "pi": math.pi,
     "e": math.e,
 }

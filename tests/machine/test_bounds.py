@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from nivel.machine.units.arithmetic import TIME, Lookup, Time
 from nivel.machine.units.bounds import bounds_of, values_of
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.interpolation import interpolated
+from nivel.machine.units.tree import TIME, Lookup, Time
 
 TEXTS = (
     *("sin(3*time) + cos(time)^2", "time^3 - 2*time", "1/(2 + time^2)", "abs(time)*exp(-time)", "min(time, 1) - max(time, -1, 0.5)"),

@@ -8,22 +8,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from nivel.machine import Expression
-from nivel.machine.units.arithmetic import (
-    Call,
-    ExpressionError,
-    Name,
-    Negative,
-    Number,
-    Operation,
-    Signal,
-    Time,
-    bind,
-    evaluate,
-    fold,
-    render,
-)
+from nivel.machine.units.arithmetic import bind, evaluate, fold, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.grammar import parse
+from nivel.machine.units.tree import Call, ExpressionError, Name, Negative, Number, Operation, Signal, Time
 
 SMOOTH = ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log"]
 COMPLEX = {"__builtins__": {}, **{name: getattr(cmath, name) for name in SMOOTH}}

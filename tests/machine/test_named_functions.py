@@ -7,9 +7,10 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine.forces import PointForce
-from nivel.machine.units.arithmetic import ExpressionError, render
+from nivel.machine.units.arithmetic import render
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.interpolation import differentiated, pieces
+from nivel.machine.units.tree import ExpressionError
 
 TIMES = np.linspace(-0.5, 4.0, 91)
 

@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nivel.machine.laws.time_function import read_time_function
-from nivel.machine.units.arithmetic import ExpressionError, Number
 from nivel.machine.units.dimension import BASES, KINDS, NONE, dimension, known, power, product
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.plain_factors import completed, unit_text
 from nivel.machine.units.quantity import LackingUnitError, read_quantity
+from nivel.machine.units.tree import ExpressionError, Number
 
 LENGTH, SPEED, TIME = dimension(m=1), dimension(m=1, s=-1), dimension(s=1)
 FORCE = KINDS["force"][2]

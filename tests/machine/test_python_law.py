@@ -12,7 +12,7 @@ from nivel.errors import ModelError
 from nivel.machine.core.record import Record
 from nivel.machine.forces import PointForce
 from nivel.machine.laws.time_function import ForceComponent, PythonLaw, SpringForce, TimeFunction, varying
-from nivel.machine.units.arithmetic import Number
+from nivel.machine.units.tree import Number
 
 AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
 

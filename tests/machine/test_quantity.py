@@ -7,9 +7,9 @@ import sys
 import numpy as np
 import pytest
 
-from nivel.machine.units.arithmetic import ExpressionError, Number
 from nivel.machine.units.dimension import KINDS, dimension, symbol
 from nivel.machine.units.quantity import read_quantity
+from nivel.machine.units.tree import ExpressionError, Number
 from nivel.machine.units.unit import UNITS, _ask_pint, unit
 
 

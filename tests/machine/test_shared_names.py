@@ -12,13 +12,14 @@ from nivel.files import parse_machine
 from nivel.machine.forces import PointForce, Torque
 from nivel.machine.laws.table import Table
 from nivel.machine.parameters import resolve
-from nivel.machine.units.arithmetic import ExpressionError, Number, bind, evaluate
+from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.dimension import dimension
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.shared_names import name_notes
+from nivel.machine.units.tree import ExpressionError, Number
 from nivel.machine.units.unit import UNITS
 
 NAMES = {

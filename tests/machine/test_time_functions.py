@@ -24,7 +24,7 @@ from nivel.machine.laws.time_function import (
     signals_of,
     varying,
 )
-from nivel.machine.units.arithmetic import ExpressionError, Number
+from nivel.machine.units.tree import ExpressionError, Number
 
 AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
 LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]

@@ -18,8 +18,8 @@ from nivel.machine import MachineRecord, Orientation, Record
 from nivel.machine.core.record import entry, unknown_word
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.parameters import resolve
-from nivel.machine.units.arithmetic import Parameters
 from nivel.machine.units.quantity import FAULT, Position, fault, shown
+from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.references import SECTIONS
 
 _PREFIX = re.compile(r"([^\W\d_][\w-]*)?")

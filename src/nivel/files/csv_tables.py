@@ -15,8 +15,8 @@ from nivel.files.python_laws import WITH_LAWS
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
 from nivel.machine.core.record import unknown_word
-from nivel.machine.units.arithmetic import TIME, ExpressionError
 from nivel.machine.units.quantity import ANY, read_quantity, shown
+from nivel.machine.units.tree import TIME, ExpressionError
 
 KEYS: Final = ("csv", "column", "units", "time", "time_units", "of", "interpolation")
 MOST_ROWS: Final = 100_000

@@ -12,8 +12,8 @@ from nivel.errors import Fault, ModelError
 from nivel.files.reader import read_text
 from nivel.machine import Input, MachineRecord
 from nivel.machine.laws.table import Table
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import ANY, Kind, read_quantity
+from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name
 
 # `time`, `lever [deg]`, `lever (deg)`

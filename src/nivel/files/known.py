@@ -9,7 +9,7 @@ from typing import Any
 from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.references import SECTIONS
 
 Element = tuple[str, str]  # section and name

@@ -31,10 +31,10 @@ from nivel.machine import MachineRecord, Record
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.laws.named_function import resolve_functions
 from nivel.machine.parameters import resolve
-from nivel.machine.units.arithmetic import Number, Parameters, Signal
 from nivel.machine.units.plain_factors import with_bodies
 from nivel.machine.units.quantity import FAULT, FunctionFault
 from nivel.machine.units.shared_names import name_notes
+from nivel.machine.units.tree import Number, Parameters, Signal
 from nivel.machine.uses.references import SECTIONS
 
 MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressions that use them

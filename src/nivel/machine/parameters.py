@@ -4,23 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from nivel.machine.units.arithmetic import (
-    NOT_FOR_PARAMETERS,
-    ExpressionError,
-    FaultyParameterError,
-    Node,
-    Number,
-    Parameters,
-    bind,
-    evaluate,
-    given,
-    names,
-    varies,
-)
+from nivel.machine.units.arithmetic import NOT_FOR_PARAMETERS, bind, evaluate, given
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, lacking_unit
 from nivel.machine.units.shared_names import shared_names_hint
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Number, Parameters, names, varies
 
 
 def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict[str, str]]:

@@ -8,7 +8,7 @@ from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
 
 from nivel.machine.core.coefficient import COORDINATE, COORDINATE_EFFORT, kind_for
 from nivel.machine.given import OneNumber
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters, evaluate
+from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import (
@@ -20,6 +20,7 @@ from nivel.machine.units.quantity import (
     reported,
     shown,
 )
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
 
 _HERTZ: Final = 1.5
 

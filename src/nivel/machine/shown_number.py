@@ -6,17 +6,10 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters
 from nivel.machine.units.dimension import without_angle
 from nivel.machine.units.measure import measure
-from nivel.machine.units.quantity import (
-    ANY,
-    constant_tree,
-    expression_fault,
-    parameters_of,
-    read_quantity,
-    reported,
-)
+from nivel.machine.units.quantity import ANY, constant_tree, expression_fault, parameters_of, read_quantity, reported
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
 
 
 def _read(value: Any, info: ValidationInfo) -> float:

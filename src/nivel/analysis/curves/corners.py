@@ -13,20 +13,10 @@ from nivel.kernels.record.function import NEAR
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import (
-    COMPARISONS,
-    TIME,
-    Call,
-    ExpressionError,
-    Lookup,
-    Negative,
-    Node,
-    Number,
-    Operation,
-    evaluate,
-    signals,
-)
+from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.functions import FUNCTIONS, inner_parts, is_truth
+from nivel.machine.units.tree import COMPARISONS, TIME, Call, ExpressionError, Lookup, Node, Number, Operation, signals
 
 # Sides of an expression are looked at so many times in a run.
 SAMPLES = 2000
@@ -118,36 +108,14 @@ def _of_time_alone(*nodes: Node) -> bool:
 def sides(node: Node, counts: Callable[..., bool], *, curves: bool) -> Iterator[tuple[Node, Node | None]]:
     """Pairs of expressions whose order decides about a value within `node`, those of which `counts` says so. curves : with the points of
     curves."""
+    for part in inner_parts(node):
+        yield from sides(part, counts, curves=curves)
     match node:
-        case Negative(operand):
-            yield from sides(operand, counts, curves=curves)
-        case Operation(symbol, left, right):
-            yield from sides(left, counts, curves=curves)
-            yield from sides(right, counts, curves=curves)
-            if symbol in COMPARISONS and counts(left, right):
-                yield left, right
-        case Lookup(argument, kind, points, _, _):
-            yield from sides(argument, counts, curves=curves)
-            if curves and counts(argument) and kind != "quintic":
-                yield from ((argument, Number(point)) for point in points)
+        case Operation(symbol, left, right) if symbol in COMPARISONS and counts(left, right):
+            yield left, right
+        case Lookup(argument, kind, points, _, _) if curves and counts(argument) and kind != "quintic":
+            yield from ((argument, Number(point)) for point in points)
         case Call(function, arguments):
-            for argument in arguments:
-                yield from sides(argument, counts, curves=curves)
-            if function in ("abs", "if", "not", "sign"):
-                if counts(arguments[0]) and not _is_truth(arguments[0]):
-                    yield arguments[0], None
-            elif function in ("step", "ramp", "step_rate", "step_acceleration") and counts(*arguments):
-                yield from ((arguments[0], arguments[k]) for k in (1, 3))
-            elif function in ("min", "max"):
-                pairs = ((first, second) for k, first in enumerate(arguments) for second in arguments[:k])
-                yield from (pair for pair in pairs if counts(*pair))
-
-
-def _is_truth(node: Node) -> bool:
-    """Whether a node is a condition, 1 or 0, whose own sides say where it changes."""
-    match node:
-        case Operation(symbol, _, _):
-            return symbol in (*COMPARISONS, "and", "or")
-        case Call(function, _):
-            return function == "not"
-    return False
+            own = FUNCTIONS[function].sides
+            pairs = own(counts, *arguments) if own is not None else ()
+            yield from ((first, second) for first, second in pairs if second is not None or not is_truth(first))

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Final
 
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import COMPARISONS, Call, Lookup, Negative, Node, Operation, signals
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.functions import FUNCTIONS, inner_parts
+from nivel.machine.units.tree import COMPARISONS, Call, Node, Operation, signals
 from nivel.words.wording import shown
-
-JUMPING: Final = ("sign", "floor", "mod", "if", "not")
 
 
 def jumping_functions(machine: MachineRecord) -> tuple[str, ...]:
@@ -25,15 +23,9 @@ def jumping_functions(machine: MachineRecord) -> tuple[str, ...]:
 def _jumps(node: Node) -> Iterator[bool]:
     """Of each part of an expression whether it jumps with a signal."""
     match node:
-        case Negative(operand):
-            yield from _jumps(operand)
-        case Operation(symbol, left, right):
+        case Operation(symbol):
             yield symbol in COMPARISONS and bool(signals(node))
-            yield from _jumps(left)
-            yield from _jumps(right)
-        case Lookup(argument):
-            yield from _jumps(argument)
-        case Call(function, arguments):
-            yield function in JUMPING and bool(signals(arguments[0]))
-            for argument in arguments:
-                yield from _jumps(argument)
+        case Call(function, (first, *_)):
+            yield FUNCTIONS[function].jumps and bool(signals(first))
+    for part in inner_parts(node):
+        yield from _jumps(part)

@@ -19,8 +19,8 @@ from nivel.analysis.curves.path import Path, Steps, path_of
 from nivel.analysis.curves.switches import cut_at_switches
 from nivel.integrate.facts import IntegratorFacts
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import TIME
 from nivel.machine.units.bounds import Interval
+from nivel.machine.units.tree import TIME
 from nivel.results.result import Result
 from nivel.results.trust.missed_impulse import Unseen
 

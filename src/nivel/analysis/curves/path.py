@@ -15,7 +15,7 @@ from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import cross
 from nivel.machine.laws.symbols import Symbol, UnknownSymbolError, find_symbol
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.tree import TIME
 from nivel.results.result import Result
 from nivel.results.scales import rotated
 

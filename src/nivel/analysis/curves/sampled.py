@@ -14,7 +14,7 @@ from nivel.analysis.curves.functions import Varying, varying
 from nivel.analysis.curves.step_limits import with_features
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.tree import TIME
 from nivel.results.trust.missed_impulse import Unseen
 
 Array = NDArray[np.float64]

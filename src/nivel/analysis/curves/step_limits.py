@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from nivel.analysis.curves.functions import Curve, TableCurve, varying
 from nivel.integrate.loop.run import PARTS
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.tree import TIME
 
 Array = NDArray[np.float64]
 # samples in one of the PARTS of a run

@@ -20,8 +20,8 @@ from scipy.spatial.transform import Rotation
 
 from nivel.analysis.inverse.mechanics import Mechanics
 from nivel.errors import Fault, ModelError
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, unknown_name
 from nivel.results.frames.joint_path import JointPath
 from nivel.results.frames.rotations import rotation_matrices

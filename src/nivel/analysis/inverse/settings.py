@@ -11,8 +11,8 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Motor
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, UnknownCoordinateError, resolve, unknown_name
 from nivel.system.system import Array
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, UnknownCoordinateError, resolve
 
 POSITIONS, MOST = 361, 10_000_000

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.machine.units.tree import ExpressionError
 
 START, EQUILIBRIUM = "start", "equilibrium"
 COORDINATES = ("auto", "absolute", "relative")

@@ -8,8 +8,8 @@ from typing import Any
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings import SHORTEST
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.machine.units.tree import ExpressionError
 
 MOST_STEPS = 1_000_000
 MOST_MODES = 1000

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import ANY, read_quantity
+from nivel.machine.units.tree import ExpressionError
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 

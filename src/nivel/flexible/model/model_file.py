@@ -16,8 +16,8 @@ from nivel.files.tree import Path, Tree, read_tree
 from nivel.flexible.model.records import ModelRecord
 from nivel.machine.core.record import field_words
 from nivel.machine.parameters import resolve
-from nivel.machine.units.arithmetic import Parameters
 from nivel.machine.units.quantity import FAULT, shown
+from nivel.machine.units.tree import Parameters
 
 FORMAT: Final = 1
 TOP_WORDS: Final = ("format", "parameters", *field_words(ModelRecord))

@@ -16,8 +16,9 @@ from nivel.flexible.model.model_file import Located
 from nivel.flexible.reduction.bases import NEXT, Basis, attachments
 from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters, bind, evaluate
+from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.grammar import parse
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
 
 PLACES: Final = ("x", "y", "z")
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from pydantic import PlainSerializer, PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import InitErrorDetails
 
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.units.quantity import (
     Kind,
     expression_fault,
@@ -21,6 +20,7 @@ from nivel.machine.units.quantity import (
     reported,
     shown,
 )
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 
 Array = NDArray[np.float64]
 Diagonal = tuple[float, ...]

@@ -17,8 +17,8 @@ from pydantic import BeforeValidator, ValidationInfo
 from nivel.machine.bodies.solids import centroid, squared_gyration, volume
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, SomeNumbers, SomeRows
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.units.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 
 if TYPE_CHECKING:
     from nivel.machine.bodies.body import Body

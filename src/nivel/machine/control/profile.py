@@ -14,11 +14,11 @@ from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.laws.table import Table
-from nivel.machine.units.arithmetic import Call, Node, Operation, Time
-from nivel.machine.units.arithmetic import Number as Constant
 from nivel.machine.units.expression import expression_of
 from nivel.machine.units.formula import Formula, formula
 from nivel.machine.units.quantity import Quantity, listed
+from nivel.machine.units.tree import Call, Node, Operation, Time
+from nivel.machine.units.tree import Number as Constant
 
 Times = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("time")]], BeforeValidator(listed)]
 

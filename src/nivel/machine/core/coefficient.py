@@ -21,7 +21,6 @@ from pydantic import (
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
 from nivel.machine.given import ManyNumbers, OneNumber
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import (
     Quantity,
@@ -33,6 +32,7 @@ from nivel.machine.units.quantity import (
     reported,
     shown,
 )
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 from nivel.machine.uses.coordinate_reference import kind_of
 from nivel.words.arguments import plain
 

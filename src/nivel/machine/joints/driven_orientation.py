@@ -13,9 +13,9 @@ from nivel.machine.core.orientation import AxisSequence
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import FourFunctions, OneFunction, ThreeFunctions, TimeFunction, varying
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import Direction, fault, listed
+from nivel.machine.units.tree import ExpressionError
 
 AngleMotion = Annotated[OneFunction, varying("angle", smooth=True)]
 ShareMotion = Annotated[OneFunction, varying("number", smooth=True)]

@@ -16,9 +16,10 @@ from typing import Final
 from pydantic import ValidationError
 
 from nivel.machine.laws.table import read_table
-from nivel.machine.units.arithmetic import (
-    NOT_FOR_PARAMETERS,
-    RESERVED,
+from nivel.machine.units.arithmetic import NOT_FOR_PARAMETERS, RESERVED, bind, given
+from nivel.machine.units.grammar import parse
+from nivel.machine.units.quantity import ANY, FAULT, shown
+from nivel.machine.units.tree import (
     ExpressionError,
     FaultyParameterError,
     Function,
@@ -27,12 +28,8 @@ from nivel.machine.units.arithmetic import (
     Number,
     Parameters,
     Signal,
-    bind,
     calls,
-    given,
 )
-from nivel.machine.units.grammar import parse
-from nivel.machine.units.quantity import ANY, FAULT, shown
 from nivel.machine.units.unit import UNITS
 
 _HEAD: Final = re.compile(r"([^\W\d]\w*)\s*(?:\(\s*([^()]*?)\s*\))?")

@@ -13,7 +13,6 @@ from pydantic_core import InitErrorDetails
 
 from nivel.machine.core.record import unknown_word
 from nivel.machine.laws.python_source import source_of
-from nivel.machine.units.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
 from nivel.machine.units.quantity import (
     ANY,
     bound_tree,
@@ -24,6 +23,7 @@ from nivel.machine.units.quantity import (
     reported,
     shown,
 )
+from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
 from nivel.words.arguments import checked_arguments, checked_fields
 
 KEYS: Final = ("source", "function", "arguments", "file")

@@ -21,15 +21,9 @@ from nivel.machine.hydraulics.signals import signals_of
 from nivel.machine.joints.joint import JOINT_COORDINATES
 from nivel.machine.laws.table import SIGNAL_PATH
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
-from nivel.machine.units.arithmetic import (
-    LOCAL_SYMBOLS,
-    ExpressionError,
-    FaultyParameterError,
-    Parameters,
-    bind,
-    signals,
-)
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind
 from nivel.machine.units.grammar import parse
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters, signals
 
 Section = Literal["joints", "inputs", "states", "control", "forces", "hydraulics", "sensors", "markers", "bodies"]
 

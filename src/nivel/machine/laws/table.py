@@ -13,20 +13,11 @@ from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from nivel.machine.core.record import unknown_word
-from nivel.machine.units.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, Interpolation, interpolated, pieces
 from nivel.machine.units.measure import signal_dimensions
-from nivel.machine.units.quantity import (
-    ANY,
-    Kind,
-    expression_fault,
-    fault,
-    listed,
-    read_quantity,
-    reported,
-    shown,
-)
+from nivel.machine.units.quantity import ANY, Kind, expression_fault, fault, listed, read_quantity, reported, shown
+from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters
 from nivel.words.arguments import checked_arguments, checked_fields
 
 SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*\.[^\W\d]\w*")

@@ -16,7 +16,7 @@ from pydantic_core import CoreSchema, core_schema
 from nivel.machine.given import Given, Validated
 from nivel.machine.laws.python_law import PythonLaw, read_python_law
 from nivel.machine.laws.table import Table, read_table
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Node, Parameters, fold, render, varies
+from nivel.machine.units.arithmetic import fold, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.interpolation import INTERPOLATIONS
@@ -34,6 +34,7 @@ from nivel.machine.units.quantity import (
     read_quantity,
     reported,
 )
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Parameters, varies
 
 TimeFunction = float | Table | Expression | PythonLaw
 SomeFunction = float | str | Mapping[str, Any] | Table | Expression | PythonLaw  # what is read as one

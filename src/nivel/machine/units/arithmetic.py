@@ -9,204 +9,48 @@ What varies is `time` and signals: what the machine itself does, such as `hinge.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import pairwise
-from typing import Final, Literal, SupportsFloat
+from typing import Final, SupportsFloat
 
-from nivel.machine.units.dimension import Dimension
+from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated
 from nivel.machine.units.slips import spelled
+from nivel.machine.units.tree import (
+    COMPARISONS,
+    CONSTANTS,
+    LOGICAL,
+    LOOKUP,
+    NOT_FINITE,
+    OPERATORS,
+    TIME,
+    Call,
+    ExpressionError,
+    FaultyParameterError,
+    Function,
+    Lookup,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    Parameters,
+    Signal,
+    Time,
+    UnknownNameError,
+    finite,
+    leaves,
+    substituted,
+    varies,
+    with_parts,
+)
 from nivel.machine.units.unit import UNITS, UnknownUnitError, unit
 
-
-class ExpressionError(ValueError):
-    """The text cannot be read or computed; the message says where and why."""
-
-
-class UnknownNameError(ExpressionError):
-    """`name` is neither a parameter nor a unit."""
-
-    def __init__(self, name: str, hint: str) -> None:
-        super().__init__(f"`{name}` is neither a parameter nor a unit{hint}")
-        self.name = name
-
-
-class FaultyParameterError(Exception):
-    """The text uses a parameter that is itself at fault, which has been reported already."""
-
-
-@dataclass(frozen=True)
-class Number:
-    """`value` in SI units of `dimension`; without one, a bare number."""
-
-    value: float
-    dimension: Dimension | None = None
-
-
-@dataclass(frozen=True)
-class Time:
-    """The time of the simulation in seconds."""
-
-
-@dataclass(frozen=True)
-class Signal:
-    """Something that the machine does: `hinge.angle`, or a local symbol such as `length` in the law of a spring."""
-
-    path: str
-
-
-@dataclass(frozen=True)
-class Name:
-    """A parameter, constant, unit or local symbol that is not bound yet.
-
-    place : `unit` directly behind a number, where a unit stands although a parameter may have its name (`2 m`, `2 N/m`);
-    `product` behind `*` and a unit (`2 N*m`), where a name of both kinds is ambiguous
-    """
-
-    text: str
-    place: Literal["free", "unit", "product"] = "free"
-
-
-@dataclass(frozen=True)
-class Negative:
-    operand: Node
-
-
-@dataclass(frozen=True)
-class Operation:
-    """`symbol` is one of + - * / **, of < <= > >=, or `and`, `or`."""
-
-    symbol: str
-    left: Node
-    right: Node
-
-
-@dataclass(frozen=True)
-class Call:
-    """A function of FUNCTIONS; until it is bound, of any name."""
-
-    function: str
-    arguments: tuple[Node, ...]
-
-
-@dataclass(frozen=True)
-class Lookup:
-    """The curve of a `kind` of INTERPOLATIONS through `values` at `points`, which increase; or its derivative of an `order`."""
-
-    argument: Node
-    kind: str
-    points: tuple[float, ...]
-    values: tuple[float, ...]
-    order: int = 0
-
-
-@dataclass(frozen=True)
-class Function:
-    """A named function: a bound `body` in which the `arguments` stand as signals of their names.
-
-    head, text : as it is written, of an expression: ``bump(x)``, ``5 cm*sin(x)``
-    """
-
-    arguments: tuple[str, ...]
-    body: Node
-    head: str = field(default="", compare=False)
-    text: str = field(default="", compare=False)
-
-
-Node = Number | Time | Signal | Name | Negative | Operation | Call | Lookup
-# None marks a parameter at fault; blocks of a control stand among the parameters as their signals
-Parameters = Mapping[str, Number | Signal | Function | None]
-
-
-def _step(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
-    """y0 up to x0, y1 from x1 on, and between them a way that is smooth to the second derivative."""
-    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
-    return y0 + (y1 - y0) * s**3 * (10.0 + s * (-15.0 + s * 6.0))
-
-
-def _step_rate(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
-    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
-    return (y1 - y0) / (x1 - x0) * 30.0 * s**2 * (1.0 - s) ** 2
-
-
-def _step_acceleration(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
-    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
-    return (y1 - y0) / (x1 - x0) ** 2 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)
-
-
-def _ramp(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
-    """y0 up to x0, y1 from x1 on, and a straight line between them."""
-    return y0 + (y1 - y0) * min(max((x - x0) / (x1 - x0), 0.0), 1.0)
-
-
-def _sign(x: float) -> float:
-    return float((x > 0.0) - (x < 0.0))
-
-
-def _choice(condition: float, yes: float, no: float) -> float:
-    return yes if condition > 0.0 else no
-
-
-def _modulo(x: float, y: float) -> float:
-    """What is left of x after whole multiples of y."""
-    return x - y * math.floor(x / y)
-
-
-def _not(x: float) -> float:
-    return float(x <= 0.0)
-
-
-NOT_FINITE: Final = ("nan", "inf", "infinity")
-CONSTANTS: Final = {"pi": math.pi, "e": math.e}
-FUNCTIONS: Final[dict[str, tuple[Callable[..., float], tuple[int, int]]]] = {  # the function, fewest and most arguments
-    "sin": (math.sin, (1, 1)),
-    "cos": (math.cos, (1, 1)),
-    "tan": (math.tan, (1, 1)),
-    "asin": (math.asin, (1, 1)),
-    "acos": (math.acos, (1, 1)),
-    "atan": (math.atan, (1, 1)),
-    "atan2": (math.atan2, (2, 2)),
-    "sqrt": (math.sqrt, (1, 1)),
-    "exp": (math.exp, (1, 1)),
-    "log": (math.log, (1, 1)),
-    "abs": (math.fabs, (1, 1)),
-    "min": (min, (2, 99)),
-    "max": (max, (2, 99)),
-    "step": (_step, (5, 5)),
-    "step_rate": (_step_rate, (5, 5)),
-    "step_acceleration": (_step_acceleration, (5, 5)),
-    "ramp": (_ramp, (5, 5)),
-    "if": (_choice, (3, 3)),
-    "not": (_not, (1, 1)),
-    "sign": (_sign, (1, 1)),
-    "floor": (math.floor, (1, 1)),
-    "mod": (_modulo, (2, 2)),
-    "tanh": (math.tanh, (1, 1)),
-}
-LOOKUP: Final = "lookup"  # lookup(x, KIND, x0, y0, x1, y1, …): a curve through points; KIND_1 is its derivative
-COMPARISONS: Final = ("<", "<=", ">", ">=")
-LOGICAL: Final = ("and", "or")
-TIME: Final = "time"
 RESERVED: Final = frozenset({TIME, LOOKUP, *LOGICAL, *CONSTANTS, *FUNCTIONS})
 FREE_CONSTANTS: Final = frozenset({"e"})  # names that parameters and arguments of functions may take over
 NOT_FOR_PARAMETERS: Final = RESERVED - FREE_CONSTANTS
 LOCAL_SYMBOLS: Final = ("length", "angle", "value", "depth", "rate")  # where a law may use them they are signals
-
-
-def finite(value: SupportsFloat) -> float:
-    """`value` as a float.
-
-    Raises ExpressionError for inf, nan and integers beyond the range of floats.
-    """
-    try:
-        number = float(value)
-    except OverflowError:
-        raise ExpressionError("the number is too large") from None
-    if not math.isfinite(number):
-        raise ExpressionError("this is not a number" if math.isnan(number) else "the number is too large")
-    return number
 
 
 def given(value: SupportsFloat) -> float:
@@ -217,54 +61,6 @@ def given(value: SupportsFloat) -> float:
     if isinstance(value, float) and math.isinf(value):
         raise ExpressionError("a finite number was expected, got one that is infinite or too large")
     return finite(value)
-
-
-def leaves(node: Node) -> Iterator[Node]:
-    """The parts of `node` that have no parts, from left to right."""
-    match node:
-        case Negative(operand) | Lookup(operand):
-            yield from leaves(operand)
-        case Operation(_, left, right):
-            yield from leaves(left)
-            yield from leaves(right)
-        case Call(_, arguments):
-            for argument in arguments:
-                yield from leaves(argument)
-        case _:
-            yield node
-
-
-def names(node: Node) -> set[str]:
-    """The unbound names in `node` that may be those of parameters; signals are none."""
-    return {
-        leaf.text
-        for leaf in leaves(node)
-        if isinstance(leaf, Name) and not (leaf.place == "unit" and leaf.text in UNITS)
-    }
-
-
-def calls(node: Node) -> Iterator[str]:
-    """The names of the functions that `node` calls."""
-    match node:
-        case Call(function, arguments):
-            yield function
-            for argument in arguments:
-                yield from calls(argument)
-        case Operation(_, left, right):
-            yield from calls(left)
-            yield from calls(right)
-        case Negative(operand):
-            yield from calls(operand)
-
-
-def signals(node: Node) -> tuple[str, ...]:
-    """The paths of the signals in `node`, each once, in the order in which they stand."""
-    return tuple(dict.fromkeys(leaf.path for leaf in leaves(node) if isinstance(leaf, Signal)))
-
-
-def varies(node: Node) -> bool:
-    """Whether `node` depends on time or on a signal."""
-    return any(isinstance(leaf, Time | Signal) for leaf in leaves(node))
 
 
 def bind(node: Node, parameters: Parameters, local: Collection[str] = ()) -> Node:
@@ -290,19 +86,14 @@ def bind(node: Node, parameters: Parameters, local: Collection[str] = ()) -> Nod
             return Signal(text)
         case Name(text):
             return _value_of(text, parameters, local)
-        case Negative(operand):
-            return Negative(bind(operand, parameters, local))
-        case Operation(symbol, left, right):
+        case Operation():
             try:
-                return Operation(symbol, bind(left, parameters, local), bind(right, parameters, local))
+                return with_parts(node, lambda part: bind(part, parameters, local))
             except UnknownNameError as problem:
                 raise _hinting_at_hyphen(problem, node) from None
         case Call(function, arguments):
             return _bind_call(function, arguments, parameters, local)
-        case Lookup(argument):
-            return replace(node, argument=bind(argument, parameters, local))
-        case _:
-            return node
+    return with_parts(node, lambda part: bind(part, parameters, local))
 
 
 def _bind_call(function: str, arguments: tuple[Node, ...], parameters: Parameters, local: Collection[str]) -> Node:
@@ -311,7 +102,8 @@ def _bind_call(function: str, arguments: tuple[Node, ...], parameters: Parameter
         return _bind_lookup(arguments, parameters, local)
     bound = tuple(bind(argument, parameters, local) for argument in arguments)
     if function in FUNCTIONS:
-        _check_count(function, len(bound), *FUNCTIONS[function][1])
+        kind = FUNCTIONS[function]
+        _check_count(function, len(bound), len(kind.names), kind.most)
         return Call(function, bound)
     meant = parameters.get(function)
     if isinstance(meant, Function):
@@ -352,23 +144,6 @@ def _bind_lookup(arguments: tuple[Node, ...], parameters: Parameters, local: Col
     if len(points) < FEWEST[word]:
         raise ExpressionError(f"a {word} `{LOOKUP}` needs at least {FEWEST[word]} points, got {len(points)}")
     return Lookup(bind(argument, parameters, local), word, points, tuple(values[1::2]), int(order or 0))
-
-
-def substituted(node: Node, arguments: Mapping[str, Node]) -> Node:
-    """`node` with what stands in `arguments` in place of the signals of these names."""
-    match node:
-        case Signal(path):
-            return arguments.get(path, node)
-        case Negative(operand):
-            return Negative(substituted(operand, arguments))
-        case Operation(symbol, left, right):
-            return Operation(symbol, substituted(left, arguments), substituted(right, arguments))
-        case Call(function, given):
-            return Call(function, tuple(substituted(each, arguments) for each in given))
-        case Lookup(argument):
-            return replace(node, argument=substituted(argument, arguments))
-        case _:
-            return node
 
 
 def _hinting_at_hyphen(problem: UnknownNameError, node: Operation) -> ExpressionError:
@@ -453,7 +228,10 @@ def _evaluate(node: Node, time: float, values: Mapping[str, float]) -> float:
         case Call("if", (condition, yes, no)):
             return _evaluate(yes if _evaluate(condition, time, values) > 0.0 else no, time, values)
         case Call(function, arguments):
-            return float(FUNCTIONS[function][0](*(_evaluate(argument, time, values) for argument in arguments)))
+            kind, given = FUNCTIONS[function], [_evaluate(argument, time, values) for argument in arguments]
+            if kind.value is None:
+                return _evaluate(kind.body, time, dict(zip(kind.names, given, strict=True)))
+            return float(kind.value(*given))
         case Lookup(argument, kind, points, heights, order):
             return interpolated(kind, points, heights, _evaluate(argument, time, values), order)
         case Name(text):
@@ -461,53 +239,17 @@ def _evaluate(node: Node, time: float, values: Mapping[str, float]) -> float:
 
 
 def _operate(symbol: str, left: float, right: float) -> float:
-    match symbol:
-        case "+":
-            return left + right
-        case "-":
-            return left - right
-        case "*":
-            return left * right
-        case "/":
-            return left / right
-        case "<" | "<=" | ">" | ">=" | "and" | "or":
-            return float(_holds(symbol, left, right))
-    raised = left**right
-    if isinstance(raised, complex):
+    value = OPERATORS[symbol](left, right)
+    if isinstance(value, complex):
         raise ExpressionError("a negative number raised to a fraction is not a real number")
-    return raised
-
-
-def _holds(symbol: str, left: float, right: float) -> bool:
-    match symbol:
-        case "<":
-            return left < right
-        case "<=":
-            return left <= right
-        case ">":
-            return left > right
-        case ">=":
-            return left >= right
-        case "and":
-            return left > 0.0 and right > 0.0
-    return left > 0.0 or right > 0.0
+    return float(value)
 
 
 def fold(node: Node) -> Node:
     """`node` with every part that does not vary replaced by one bare number."""
     if not varies(node):
         return Number(evaluate(node))
-    match node:
-        case Negative(operand):
-            return Negative(fold(operand))
-        case Operation(symbol, left, right):
-            return Operation(symbol, fold(left), fold(right))
-        case Call(function, arguments):
-            return Call(function, tuple(fold(argument) for argument in arguments))
-        case Lookup(argument):
-            return replace(node, argument=fold(argument))
-        case _:
-            return node
+    return with_parts(node, fold)
 
 
 _PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(COMPARISONS, 0), "+": 1, "-": 1, "*": 2, "/": 2, "**": 4}

@@ -8,9 +8,12 @@ expression itself is: 3*time^2 becomes 6*time, without a division by time.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final
 
-from nivel.machine.units.arithmetic import (
+from nivel.machine.units.arithmetic import evaluate
+from nivel.machine.units.functions import FUNCTIONS, read
+from nivel.machine.units.tree import (
     COMPARISONS,
     LOGICAL,
     Call,
@@ -22,14 +25,13 @@ from nivel.machine.units.arithmetic import (
     Operation,
     Signal,
     Time,
-    evaluate,
     leaves,
     names,
+    signals,
     varies,
 )
 
 _MOST_LEAVES: Final = 4000  # second derivatives of long products grow with the cube of their length
-_CORNERS: Final = ("abs", "min", "max", "step_acceleration", "ramp", "if", "not", "sign", "floor", "mod")
 _ZERO, _ONE, _TWO = Number(0.0), Number(1.0), Number(2.0)
 
 
@@ -58,25 +60,14 @@ def _derivative(node: Node) -> Node:
             return minus(_derivative(operand))
         case Operation(symbol, left, right):
             return _of_operation(symbol, left, right)
-        case Call("atan2", (y, x)):
-            rise = minus(times(x, _derivative(y)), times(y, _derivative(x)))
-            return over(rise, plus(times(x, x), times(y, y)))
-        case Call("step" | "step_rate" as function, (argument, *levels)):
-            if any(varies(level) for level in levels):
-                raise ExpressionError(f"the levels of `{function}` vary; a driver needs constant ones")
-            after = "step_rate" if function == "step" else "step_acceleration"
-            return times(Call(after, (argument, *levels)), _derivative(argument))
         case Lookup(argument, kind, points, values, order):
             if kind != "quintic":
                 raise ExpressionError(
                     f"a {kind} curve has corners, at its ends at least; a driver must be smooth: take quintic"
                 )
             return times(Lookup(argument, kind, points, values, order + 1), _derivative(argument))
-        case Call(function, (argument, *_)) if function not in _CORNERS:
-            return times(_outer(function, argument), _derivative(argument))
-        case Call(function, _):
-            smooth = "; `step(time, t0, a, t1, b)` is smooth" if function in ("if", "ramp") else ""
-            raise ExpressionError(f"`{function}` has corners; a driver must be smooth{smooth}")
+        case Call(function, arguments):
+            return _of_call(function, arguments)
     raise AssertionError(node)
 
 
@@ -104,30 +95,34 @@ def _of_operation(symbol: str, u: Node, v: Node) -> Node:
     return times(to_the(u, v), plus(growth, over(times(v, _derivative(u)), u)))
 
 
-def _outer(function: str, u: Node) -> Node:
-    """f'(u) of a function f of one argument."""
-    match function:
-        case "sin":
-            return Call("cos", (u,))
-        case "cos":
-            return minus(Call("sin", (u,)))
-        case "tan":
-            return plus(_ONE, to_the(Call("tan", (u,)), _TWO))
-        case "asin":
-            return over(_ONE, Call("sqrt", (minus(_ONE, times(u, u)),)))
-        case "acos":
-            return minus(over(_ONE, Call("sqrt", (minus(_ONE, times(u, u)),))))
-        case "tanh":
-            return minus(_ONE, to_the(Call("tanh", (u,)), _TWO))
-        case "atan":
-            return over(_ONE, plus(_ONE, times(u, u)))
-        case "sqrt":
-            return over(_ONE, times(_TWO, Call("sqrt", (u,))))
-        case "exp":
-            return Call("exp", (u,))
-        case "log":
-            return over(_ONE, u)
-    raise AssertionError(function)
+def _of_call(function: str, arguments: tuple[Node, ...]) -> Node:
+    kind = FUNCTIONS[function]
+    if not kind.derivative and not kind.is_form_alone:
+        smooth = f"; `{kind.smooth}` is smooth" if kind.smooth else ""
+        raise ExpressionError(f"`{function}` has corners; a driver must be smooth{smooth}")
+    if not kind.derivative:
+        return _derivative(kind.written(kind.form, arguments))
+    given = dict(zip(kind.names, arguments, strict=True))
+    rates = {f"d{name}" for name in given}
+    rule = read(kind.derivative, (*kind.names, *sorted(rates)))
+    used = rates & set(signals(rule))
+    if any(varies(each) for name, each in given.items() if f"d{name}" not in used):
+        raise ExpressionError(f"the levels of `{function}` vary; a driver needs constant ones")
+    return _with(rule, given | {f"d{name}": _derivative(each) for name, each in given.items() if f"d{name}" in used})
+
+
+def _with(rule: Node, given: Mapping[str, Node]) -> Node:
+    """A rule with arguments and rates in it, without the factors 0 and 1 that come of them."""
+    match rule:
+        case Signal(path):
+            return given[path]
+        case Negative(operand):
+            return minus(_with(operand, given))
+        case Operation(symbol, left, right):
+            return _RULES[symbol](_with(left, given), _with(right, given))
+        case Call(function, arguments):
+            return Call(function, tuple(_with(each, given) for each in arguments))
+    return rule
 
 
 def plus(u: Node, v: Node) -> Node:
@@ -176,6 +171,9 @@ def to_the(u: Node, v: Node) -> Node:
     if _is(v, 0):
         return _ONE
     return u if _is(v, 1) else _operation("**", u, v)
+
+
+_RULES: Final = {"+": plus, "-": minus, "*": times, "/": over, "**": to_the}
 
 
 def _is(node: Node, value: float) -> bool:

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, Node, evaluate, render, signals
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, evaluate, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.quantity import bound_tree
+from nivel.machine.units.tree import Node, signals
 from nivel.words.arguments import checked_arguments, checked_fields
 
 

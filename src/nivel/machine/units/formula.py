@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nivel.machine.units.arithmetic import Node, Number, Signal, bind, signals
+from nivel.machine.units.arithmetic import bind
 from nivel.machine.units.grammar import parse
+from nivel.machine.units.tree import Node, Number, Signal, signals
 
 
 @dataclass(frozen=True)

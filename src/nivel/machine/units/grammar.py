@@ -26,7 +26,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
-from nivel.machine.units.arithmetic import (
+from nivel.machine.units.tree import (
     COMPARISONS,
     CONSTANTS,
     LOGICAL,

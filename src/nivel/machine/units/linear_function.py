@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nivel.machine.units.arithmetic import TIME, Negative, Node, Operation, Signal, Time, evaluate, varies
+from nivel.machine.units.arithmetic import evaluate
+from nivel.machine.units.tree import TIME, Negative, Node, Operation, Signal, Time, varies
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,15 @@ A dimension by name belongs to signals that are quantities; a `rate` is of a len
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import reduce
 from itertools import islice, product
 from typing import Final
 
-from nivel.machine.units.arithmetic import (
+from nivel.machine.units.arithmetic import evaluate
+from nivel.machine.units.dimension import Dimension, described, dimension, known, power, without_angle
+from nivel.machine.units.dimension import product as product_of
+from nivel.machine.units.functions import FUNCTIONS
+from nivel.machine.units.tree import (
     TIME,
     Call,
     ExpressionError,
@@ -22,13 +27,10 @@ from nivel.machine.units.arithmetic import (
     Operation,
     Signal,
     Time,
-    evaluate,
     leaves,
     signals,
     varies,
 )
-from nivel.machine.units.dimension import Dimension, described, dimension, known, power, without_angle
-from nivel.machine.units.dimension import product as product_of
 
 _RADIAN: Final = dimension(rad=1)
 _SECOND: Final = dimension(s=1)
@@ -163,45 +165,15 @@ def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dim
 
 
 def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | None:
-    match function:
-        case "min" | "max":
-            result = arguments[0]
-            for other in arguments[1:]:
-                result = _same(result, other, "compared")
-            return result
-        case "abs":
-            return arguments[0]
-        case "if":
-            return _same(arguments[1], arguments[2], "values of one `if`")
-        case "not" | "sign" | "floor":
-            return None
-        case "mod":
-            return _same(arguments[0], arguments[1], "compared")
-        case "step" | "ramp" | "step_rate" | "step_acceleration":
-            return _of_step(function, arguments)
-        case "sqrt":
-            return power(arguments[0], 0.5)
-        case "atan2":
-            _same(arguments[0], arguments[1], "compared")
-            return _RADIAN
-        case "step" | "step_rate" | "step_acceleration":
-            along = _same(_same(arguments[0], arguments[1], "compared"), arguments[3], "compared")
-            order = ("step", "step_rate", "step_acceleration").index(function)
-            return product_of(_same(arguments[2], arguments[4], "compared"), power(along, -order) if order else None)
-    if without_angle(arguments[0]) != without_angle(None):
-        wanted = "an angle" if function in ("sin", "cos", "tan") else "a pure number"
-        raise ExpressionError(f"`{function}` is taken of {wanted}, not of {described(arguments[0])}")
-    return _RADIAN if function in ("asin", "acos", "atan") else None
-
-
-def _of_step(function: str, arguments: list[Dimension | None]) -> Dimension | None:
-    x, x0, y0, x1, y1 = arguments
-    across = _same(_same(x, x0, "compared"), x1, "compared")
-    height = _same(y0, y1, "joined")
-    orders = {"step_rate": -1, "step_acceleration": -2}
-    if function not in orders:
-        return height
-    return None if height is None and across is None else product_of(height, power(across, orders[function]))
+    units, result = FUNCTIONS[function].units, None
+    if units.taken:
+        for each in arguments:
+            if without_angle(each) != without_angle(None):
+                raise ExpressionError(f"`{function}` is taken of {units.taken}, not of {described(each)}")
+    for group in units.alike:
+        its = reduce(lambda first, second, done=group.done: _same(first, second, done), group.of(arguments))
+        result = product_of(result, power(its, group.exponent)) if group.exponent else result
+    return _RADIAN if units.is_angle else result
 
 
 def _same(first: Dimension | None, second: Dimension | None, action: str) -> Dimension | None:

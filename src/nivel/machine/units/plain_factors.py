@@ -18,9 +18,13 @@ from typing import Final
 
 import numpy as np
 
-from nivel.machine.units.arithmetic import (
+from nivel.machine.units.arithmetic import bind, evaluate
+from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, without_angle
+from nivel.machine.units.functions import FUNCTIONS
+from nivel.machine.units.grammar import parse, placed_tokens
+from nivel.machine.units.measure import Reading, readings
+from nivel.machine.units.tree import (
     COMPARISONS,
-    FUNCTIONS,
     LOGICAL,
     LOOKUP,
     TIME,
@@ -36,15 +40,11 @@ from nivel.machine.units.arithmetic import (
     Parameters,
     Signal,
     Time,
-    bind,
     calls,
-    evaluate,
     leaves,
+    parts,
     varies,
 )
-from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, without_angle
-from nivel.machine.units.grammar import parse, placed_tokens
-from nivel.machine.units.measure import Reading, readings
 from nivel.machine.units.unit import UNITS
 
 MOST: Final = 3  # factors that are completed at once
@@ -338,32 +338,16 @@ class _Walk:
                 return None
             arguments = dict(zip(meant.arguments, (its for _, its in parts), strict=True))
             return self.of(self.problem.trees[function], function, arguments)
-        first = parts[0][1]
-        match function:
-            case "min" | "max":
-                return self.same(owner, *parts)
-            case "abs":
-                return first
-            case "if":
-                return self.same(owner, *parts[1:])
-            case "not" | "sign" | "floor":
-                return None
-            case "mod":
-                return self.same(owner, *parts)
-            case "sqrt":
-                return None if first is None else _PURE_NUMBER.plus(first, 0.5)
-            case "atan2":
-                self.same(owner, *parts)
-                return _PURE_NUMBER
-            case "step" | "ramp" | "step_rate" | "step_acceleration":
-                across = self.same(owner, parts[0], parts[1], parts[3])
-                height = self.same(owner, parts[2], parts[4])
-                order = {"step_rate": 1.0, "step_acceleration": 2.0}.get(function, 0.0)
-                if across is None or not order:
-                    return height
-                return (height or _PURE_NUMBER).plus(across, -order)
-        self.pure(first)
-        return None
+        units = FUNCTIONS[function].units
+        result = _PURE_NUMBER if units.is_angle else None
+        if units.taken:
+            for _, its in parts:
+                self.pure(its)
+        for group in units.alike:
+            its = self.same(owner, *group.of(parts))
+            if its is not None and group.exponent:
+                result = (result or _PURE_NUMBER).plus(its, group.exponent)
+        return result
 
     def same(self, owner: str, *parts: _Part) -> Measured:
         """What all `parts` measure, of which plain ones fit any."""
@@ -412,16 +396,11 @@ def _with_units(node: Node) -> Iterator[Node]:
         case Operation("**", base, exponent):
             yield from (each for each in leaves(exponent) if isinstance(each, Number))
             yield from _with_units(base)
-        case Operation(_, left, right):
-            yield from _with_units(left)
-            yield from _with_units(right)
-        case Negative(operand):
-            yield from _with_units(operand)
-        case Call(function, arguments):
-            if function == LOOKUP:
-                yield from (leaf for each in arguments[1:] for leaf in leaves(each) if isinstance(leaf, Number))
-            for argument in arguments:
-                yield from _with_units(argument)
+        case _:
+            if isinstance(node, Call) and node.function == LOOKUP:
+                yield from (leaf for each in node.arguments[1:] for leaf in leaves(each) if isinstance(leaf, Number))
+            for part in parts(node):
+                yield from _with_units(part)
 
 
 def _is_unit(node: Node) -> bool:

@@ -18,26 +18,23 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from nivel.machine.given import OneNumber, ThreeNumbers
-from nivel.machine.units.arithmetic import (
-    LOCAL_SYMBOLS,
-    ExpressionError,
-    FaultyParameterError,
-    Function,
-    Node,
-    Parameters,
-    UnknownNameError,
-    bind,
-    evaluate,
-    given,
-    signals,
-    varies,
-)
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind, evaluate, given
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
 from nivel.machine.units.plain_factors import completed, with_bodies
 from nivel.machine.units.shared_names import shared_names_hint
 from nivel.machine.units.slips import slip
+from nivel.machine.units.tree import (
+    ExpressionError,
+    FaultyParameterError,
+    Function,
+    Node,
+    Parameters,
+    UnknownNameError,
+    signals,
+    varies,
+)
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 

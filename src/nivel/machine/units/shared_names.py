@@ -6,9 +6,10 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Final
 
-from nivel.machine.units.arithmetic import CONSTANTS, FREE_CONSTANTS, ExpressionError, Name, Number, Parameters, leaves
+from nivel.machine.units.arithmetic import FREE_CONSTANTS
 from nivel.machine.units.dimension import symbol
 from nivel.machine.units.grammar import parse
+from nivel.machine.units.tree import CONSTANTS, ExpressionError, Name, Number, Parameters, leaves
 from nivel.machine.units.unit import UNITS
 
 # units with the letters of quantities

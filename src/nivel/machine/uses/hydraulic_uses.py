@@ -11,7 +11,7 @@ from nivel.machine.hydraulic_fluids import fluid_faults
 from nivel.machine.hydraulics import COMPONENT_OF, Actuator, Component
 from nivel.machine.hydraulics.component import SENSING
 from nivel.machine.laws.symbols import paths_in, symbol_faults
-from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, find, unknown_name
 
 Faults = Iterator[tuple[Place, str]]

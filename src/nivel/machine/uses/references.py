@@ -12,7 +12,7 @@ from nivel.machine.forces import Contact
 from nivel.machine.forces.contact import HULLS, SHAPES_ON_PLANE
 from nivel.machine.joints.joint import JOINT_KINDS
 from nivel.machine.laws.symbols import outputs_of, states_of, symbol_faults
-from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.machine.uses.coordinate_uses import coordinate_faults
 from nivel.machine.uses.hydraulic_uses import hydraulic_faults

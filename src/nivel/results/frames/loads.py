@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body.rainflow import Cycle, rainflow
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.quantity import expression_fault, read_quantity
+from nivel.machine.units.tree import ExpressionError
 
 if TYPE_CHECKING:
     import xarray

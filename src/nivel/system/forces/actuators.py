@@ -11,8 +11,8 @@ from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Motor, Servo, Stop
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
-from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle

@@ -11,26 +11,29 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
+import numpy as np
+
+from nivel.machine.units.functions import FUNCTIONS
+
+# functions of expressions, by their names in math and in numpy
+_COMMON = [(kind, (name, kind.array.__name__)) for name, kind in FUNCTIONS.items() if isinstance(kind.array, np.ufunc)]
 # functions of math and numpy: the numpy function that is analytic itself
 PLAIN = {
-    **{name: name for name in ("sin", "cos", "tan", "sinh", "cosh", "exp", "log", "sqrt")},
-    **{f"a{name}": f"arc{name}" for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh")},
-    **{f"arc{name}": f"arc{name}" for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh")},
+    **{each: names[1] for kind, names in _COMMON if not (kind.analytic or kind.jumps) for each in names},
+    **{name: name for name in ("sinh", "cosh", "arcsinh", "arccosh", "arctanh")},
+    **{f"a{name}": f"arc{name}" for name in ("sinh", "cosh", "tanh")},
 }
 # those, and what Python knows by itself, that have branches: the function of `nivel.kernels.algebra.analytic`
 BRANCHING = {
-    **dict.fromkeys(("abs", "fabs", "absolute"), "absolute"),
-    **dict.fromkeys(("atan2", "arctan2"), "arctan2"),
-    **dict.fromkeys(("min", "minimum"), "minimum"),
-    **dict.fromkeys(("max", "maximum"), "maximum"),
+    **{each: names[1] for kind, names in _COMMON if kind.analytic for each in names},
     **dict.fromkeys(("pow", "power"), "power"),
+    "fabs": "absolute",
     "hypot": "hypot",
-    "tanh": "tanh",
     "copysign": "copysign",
 }
 BUILT_IN = ("abs", "min", "max", "pow")
 # constant between their steps
-STEPS = ("floor", "ceil", "trunc")
+STEPS = (*(names[0] for kind, names in _COMMON if kind.jumps), "ceil", "trunc")
 COUNTING = ("range", "len")
 CONSTANTS = ("pi", "e", "tau", "inf", "nan")
 HELPERS = ("absolute", "arctan2", "copysign", "hypot", "maximum", "minimum", "modulo", "power", "real", "tanh")

@@ -14,10 +14,10 @@ from nivel.kernels.record.record import Functions
 from nivel.machine.control.part import PartFunction
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
-from nivel.machine.units.arithmetic import TIME as TIME_SYMBOL
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction, linear_function
+from nivel.machine.units.tree import TIME as TIME_SYMBOL
 from nivel.system.laws.laws import law_address
 from nivel.system.laws.program import (
     Switching,

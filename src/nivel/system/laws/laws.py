@@ -7,7 +7,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.hook import FAMILIES
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.tree import TIME
 from nivel.native.library import address_of_law
 from nivel.native.signature import COMPLEX_LAW, LAW
 from nivel.native.workers import NO_COMPILER, CompilationError

@@ -8,24 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.kernels.record import program as kernel
-from nivel.machine.units.arithmetic import (
-    COMPARISONS,
-    LOGICAL,
-    TIME,
-    Call,
-    Lookup,
-    Negative,
-    Node,
-    Number,
-    Operation,
-    Signal,
-    Time,
-    signals,
-)
-from nivel.machine.units.elementary import COMPOUND, elementary
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
+from nivel.machine.units.functions import FUNCTIONS, is_truth
 from nivel.machine.units.interpolation import differentiated, pieces
+from nivel.machine.units.tree import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time, signals
 
 OPERATIONS = {
     "+": kernel.ADD,
@@ -33,9 +20,6 @@ OPERATIONS = {
     "*": kernel.MULTIPLY,
     "/": kernel.DIVIDE,
     "**": kernel.POWER,
-    **{name: getattr(kernel, name.upper()) for name in ("atan2", "min", "max")},
-    **{name: getattr(kernel, name.upper()) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
-    **{name: getattr(kernel, name.upper()) for name in ("sqrt", "exp", "log", "abs", "floor", "tanh")},
     "<": kernel.LESS,
     "<=": kernel.LESS_EQUAL,
 }
@@ -133,16 +117,17 @@ class _Program:
                 return self._operation(OPERATIONS[symbol], self.place_of(left), self.place_of(right))
             case Lookup(argument):
                 return self._operation(kernel.CURVE, self.place_of(argument), self._curve(node))
-            case Call(function, _) if function in COMPOUND:
-                return self.place_of(elementary(node))
             case Call("if", (condition, yes, no)):
                 return self._choice(self.place_of(condition), self.place_of(yes), self.place_of(no))
             case Call(function, (first, *others)):
-                place = self.place_of(first)
+                kind = FUNCTIONS[function]
+                if kind.form:
+                    return self.place_of(kind.written(kind.form, node.arguments))
+                operation, place = getattr(kernel, kind.operation), self.place_of(first)
                 if not others:
-                    return self._operation(OPERATIONS[function], place)
+                    return self._operation(operation, place)
                 for other in others:  # `min` and `max` of many are those of two, again and again
-                    place = self._operation(OPERATIONS[function], place, self.place_of(other))
+                    place = self._operation(operation, place, self.place_of(other))
                 return place
         raise ValueError(f"{node} is not bound")
 
@@ -164,22 +149,20 @@ class _Program:
                 return self._operation(kernel.LESS_EQUAL, self._condition(x), self.place_of(ZERO))
             case Call("if", (condition, yes, no)):
                 return self._choice(self._condition(condition), self.place_of(yes), self.place_of(no))
-            case Call("abs", (x,)) if signals(x):
-                below = self._operation(kernel.NEGATIVE, self._side(ZERO, x))
-                return self._operation(kernel.MULTIPLY, below, self.place_of(x))
-            case Call("min" | "max" as function, (first, second, *others)) if others:
-                return self.place_of(Call(function, (Call(function, (first, second)), *others)))
-            case Call("min" | "max" as function, (first, second)) if signals(node):
-                side = self._side(second, first) if function == "max" else self._side(first, second)
-                return self._choice(side, self.place_of(second), self.place_of(first))
+            case Call(function, (first, second, _, *_)) if FUNCTIONS[function].more:
+                return self.place_of(Call(function, (Call(function, (first, second)), *node.arguments[2:])))
+            case Call(function, arguments) if FUNCTIONS[function].choice and signals(node):
+                return self.place_of(FUNCTIONS[function].written(FUNCTIONS[function].choice, arguments))
         return None
 
     def _condition(self, node: Node) -> int:
         """Place of a number that is greater than zero where a condition holds, and that changes its sign with switches alone."""
-        is_truth = (isinstance(node, Operation) and node.symbol in (*COMPARISONS, *LOGICAL)) or (
-            isinstance(node, Call) and node.function == "not"
-        )
-        return self.place_of(node) if is_truth or not signals(node) else self._side(node, ZERO)
+        if is_truth(node) or not signals(node):
+            return self.place_of(node)
+        match node:
+            case Operation("-", first, second):
+                return self._side(first, second)
+        return self._side(node, ZERO)
 
     def _side(self, first: Node, second: Node) -> int:
         """Place of the side of first - second, whose sign does not depend on how it is written."""

@@ -1,0 +1,263 @@
+"""Table of the functions of expressions: for each its value, bounds, derivative, units, operation of a program, and corners.
+
+A row is all that is known of a function. Everything that reads expressions reads the table: values at a point (arithmetic.py), on arrays
+and over intervals (bounds.py), derivatives (derivative.py), units (measure.py, plain_factors.py), programs (system/laws/program.py), Python
+laws of complex numbers (system/laws/analytic_text.py), corners and jumps (analysis/curves). The page for users lists the rows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Final, Literal, NamedTuple, TypeVar
+
+import numpy as np
+
+from nivel.machine.units import intervals
+from nivel.machine.units.grammar import parse
+from nivel.machine.units.intervals import Array, Interval
+from nivel.machine.units.tree import (
+    COMPARISONS,
+    CONSTANTS,
+    LOGICAL,
+    Call,
+    Node,
+    Number,
+    Operation,
+    Signal,
+    parts,
+    substituted,
+)
+
+Argument = TypeVar("Argument")
+Pair = tuple[Node, Node | None]
+
+
+class Alike(NamedTuple):
+    """Arguments at these `places` (all, if empty) measure the same, being what is `done` with them; the value has their unit to a power."""
+
+    exponent: float = 1.0
+    places: tuple[int, ...] = ()
+    done: str = "compared"
+
+    def of(self, arguments: Sequence[Argument]) -> list[Argument]:
+        """Those of the arguments of a call."""
+        return [arguments[k] for k in self.places or range(len(arguments))]
+
+
+class Units(NamedTuple):
+    """The unit of a value is the product of those of the groups of alike arguments.
+
+    taken : what each argument must be; is_angle : the value is an angle
+    """
+
+    alike: tuple[Alike, ...] = ()
+    taken: Literal["", "an angle", "a pure number"] = ""
+    is_angle: bool = False
+
+
+PURE: Final = Units()
+SAME: Final = Units((Alike(),))
+OF_ANGLE: Final = Units(taken="an angle")
+OF_NUMBER: Final = Units(taken="a pure number")
+ANGLE_OF: Final = Units(taken="a pure number", is_angle=True)
+
+
+def _between_points(order: int) -> Units:
+    """Units of a derivative of this order of heights y0, y1 along x between x0 and x1."""
+    return Units((Alike(-float(order), (0, 1, 3)), Alike(1.0, (2, 4), "joined")))
+
+
+def _sign_decides(counts: Callable[..., bool], x: Node, *_: Node) -> Iterator[Pair]:
+    if counts(x):
+        yield x, None
+
+
+def _order_decides(counts: Callable[..., bool], *arguments: Node) -> Iterator[Pair]:
+    pairs = ((first, second) for k, first in enumerate(arguments) for second in arguments[:k])
+    yield from (pair for pair in pairs if counts(*pair))
+
+
+def _ends_decide(counts: Callable[..., bool], *arguments: Node) -> Iterator[Pair]:
+    if counts(*arguments):
+        yield from ((arguments[0], arguments[k]) for k in (1, 3))
+
+
+@dataclass(frozen=True)
+class FunctionKind:
+    """What is known of one function of expressions. Texts are expressions of its arguments.
+
+    arguments : their names. more : further arguments may follow, of which the value is that of the first two, and so on
+    meaning : one line for the page on numbers
+    form : the value in terms of other functions. What the row does not say follows from it
+    value, array : of floats and of arrays, as the math module and numpy have them
+    bounds : over intervals; without them the value rises with each argument within the `domain` of each
+    derivative : with respect to time, where dx is the rate of an argument x; arguments without a rate in it must be constant.
+        There is none of a function with sides or jumps of its own. smooth : text of what is smooth instead
+    operation : of `nivel.kernels.record.program`
+    analytic : on complex numbers the function of `nivel.kernels.algebra.analytic` is taken that has the name of numpy's
+    sides : pairs of expressions, or one and zero, whose order decides about the value, of those that count
+    choice : the value as a choice, whose condition is a switch
+    jumps : the value jumps where its first argument passes a value. is_truth : it is 1 or 0
+    """
+
+    arguments: str
+    meaning: str
+    units: Units
+    operation: str = ""
+    value: Callable[..., float] | None = None
+    array: np.ufunc | Callable[..., Array] | None = None
+    bounds: Callable[..., Interval] | None = None
+    domain: tuple[float, float] = (-np.inf, np.inf)
+    form: str = ""
+    derivative: str = ""
+    smooth: str = ""
+    analytic: bool = False
+    sides: Callable[..., Iterator[Pair]] | None = None
+    choice: str = ""
+    jumps: bool = False
+    is_truth: bool = False
+    more: bool = False
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the arguments."""
+        return tuple(self.arguments.split())
+
+    @property
+    def most(self) -> int:
+        """The largest number of arguments."""
+        return 99 if self.more else len(self.names)
+
+    @property
+    def body(self) -> Node:
+        """The tree of the form, in which the arguments stand as signals."""
+        return read(self.form, self.names)
+
+    def written(self, text: str, arguments: tuple[Node, ...]) -> Node:
+        """One of the texts with these arguments in it."""
+        return substituted(read(text, self.names), dict(zip(self.names, arguments, strict=True)))
+
+    @property
+    def is_form_alone(self) -> bool:
+        """Whether corners and jumps are those of the form."""
+        return bool(self.form) and not self.jumps and self.sides is None
+
+
+@lru_cache(maxsize=256)
+def read(text: str, names: tuple[str, ...]) -> Node:
+    """The tree of a text of the table, in which the `names` stand as signals."""
+    constants = {name: Number(value) for name, value in CONSTANTS.items()}
+    return substituted(parse(text), constants | {name: Signal(name) for name in names})
+
+
+def inner_parts(node: Node) -> tuple[Node, ...]:
+    """The parts of `node` in which corners and jumps of other functions can be."""
+    match node:
+        case Call(function, arguments) if (kind := FUNCTIONS[function]).is_form_alone:
+            return (kind.written(kind.form, arguments),)
+    return parts(node)
+
+
+def is_truth(node: Node) -> bool:
+    """Whether a node is a condition, 1 or 0, whose own sides say where it changes."""
+    match node:
+        case Operation(symbol):
+            return symbol in (*COMPARISONS, *LOGICAL)
+        case Call(function):
+            return FUNCTIONS[function].is_truth
+    return False
+
+
+def _step(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+    return y0 + (y1 - y0) * s**3 * (10.0 + s * (-15.0 + s * 6.0))
+
+
+def _step_rate(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+    return (y1 - y0) / (x1 - x0) * 30.0 * s**2 * (1.0 - s) ** 2
+
+
+def _step_acceleration(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+    return (y1 - y0) / (x1 - x0) ** 2 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)
+
+
+_POINTS: Final = "x x0 y0 x1 y1"
+_SHARE: Final = "min(max((x - x0)/(x1 - x0), 0), 1)"
+_SMOOTH: Final = "step(time, t0, a, t1, b)"
+
+# fmt: off
+FUNCTIONS: Final[dict[str, FunctionKind]] = {
+    "sin": FunctionKind("x", "sine", OF_ANGLE, "SIN", math.sin, np.sin, intervals.sine, derivative="cos(x)*dx"),
+    "cos": FunctionKind("x", "cosine", OF_ANGLE, "COS", math.cos, np.cos, intervals.cosine, derivative="-sin(x)*dx"),
+    "tan": FunctionKind("x", "tangent", OF_ANGLE, "TAN", math.tan, np.tan, intervals.tangent, derivative="(1 + tan(x)^2)*dx"),
+    "asin": FunctionKind(
+        "x", "angle with this sine, -π/2 to π/2", ANGLE_OF, "ASIN", math.asin, np.arcsin,
+        domain=(-1.0, 1.0), derivative="1/sqrt(1 - x*x)*dx",
+    ),
+    "acos": FunctionKind(
+        "x", "angle with this cosine, 0 to π", ANGLE_OF, "ACOS", math.acos, np.arccos, intervals.arc_cosine,
+        derivative="-(1/sqrt(1 - x*x))*dx",
+    ),
+    "atan": FunctionKind(
+        "x", "angle with this tangent, -π/2 to π/2", ANGLE_OF, "ATAN", math.atan, np.arctan, derivative="1/(1 + x*x)*dx",
+    ),
+    "atan2": FunctionKind(
+        "y x", "angle of the point (x, y), -π to π", Units((Alike(0.0),), is_angle=True), "ATAN2", math.atan2, np.arctan2,
+        intervals.polar_angle, derivative="(x*dy - y*dx)/(x*x + y*y)", analytic=True,
+    ),
+    "sqrt": FunctionKind(
+        "x", "square root", Units((Alike(0.5),)), "SQRT", math.sqrt, np.sqrt, domain=(0.0, np.inf), derivative="1/(2*sqrt(x))*dx",
+    ),
+    "exp": FunctionKind("x", "exponential function", OF_NUMBER, "EXP", math.exp, np.exp, derivative="exp(x)*dx"),
+    "log": FunctionKind(
+        "x", "natural logarithm", OF_NUMBER, "LOG", math.log, np.log, domain=(0.0, np.inf), derivative="1/x*dx",
+    ),
+    "abs": FunctionKind(
+        "x", "absolute value", SAME, "ABS", math.fabs, np.abs, intervals.absolute,
+        analytic=True, sides=_sign_decides, choice="if(-x, -x, x)",
+    ),
+    "min": FunctionKind(
+        "x y", "the smallest of two or more values", SAME, "MIN", min, np.minimum,
+        more=True, analytic=True, sides=_order_decides, choice="if(x - y, y, x)",
+    ),
+    "max": FunctionKind(
+        "x y", "the largest of two or more values", SAME, "MAX", max, np.maximum,
+        more=True, analytic=True, sides=_order_decides, choice="if(y - x, y, x)",
+    ),
+    "step": FunctionKind(
+        _POINTS, "`y0` up to `x0`, `y1` from `x1` on; a quintic between them, with continuous second derivative",
+        _between_points(0), value=_step, form=f"y0 + (y1 - y0)*({_SHARE}^2*{_SHARE}*(10 + {_SHARE}*(6*{_SHARE} - 15)))",
+        derivative="step_rate(x, x0, y0, x1, y1)*dx", sides=_ends_decide,
+    ),
+    "step_rate": FunctionKind(
+        _POINTS, "first derivative of the `step` with the same arguments",
+        _between_points(1), value=_step_rate, form=f"(y1 - y0)/(x1 - x0)*(30*({_SHARE}*(1 - {_SHARE}))^2)",
+        derivative="step_acceleration(x, x0, y0, x1, y1)*dx", sides=_ends_decide,
+    ),
+    "step_acceleration": FunctionKind(
+        _POINTS, "second derivative of the `step` with the same arguments", _between_points(2), value=_step_acceleration,
+        form=f"(y1 - y0)/(x1 - x0)^2*(60*({_SHARE}*(1 - {_SHARE}))*(1 + {_SHARE}*(-2)))", sides=_ends_decide,
+    ),
+    "ramp": FunctionKind(
+        _POINTS, "as `step`, with a straight line in place of the quintic",
+        _between_points(0), form=f"y0 + (y1 - y0)*{_SHARE}", smooth=_SMOOTH, sides=_ends_decide,
+    ),
+    "if": FunctionKind(
+        "condition a b", "`a` if the condition is true, else `b`", Units((Alike(1.0, (1, 2), "values of one `if`"),)), "CHOOSE",
+        array=lambda condition, yes, no: np.where(condition > 0.0, yes, no), bounds=intervals.choice,
+        smooth=_SMOOTH, sides=_sign_decides, jumps=True,
+    ),
+    "not": FunctionKind("x", "1 if x is false, else 0", PURE, form="x <= 0", sides=_sign_decides, jumps=True, is_truth=True),
+    "sign": FunctionKind("x", "-1, 0 or 1", PURE, form="(0 < x) - (x < 0)", sides=_sign_decides, jumps=True),
+    "floor": FunctionKind("x", "the largest integer ≤ x", PURE, "FLOOR", math.floor, np.floor, jumps=True),
+    "mod": FunctionKind("x y", "the remainder of x divided by y", SAME, form="x - y*floor(x/y)", jumps=True),
+    "tanh": FunctionKind(
+        "x", "hyperbolic tangent", OF_NUMBER, "TANH", math.tanh, np.tanh, derivative="(1 - tanh(x)^2)*dx", analytic=True,
+    ),
+}
+# fmt: on

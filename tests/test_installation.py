@@ -83,7 +83,7 @@ def test_the_first_machine_has_run_the_demo_is_operated_and_the_result_is_shown(
             page = seen.open(address)
             until(page, "!!nivel.app.live.status")
             before = poses(seen)
-            key = re.search(r"lift_lever: (\w) raises", said)[1]
+            key = re.search(r"Lift lever[^:]*: (\w), the other way", said)[1].lower()
             page.keyboard.down(key)
             until(page, lambda: moved(before, poses(seen)) > MOVED)
             page.keyboard.up(key)

@@ -85,7 +85,7 @@ def test_result_and_report_stand_beside_each_other(folder, call):
     assert "trust: green, within " in done.stderr
     said = " ".join(done.stderr.split())  # lines end where the window does
     assert re.search(
-        r"pendulum: completed \(t = [\d.]+ s\), \d+ steps computed in [\d.]+ m?s \([\d.]+ [mµn]s per step\)", said
+        r"pendulum: completed \(t = [\d.]+ s\), \d+ steps computed in [\d.]+ [mµ]?s \([\d.]+ [mµn]s per step\)", said
     )
     assert f"All {len(result.trust.items) - 1} numerical checks passed" in done.stderr
     assert 0 < np.nanmax(result.estimated_error("hinge.angle")) < 1e-6

@@ -30,7 +30,9 @@ def kinds_of_records():
         yield from (each for one in record.__subclasses__() for each in (one, *below(one)))
 
     found = [each for each in below(Record) if each.__module__.startswith("nivel.machine.")]
-    public = {each for each in found if not each.__name__.startswith("_")}
+    # not those that are made while a file is read, in which some fields are missing
+    made = {each for each in found if getattr(sys.modules[each.__module__], each.__name__, None) is each}
+    public = {each for each in made if not each.__name__.startswith("_")}
     return sorted(public, key=lambda each: (each.__module__, each.__name__))
 
 

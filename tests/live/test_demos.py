@@ -53,17 +53,17 @@ def test_a_recorded_crane_is_replayed_with_its_trust_and_the_guard_of_its_circui
     assert again.result.array("lift_lever.value")[-1] == pytest.approx(tape[-1, lever], abs=0.03)
 
 
-@pytest.mark.parametrize("name", HYDRAULIC)
-def test_a_hydraulic_machine_stands_still_until_its_levers_are_moved(name):
-    moved = HYDRAULIC[name]
-    tables = {lever: Table((0, REST, PUSHED, END), (0, 0, 1, 1)) for lever in moved}
-    result = nivel.load(demo_file(name)).simulate(duration=END, output_interval=0.05, inputs=tables)
+@pytest.mark.parametrize(
+    ("name", "lever", "coordinate"), [(name, *each) for name, moved in HYDRAULIC.items() for each in moved.items()]
+)
+def test_a_hydraulic_machine_stands_still_until_a_lever_raises_what_it_says(name, lever, coordinate):
+    table = Table((0, REST, PUSHED, END), (0, 0, 1, 1))
+    result = nivel.load(demo_file(name)).simulate(duration=END, output_interval=0.05, inputs={lever: table})
     position, resting = result.array("position"), result.time <= REST + 1e-9
     assert resting.sum() > 2
     assert np.abs(position[resting] - position[0]).max() < STILL
-    for coordinate in moved.values():
-        course = result.array(coordinate)
-        assert course[-1] - course[0] > 0.005  # rad or m, of levers that are pushed together
+    course = result.array(coordinate)
+    assert course[-1] - course[0] > 0.02  # rad or m
 
 
 @pytest.mark.parametrize("name", DEMOS)

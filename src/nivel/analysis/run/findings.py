@@ -15,15 +15,14 @@ from nivel.analysis.run.flexible_facts import modal_bases, modal_bodies
 from nivel.analysis.run.second_run import Verified
 from nivel.analysis.run.separate_parts import separate_parts
 from nivel.analysis.run.singular_passages import passages
+from nivel.analysis.trust.checks.beam_mesh import coarsest, meshes, say
 from nivel.integrate.loop.run import TURNED
 from nivel.machine.bodies.shape import Sphere
-from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.forces import Contact
 from nivel.results.result import Result
 from nivel.results.scales import machine_size, speed_of_rest
 from nivel.results.trust.accuracy import error_from_finer, extent
 from nivel.results.trust.basis import most_coarse, most_lacking
-from nivel.results.trust.beam_mesh import BeamMesh, coarsest, turns
 from nivel.results.trust.bending import fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.findings import Findings
@@ -52,6 +51,7 @@ def find(
     settings, fixed = plan.settings, plan.settings.steps > 0
     turned, bending = finished.pace[TURNED], modal_bodies(plan)
     bases = modal_bases(plan, prepared)
+    coarse = coarsest(result, meshes(plan))
     implicit = prepared.integrator.needs != "evaluations"
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
@@ -70,7 +70,7 @@ def find(
         bent=most_bent(result, bending),
         lacking=most_lacking(result, bases),
         meshed=most_coarse(result, bases),
-        coarse=coarsest(result, _meshes(plan)),
+        coarse=say(coarse) if coarse is not None else None,
         part=_part(plan, result),
         method=settings.integrator,
         agreed=_agreed(result, verified) if verified is not None else None,
@@ -111,18 +111,6 @@ def _hulls(plan: Plan) -> list[HullPair]:
             first, second = (hull_of(bodies[name]) for name in force.bodies)
             middles, corners = (first.middle, second.middle), (first.corners, second.corners)
             out.append(HullPair(force.name, force.bodies, middles, corners, (first.faces, second.faces)))
-    return out
-
-
-def _meshes(plan: Plan) -> list[BeamMesh]:
-    """The beams whose elements are linear or quadratic."""
-    out = []
-    for beam in plan.machine.beams:
-        if beam.order <= 2 and beam.model != "ancf-cable":
-            axes = beam.frames(beam.shares)[1]
-            theta = np.array([euler_parameters_from_matrix(each) for each in axes])
-            length, stiffness = beam.line.length * np.diff(beam.shares), np.diag(beam.properties.stiffness)[3:]
-            out.append(BeamMesh(beam.name, beam.node_names, length, stiffness, turns(theta), beam.order))
     return out
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from nivel.results.trust.basis import Lacking
-from nivel.results.trust.beam_mesh import Coarse
 from nivel.results.trust.bending import Bent
 from nivel.results.trust.missed_impulse import Unseen
 from nivel.results.trust.part_energy import PartError
@@ -58,7 +57,7 @@ class Findings:
     passages: Sequence[Passage] = ()
     passed: Sequence[Passed] = ()
     bent: Bent | None = None
-    coarse: Coarse | None = None
+    coarse: Item | None = None
     lacking: Lacking | None = None
     meshed: Bent | None = None
     part: PartError | None = None
@@ -82,7 +81,7 @@ def finding_items(found: Findings) -> Iterator[Item]:
     if found.bent is not None:
         yield from _told(_bent_item(found.bent))
     if found.coarse is not None:
-        yield from _told(_coarse_item(found.coarse))
+        yield from _told(found.coarse)
     if found.meshed is not None:
         yield from _told(_meshed_item(found.meshed))
     if found.lacking is not None:
@@ -102,9 +101,10 @@ def _told(item: Item) -> Iterator[Item]:
         yield item
 
 
-def _measured(
+def measured(
     name: str, text: str, value: float, time: float | None, row: str, threshold: Threshold | None = None
 ) -> Item:
+    """An item held against a threshold, by default that of its name."""
     threshold = threshold or CHECKS[name]
     verdict = threshold.verdict(value)
     return Item(name, verdict, f"{text} ({threshold})", value, threshold.green, threshold.amber, row, time)
@@ -120,7 +120,7 @@ def _unseen_items(unseen: Sequence[Unseen], agreed: float | None) -> Iterator[It
             much = f"this is {number(each.hidden)} of it over the whole run, more than the two runs differ, and both may miss it"
             yield Item("loads", "amber", f"Loads: {said} {advice} ({much})", each.share, row=each.name, time=each.time)
         else:
-            yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+            yield measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
 
 
 def _is_missed(each: Unseen, agreed: float | None) -> bool:
@@ -135,7 +135,7 @@ def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
     for each in told[:SHOWN]:
         said = f"after t = {each.time:.6g} s {each.name} changes by {number(each.share)} of its range and back between two samples"
         advice = f"{number(each.step)} s apart, within {number(each.scale)} s; use a shorter sample_time if the block shall see it"
-        yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
+        yield measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
 
 
 def _passed_item(passed: Passed) -> Item:
@@ -155,7 +155,7 @@ def steps_item(fast: Fast) -> Item:
     does = "holds" if fast.step > fast.held else "follows"
     said = f"the fastest rate of the machine is {number(fast.rate)}/s{of}, and {fast.method} {does} it with steps below {number(step)} s"
     text = f"Steps: {said}, but the step is {number(fast.step)} s; use a shorter step, or `integrator: radau`"
-    return _measured("steps", text, fast.step * fast.rate, None, fast.part)
+    return measured("steps", text, fast.step * fast.rate, None, fast.part)
 
 
 def _turn_item(turn: Turn) -> Item:
@@ -165,13 +165,13 @@ def _turn_item(turn: Turn) -> Item:
     said = (
         f"Turning: {turn.body} rotates by {number(turn.angle)} rad in one step at t = {turn.time:.6g} s, and {meaning}"
     )
-    return _measured("turn", f"{said}; use shorter steps", turn.angle, turn.time, turn.body, threshold)
+    return measured("turn", f"{said}; use shorter steps", turn.angle, turn.time, turn.body, threshold)
 
 
 def _rounding_item(rounding: Rounding) -> Item:
     far = f"{rounding.body} is {number(rounding.distance)} m from the origin, where positions are rounded to {number(rounding.unit)} m"
     lost = f"over all steps this may add up to {number(rounding.share)} of the machine's size"
-    return _measured(
+    return measured(
         "rounding", f"Round-off: {far}; {lost}; move the machine to the origin", rounding.share, None, rounding.body
     )
 
@@ -179,7 +179,7 @@ def _rounding_item(rounding: Rounding) -> Item:
 def _own_item(own: OwnError) -> Item:
     its = f"{number(own.extent)} {own.units}"
     said = f"{own.name} is off by {number(own.error)} {own.units}, {number(own.share)} of its own motion over {its}"
-    return _measured("parts", f"Parts: {said}", own.share, None, own.name)
+    return measured("parts", f"Parts: {said}", own.share, None, own.name)
 
 
 def _part_item(part: PartError) -> Item:
@@ -187,7 +187,7 @@ def _part_item(part: PartError) -> Item:
     said = (
         f"Parts: the energy of {part.body} and the bodies joined to it has an error of {its}, at t = {part.time:.6g} s"
     )
-    return _measured("parts", said, part.share, part.time, part.body, THRESHOLDS["energy"])
+    return measured("parts", said, part.share, part.time, part.body, THRESHOLDS["energy"])
 
 
 def _passage_item(passages: Sequence[Passage]) -> Item:
@@ -206,7 +206,7 @@ def _unstiffened_item(found: Bent) -> Item:
         f"Stiffening: {found.body} has no geometric stiffness; at t = {found.time:.6g} s the square of its rotational speed is "
         f"{number(found.value)} of that of its lowest frequency; reduce it with `stiffening: true`"
     )
-    return _measured("stiffening", said, found.value, found.time, found.body)
+    return measured("stiffening", said, found.value, found.time, found.body)
 
 
 def _bent_item(found: Bent) -> Item:
@@ -214,16 +214,7 @@ def _bent_item(found: Bent) -> Item:
         f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s, but modes describe small "
         f"displacements: use a beam in its place, or several bodies"
     )
-    return _measured("bending", said, found.value, found.time, found.body)
-
-
-def _coarse_item(coarse: Coarse) -> Item:
-    advice = "use twice as many, or `order: 2`" if coarse.order == 1 else "use twice as many"
-    said = (
-        f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
-        f"t = {coarse.time:.6g} s, because the curvature changes within them; {advice}"
-    )
-    return _measured("mesh", said, coarse.share, coarse.time, coarse.beam)
+    return measured("bending", said, found.value, found.time, found.body)
 
 
 def _meshed_item(found: Bent) -> Item:
@@ -231,7 +222,7 @@ def _meshed_item(found: Bent) -> Item:
         f"Mesh: the finite elements of {found.body} have an error of {number(found.value)} of its strain energy at t = {found.time:.6g} s; "
         f"reduce it with smaller elements"
     )
-    return _measured("mesh", said, found.value, found.time, found.body)
+    return measured("mesh", said, found.value, found.time, found.body)
 
 
 def _lacking_item(lacking: Lacking) -> Item:
@@ -239,7 +230,7 @@ def _lacking_item(lacking: Lacking) -> Item:
         f"Modes: {lacking.body} has {lacking.modes} modes; those left out, mainly one at {number(lacking.frequency)} Hz, would have "
         f"{number(lacking.share)} of its strain energy at t = {lacking.time:.6g} s; use more `modes`"
     )
-    return _measured("modes", said, lacking.share, lacking.time, lacking.body)
+    return measured("modes", said, lacking.share, lacking.time, lacking.body)
 
 
 def _damped_item(damped: Damped, method: str) -> Item:

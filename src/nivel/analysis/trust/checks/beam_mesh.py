@@ -14,7 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.plan.plan import Plan
+from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.results.scales import Readable, largest_mechanical_energy
+from nivel.results.trust.findings import measured
+from nivel.results.trust.verdicts import Item, number
 
 Array = NDArray[np.float64]
 FRAMES = 200  # that are looked at, at most
@@ -43,6 +47,28 @@ class Coarse:
     time: float
     elements: int
     order: int
+
+
+def say(coarse: Coarse) -> Item:
+    """What the elements of a beam miss, and what to do."""
+    advice = "use twice as many, or `order: 2`" if coarse.order == 1 else "use twice as many"
+    said = (
+        f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
+        f"t = {coarse.time:.6g} s, because the curvature changes within them; {advice}"
+    )
+    return measured("mesh", said, coarse.share, coarse.time, coarse.beam)
+
+
+def meshes(plan: Plan) -> list[BeamMesh]:
+    """The beams whose elements are linear or quadratic."""
+    out = []
+    for beam in plan.machine.beams:
+        if beam.order <= 2 and beam.model != "ancf-cable":
+            axes = beam.frames(beam.shares)[1]
+            theta = np.array([euler_parameters_from_matrix(each) for each in axes])
+            length, stiffness = beam.line.length * np.diff(beam.shares), np.diag(beam.properties.stiffness)[3:]
+            out.append(BeamMesh(beam.name, beam.node_names, length, stiffness, turns(theta), beam.order))
+    return out
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")

@@ -40,7 +40,7 @@ from nivel.machine.core.record import field_words
 from nivel.machine.forces import FORCES
 from nivel.machine.laws.python_law import KEYS as LAW_KEYS
 from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
-from nivel.machine.settings import Baumgarte
+from nivel.machine.settings.run import Baumgarte
 from nivel.machine.signals.input import Gamepad, Input, Keys
 from nivel.machine.signals.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
 from nivel.machine.units.dimension import KINDS

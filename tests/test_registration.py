@@ -10,14 +10,15 @@ from typing import get_args
 import pytest
 
 import nivel.integrate
-from nivel.cli.options import METHODS
+from nivel.cli.run import command as run_command
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.kernels.hydraulics import tangent
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.keywords import kind_of
+from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.native.entry import Entry
@@ -32,9 +33,13 @@ def words(setting):
     return set(known_words(setting))
 
 
-@pytest.mark.parametrize("setting", METHODS)
+@pytest.mark.parametrize(
+    "setting", [name for name, field in SimulationSettings.model_fields.items() if kind_of(field).words]
+)
 def test_help_lists_the_words_that_a_file_may_name(setting):
     assert known_words(setting) == get_args(SimulationSettings.model_fields[setting].annotation)
+    (option,) = [each for each in run_command.params if each.name == setting]
+    assert tuple(option.words) == known_words(setting)
 
 
 def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():

@@ -8,9 +8,9 @@ from dataclasses import replace
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
-from nivel.analysis.compare.compare_grid import Axes, compile_grid, lay_out
+from nivel.analysis.compare.compare_grid import compile_grid, lay_out
 from nivel.analysis.plan.compilation import (
     assembly_entries,
     build,
@@ -46,7 +46,9 @@ from nivel.machine import (
     Table,
 )
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
+from nivel.machine.settings.compare import COMMON, Axes
 from nivel.model import Model
+from nivel.settings import CompareSettingsDict, RunSettingsDict, StepSettingsDict
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import shown
 
@@ -59,15 +61,7 @@ if TYPE_CHECKING:
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
-    from nivel.machine.settings import (
-        Coordinates,
-        Formulation,
-        Integrator,
-        Rotations,
-        Stabilisation,
-        Start,
-        StepControl,
-    )
+    from nivel.methods import StaticCoordinates
     from nivel.native.entry import Entry
     from nivel.results.analyses.configuration_curve import ConfigurationCurve
     from nivel.results.analyses.efforts import Efforts
@@ -77,10 +71,8 @@ if TYPE_CHECKING:
     from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
-
-    StaticCoordinates = Literal["auto", "absolute", "relative"]
 else:  # other words are refused by those who read settings, with the nearest one
-    Coordinates = Formulation = Integrator = Rotations = Stabilisation = Start = StaticCoordinates = StepControl = str
+    StaticCoordinates = str
 
 
 class Machine(Model):
@@ -192,39 +184,16 @@ class Machine(Model):
     def simulate(
         self,
         *,
-        duration: float | str | None = None,
-        step: float | str | None = None,
-        output_interval: float | str | None = None,
-        integrator: Integrator | None = None,
-        formulation: Formulation | None = None,
-        coordinates: Coordinates | None = None,
-        rotations: Rotations | None = None,
-        stabilisation: Stabilisation | None = None,
-        start: Start | None = None,
-        step_control: StepControl | None = None,
-        tolerance: float | str | None = None,
-        largest_step: float | str | None = None,
-        cut: Sequence[str] | str | None = None,
-        corrector: Mapping[str, Any] | None = None,
-        penalty: Mapping[str, Any] | None = None,
-        baumgarte: Mapping[str, Any] | None = None,
-        newmark: Mapping[str, Any] | None = None,
-        hht: Mapping[str, Any] | None = None,
-        generalised_alpha: Mapping[str, Any] | None = None,
         inputs: Mapping[str, float | str | PathLike[str] | Table] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = True,
         verify_limit: float | str | None = None,
         listener: Listener | None = None,
+        **settings: Unpack[RunSettingsDict],
     ) -> Result:
-        """Motion in time. Options given here override those of the machine's `simulation`.
+        """Motion in time. Settings given here override those of the machine's `simulation`, and are what they are there.
 
-        duration, step, output_interval, largest_step : [s], or texts with units. start : as-given, or equilibrium: at rest where the
-        machine settles. step_control : fixed, or error: steps chosen for the
-        tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
-        cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
-        hht, generalised_alpha : mappings as in a machine file.
         inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
         beside this one, with finer steps on other times, tells how exact every number is, as with `nivel run`; without it the result says
@@ -233,28 +202,7 @@ class Machine(Model):
         A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
-        given = {
-            "duration": duration,
-            "step": step,
-            "output_interval": output_interval,
-            "integrator": integrator,
-            "formulation": formulation,
-            "coordinates": coordinates,
-            "rotations": rotations,
-            "stabilisation": stabilisation,
-            "start": start,
-            "step_control": step_control,
-            "tolerance": tolerance,
-            "largest_step": largest_step,
-            "cut": cut,
-            "corrector": corrector,
-            "penalty": penalty,
-            "baumgarte": baumgarte,
-            "newmark": newmark,
-            "hht": hht,
-            "generalised_alpha": generalised_alpha,
-        }
-        given = {key: value for key, value in given.items() if value is not None}
+        given = {key: value for key, value in settings.items() if value is not None}
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
@@ -293,31 +241,16 @@ class Machine(Model):
     def start(
         self,
         *,
-        step: float | str | None = None,
-        output_interval: float | str | None = None,
-        integrator: Integrator | None = None,
-        formulation: Formulation | None = None,
-        coordinates: Coordinates | None = None,
-        stabilisation: Stabilisation | None = None,
-        start: Start | None = None,
         record: bool = False,
         listener: Listener | None = None,
+        **settings: Unpack[StepSettingsDict],
     ) -> Simulation:
         """The machine ready to move step by step: ``sim.step()``, ``sim["hinge.angle"]``, ``sim.state``.
 
-        Options override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
+        Settings override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
         record : keep a frame every `output_interval`, for ``sim.result()``. Raises ModelError.
         """
-        given = {
-            "step": step,
-            "output_interval": output_interval,
-            "integrator": integrator,
-            "formulation": formulation,
-            "coordinates": coordinates,
-            "stabilisation": stabilisation,
-            "start": start,
-        }
-        given = {key: value for key, value in given.items() if value is not None}
+        given = {key: value for key, value in settings.items() if value is not None}
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
@@ -337,7 +270,7 @@ class Machine(Model):
         save: Sequence[str] | str = (),
         processes: int | None = None,
         listener: Listener | None = None,
-        **settings: Any,
+        **settings: Unpack[RunSettingsDict],
     ) -> xarray.Dataset:
         """Run the machine with other values, on all processors, into one xarray dataset.
 
@@ -351,7 +284,7 @@ class Machine(Model):
         `verdict` stand there for every variant. Ctrl-C ends the sweep; what was computed is returned.
         Raises ModelError where values or names are not known, or no variant can be run.
         """
-        machine = self.with_settings(settings)
+        machine = self.with_settings({key: value for key, value in settings.items() if value is not None})
         return _sweep([machine], values, (combine, samples, seed), (save, processes), listener)
 
     @checked_arguments
@@ -712,41 +645,22 @@ class Machine(Model):
     def compare(
         self,
         *,
-        integrators: Sequence[Integrator] | Integrator | None = None,
-        formulations: Sequence[Formulation] | Formulation | None = None,
-        coordinates: Sequence[Coordinates] | Coordinates | None = None,
-        rotations: Sequence[Rotations] | Rotations | None = None,
-        stabilisations: Sequence[Stabilisation] | Stabilisation | None = None,
-        steps: Sequence[float | str] | float | str | None = None,
-        tolerances: Sequence[float | str] | float | str | None = None,
-        duration: float | str | None = None,
-        output_interval: float | str | None = None,
-        largest_step: float | str | None = None,
-        cut: Sequence[str] | str | None = None,
         repeat: int = 3,
         listener: Listener | None = None,
+        **settings: Unpack[CompareSettingsDict],
     ) -> Comparison:
-        """Run all combinations of the given words; an axis that is None has the machine's own setting.
+        """Run all combinations of the given words, steps and tolerances; an axis that is not given has the machine's own setting.
 
-        steps [s] : of integrators with a fixed one; tolerances : of the others. duration, output_interval, largest_step [s], cut : of
-        all runs. repeat : every cell runs so often, its time is the least. Times are numbers in seconds, or texts with units.
+        duration, output_interval, largest_step, cut : of all runs. Times are numbers in seconds, or texts with units. repeat : every cell
+        runs so often, its time is the least.
         Failed or invalid combinations are reported in their row. Interrupted, it returns what was computed.
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
         if repeat < 1:
             raise ModelError(Fault("", 0, 0, "repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
-        words: dict[str, Any] = {
-            "integrators": integrators,
-            "formulations": formulations,
-            "coordinates": coordinates,
-            "rotations": rotations,
-            "stabilisations": stabilisations,
-            "steps": steps,
-            "tolerances": tolerances,
-        }
-        axes = Axes(**words)
-        common = {"duration": duration, "output_interval": output_interval, "largest_step": largest_step, "cut": cut}
-        given = {name: value for name, value in common.items() if value is not None}
+        asked = {key: value for key, value in settings.items() if value is not None}
+        axes = Axes(**{key: value for key, value in asked.items() if key in Axes.model_fields})
+        given = {key: value for key, value in asked.items() if key in COMMON}
         chosen = self.with_settings(given)
         grid = lay_out(chosen.record, axes, given)
         compile_grid(chosen.record, grid, listener)

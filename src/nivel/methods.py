@@ -22,6 +22,7 @@ EITHER: Final[tuple[str, ...]] = get_args(EitherStep)
 StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
+StaticCoordinates = Literal["auto", "absolute", "relative"]  # of analyses other than runs
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
 Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
 Start = Literal["as-given", "equilibrium"]

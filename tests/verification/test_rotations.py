@@ -6,7 +6,7 @@ import pytest
 import machines
 from nivel.errors import ModelError
 from nivel.machine import MachineRecord
-from nivel.machine.settings import Baumgarte
+from nivel.machine.settings.run import Baumgarte
 from preparing import prepare
 from references import slider_crank as slider_crank_reference
 from running import run

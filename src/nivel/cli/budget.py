@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, method_option, override_option, quiet_option, separated
+from nivel.cli.options import (
+    allow_code_option,
+    file_argument,
+    override_option,
+    quiet_option,
+    separated,
+    setting_options,
+)
+from nivel.settings import StepSettingsDict
 
 if TYPE_CHECKING:
     from nivel.live.budget import Cost
@@ -18,7 +26,7 @@ if TYPE_CHECKING:
 @file_argument("machine")
 @override_option
 @allow_code_option
-@click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
+@setting_options(StepSettingsDict, "step", "formulation", "coordinates", "stabilisation")
 @click.option(
     "--tick",
     type=float,
@@ -32,9 +40,6 @@ if TYPE_CHECKING:
     callback=separated,
     help="Methods to compare; default: that of the file and all that need no compilation.",
 )
-@method_option("formulation")
-@method_option("coordinates")
-@method_option("stabilisation")
 @quiet_option
 def command(
     machine: str,
@@ -43,7 +48,7 @@ def command(
     tick: float | None,
     integrators: tuple[str, ...] | None,
     quiet: bool,
-    **methods: Any,
+    settings: dict[str, Any],
 ) -> None:
     """Measure the computing time of a tick of live operation.
 
@@ -64,7 +69,6 @@ def command(
     for name in integrators or ():
         if name not in fixed_methods():
             raise ModelError(Fault("", 0, 0, "integrators", unknown_word(name, fixed_methods(), "integrator")))
-    settings = {name: value for name, value in methods.items() if value is not None}
     record = load(machine, overrides, allow_code=allow_code).record
     own = record.simulation.integrator
     with progress_listener(quiet) as listener:

@@ -10,20 +10,16 @@ import click
 from nivel.cli.failures import COMPUTATION_FAILED, INPUT_AT_FAULT
 from nivel.cli.options import (
     allow_code_option,
-    cut_option,
-    duration_option,
     file_argument,
     force_option,
     json_option,
-    largest_step_option,
-    method_option,
     no_report_option,
-    output_interval_option,
     override_option,
     quiet_option,
-    separated,
+    setting_options,
 )
 from nivel.cli.progress import progress_listener
+from nivel.settings import CompareSettingsDict
 
 if TYPE_CHECKING:
     from nivel.errors import ModelError
@@ -36,25 +32,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 
 @click.command(short_help="Run many methods and compare their speed and accuracy.")
 @file_argument("machine")
-@method_option("integrator", plural=True)
-@method_option("formulation", plural=True)
-@method_option("coordinates", plural=True)
-@method_option("rotations", plural=True)
-@method_option("stabilisation", plural=True)
-@click.option(
-    "--steps",
-    metavar="TIMES",
-    multiple=True,
-    callback=separated,
-    help="Steps of integrators with a fixed step, e.g. 1ms,2ms.",
-)
-@click.option(
-    "--tolerances",
-    metavar="NUMBERS",
-    multiple=True,
-    callback=separated,
-    help="Tolerances of integrators that choose their steps.",
-)
+@setting_options(CompareSettingsDict)
 @click.option(
     "--repeat",
     type=click.IntRange(1),
@@ -62,10 +40,6 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     show_default=True,
     help="Number of runs of every combination; the fastest counts.",
 )
-@duration_option
-@output_interval_option
-@largest_step_option
-@cut_option
 @override_option
 @allow_code_option
 @click.option(
@@ -86,18 +60,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 @json_option
 def command(
     machine: str,
-    integrators: tuple[str, ...] | None,
-    formulations: tuple[str, ...] | None,
-    coordinates: tuple[str, ...] | None,
-    rotations: tuple[str, ...] | None,
-    stabilisations: tuple[str, ...] | None,
-    steps: tuple[str, ...] | None,
-    tolerances: tuple[str, ...] | None,
     repeat: int,
-    duration: str | None,
-    output_interval: str | None,
-    largest_step: str | None,
-    cut: tuple[str, ...],
     overrides: dict[str, str],
     allow_code: bool,
     out: tuple[Path, ...],
@@ -106,6 +69,7 @@ def command(
     force: bool,
     quiet: bool,
     as_json: bool,
+    settings: dict[str, Any],
 ) -> None:
     """Run MACHINE with all combinations of the given words, and compare their computing times and errors.
 
@@ -126,25 +90,8 @@ def command(
     _refuse_other_kinds(tables)
     page = None if no_report else report or tables[0].with_suffix(".html")
     _refuse_to_replace(tables, page, force, Path(machine))
-    words: dict[str, Any] = {  # not yet known to be words of settings
-        "integrators": integrators,
-        "formulations": formulations,
-        "coordinates": coordinates,
-        "rotations": rotations,
-        "stabilisations": stabilisations,
-    }
     with progress_listener(quiet) as listener:
-        comparison = loaded.compare(
-            **words,
-            steps=steps,
-            tolerances=tolerances,
-            duration=duration,
-            output_interval=output_interval,
-            largest_step=largest_step,
-            cut=cut or None,
-            repeat=repeat,
-            listener=listener,
-        )
+        comparison = loaded.compare(**settings, repeat=repeat, listener=listener)
     unwritten = _written(comparison, tables, page, quiet)
     if as_json:
         click.echo(comparison.to_json(), nl=False)

@@ -17,10 +17,11 @@ from nivel.cli.options import (
     allow_code_option,
     file_argument,
     force_option,
-    method_option,
     override_option,
     quiet_option,
+    setting_options,
 )
+from nivel.settings import StepSettingsDict
 
 if TYPE_CHECKING:
     from nivel.live.session import Session
@@ -41,17 +42,13 @@ TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 @file_argument("machine")
 @override_option
 @allow_code_option
-@click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
+@setting_options(StepSettingsDict, "step", "integrator", "formulation", "coordinates", "stabilisation")
 @click.option(
     "--tick",
     type=float,
     metavar="SECONDS",
     help="Time between two readings of the inputs: a whole number of steps. Default: 1 ms, or one step if that is longer.",
 )
-@method_option("integrator")
-@method_option("formulation")
-@method_option("coordinates")
-@method_option("stabilisation")
 @click.option(
     "--record",
     type=click.Path(dir_okay=False),
@@ -87,7 +84,7 @@ def command(
     no_browser: bool,
     no_priority: bool,
     quiet: bool,
-    **methods: Any,
+    settings: dict[str, Any],
 ) -> None:
     """Simulate MACHINE in real time and operate it on a page in the browser.
 
@@ -115,7 +112,6 @@ def command(
     if target is not None:
         check_target(target, "recording", force=force, sources=[Path(machine)])
         check_journal(journal_of(target), force=force)
-    settings = {name: value for name, value in methods.items() if value is not None}
     listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")
     loaded = load(machine, overrides, allow_code=allow_code)
     stop = Stop()

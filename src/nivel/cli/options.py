@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
-from typing import Any, Final
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import click
-
-from nivel.methods import known_words
 
 
 def file_argument(name: str) -> Any:
@@ -76,81 +74,41 @@ def separated(_context: click.Context, _parameter: click.Parameter, values: tupl
     return tuple(word.strip() for text in values for word in text.split(",")) if values else None
 
 
-class MethodOption(click.Option):
-    """An option whose help ends with the words that the simulation setting `setting` knows."""
+class SettingOption(click.Option):
+    """The option of a setting, whose help ends with the words of which the setting may be one."""
 
-    def __init__(self, *declarations: Any, setting: str, **attributes: Any) -> None:
-        super().__init__(*declarations, **attributes)
-        self.setting = setting
+    def __init__(self, name: str, declaration: str, takes: Any, **more: Any) -> None:
+        option, _, metavar = declaration.partition(" ")
+        kinds = {get_origin(each) or each for each in get_args(takes)}
+        if bool in kinds:
+            more |= {"is_flag": True, "default": None}
+        elif Sequence in kinds:
+            more |= {"multiple": True, "callback": separated}
+        elif Mapping in kinds:
+            more |= {"multiple": True, "callback": assignments(metavar)}
+        super().__init__([option, name], metavar=metavar or None, **more)
+        self.words = [word for each in get_args(takes) if get_origin(each) is Literal for word in get_args(each)]
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
         record = super().get_help_record(ctx)
-        return record and (record[0], f"{record[1]} {', '.join(known_words(self.setting))}.")
+        return record and (record[0], f"{record[1]} {', '.join(self.words)}." if self.words else record[1])
 
 
-# Settings that are words, and what their help says before the words.
-METHODS: Final[dict[str, str]] = {
-    "integrator": "Time integration method:",
-    "formulation": "Equations of motion:",
-    "coordinates": "Coordinates of the equations:",
-    "rotations": "Rotation coordinates, for lagrange in absolute coordinates:",
-    "stabilisation": "Constraint stabilisation:",
-    "start": "Initial state:",
-    "step_control": "Step size control of implicit integrators:",
-}
+def setting_options(keys: Any, *names: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Options for the settings in a mapping of `nivel.settings`, or for some; those that were given come as the mapping `settings`."""
+    options = [
+        SettingOption(name, *kind.__metadata__[:1], kind.__origin__, help=kind.__metadata__[1])
+        for name, kind in get_type_hints(keys, include_extras=True).items()
+        if get_origin(kind) is Annotated and name in (names or (name,))
+    ]
 
+    def with_options(command: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(command)
+        def gathered(**values: Any) -> Any:
+            settings = {option.name: values.pop(option.name) for option in options if option.name}
+            return command(**values, settings={name: each for name, each in settings.items() if each not in (None, {})})
 
-def method_option(setting: str, *, plural: bool = False) -> Any:
-    """`--integrator NAME`, or `--integrators NAMES` that takes several."""
-    common: dict[str, Any] = {"cls": MethodOption, "setting": setting, "help": METHODS[setting]}
-    if not plural:
-        return click.option(f"--{setting.replace('_', '-')}", metavar="NAME", **common)
-    name = f"--{setting}" if setting.endswith("s") else f"--{setting}s"
-    return click.option(name, metavar="NAMES", multiple=True, callback=separated, **common)
+        gathered.__click_params__ = [*getattr(command, "__click_params__", ()), *reversed(options)]  # type: ignore[attr-defined]
+        return gathered
 
-
-duration_option = click.option("--duration", metavar="TIME", help="Simulated time, e.g. 8 or '8 s'.")
-output_interval_option = click.option(
-    "--output-interval",
-    metavar="TIME",
-    help="Time between frames of the result. With a fixed step: a multiple of it.",
-)
-largest_step_option = click.option(
-    "--largest-step", metavar="TIME", help="Longest step of integrators that choose their steps; default: the duration."
-)
-cut_option = click.option(
-    "--cut",
-    metavar="JOINT",
-    multiple=True,
-    help="A joint that closes a loop: it stays a constraint in relative coordinates. May be repeated; default: chosen automatically.",
-)
-
-_SIMULATION: Final[dict[str, Any]] = {
-    "duration": duration_option,
-    "step": click.option(
-        "--step", metavar="TIME", help="Time step, e.g. '1 ms'. First step of integrators that choose their steps."
-    ),
-    "output_interval": output_interval_option,
-    **{setting: method_option(setting) for setting in METHODS},
-    "tolerance": click.option(
-        "--tolerance",
-        metavar="NUMBER",
-        help="Relative tolerance of the motion, for integrators that choose their steps.",
-    ),
-    "largest_step": largest_step_option,
-    "cut": cut_option,
-}
-
-
-def simulation_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Options for every simulation setting; those that were given come as the mapping `settings`."""
-
-    @wraps(command)
-    def gathered(**values: Any) -> Any:
-        settings = {name: values.pop(name) for name in _SIMULATION}
-        return command(**values, settings={name: each for name, each in settings.items() if each not in (None, ())})
-
-    out: Callable[..., Any] = gathered
-    for option in reversed(_SIMULATION.values()):
-        out = option(out)
-    return out
+    return with_options

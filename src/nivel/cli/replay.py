@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import allow_code_option, file_argument, force_option, quiet_option, simulation_options
+from nivel.cli.options import allow_code_option, file_argument, force_option, quiet_option, setting_options
 from nivel.cli.progress import progress_listener
+from nivel.settings import RunSettingsDict
 
 if TYPE_CHECKING:
     from nivel.live.replay import Replay
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Repeat a recorded live run exactly, or with other methods.")
 @file_argument("recording")
-@simulation_options
+@setting_options(RunSettingsDict)
 @click.option(
     "--take", type=click.IntRange(1), help="Number of the take in the recording, from 1; default: the longest take."
 )

@@ -21,9 +21,10 @@ from nivel.cli.options import (
     no_report_option,
     override_option,
     quiet_option,
-    simulation_options,
+    setting_options,
 )
 from nivel.cli.progress import progress_listener
+from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
 
 MOST_CHANGES = 3  # moved bodies, and changed velocities, that are listed one by one
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
 @file_argument("machine")
-@simulation_options
+@setting_options(RunSettingsDict)
 @override_option
 @input_option
 @allow_code_option

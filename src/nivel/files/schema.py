@@ -61,6 +61,7 @@ def schema() -> dict[str, Any]:
         **properties,
     }
     machine["required"] = ["format"]
+    _with_what_they_take(machine)
     return {"$schema": _DRAFT, **machine, "title": "nivel machine"}
 
 
@@ -90,3 +91,13 @@ def _with_type(definition: dict[str, Any]) -> None:
     its = definition["properties"].get("type", {})
     if "const" in its and not its.pop("optional", False):
         definition["required"] = ["type", *definition.get("required", [])]
+
+
+def _with_what_they_take(node: Any) -> None:
+    """The meaning of a quantity is followed by what it takes, with the unit, which would be lost where a field has a meaning of its own."""
+    for each in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        _with_what_they_take(each)
+    if isinstance(node, dict) and isinstance(takes := node.get("takes"), str):
+        del node["takes"]
+        if takes not in node["description"]:
+            node["description"] += f" ({takes})"

@@ -35,7 +35,7 @@ from nivel.machine.joints.joint import JOINT_COORDINATES, Joint, JointType
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import Baumgarte, SimulationSettings
+from nivel.machine.settings.run import Baumgarte, SimulationSettings
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Gamepad, Input, Keys
 from nivel.machine.signals.sensor import Sensor

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 
 
 def changed(settings: SimulationSettings, changes: Mapping[str, Any]) -> SimulationSettings:

@@ -9,6 +9,7 @@ such an annotation is the first of the three types, by which pydantic reads the 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, dataclass_transform
 
 import pydantic
@@ -17,6 +18,18 @@ from pydantic import BaseModel
 Validated = TypeVar("Validated")
 Read_co = TypeVar("Read_co", covariant=True)
 Written_contra = TypeVar("Written_contra", contravariant=True)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What is shown of a setting besides its schema: its option of the command line, and what holds where it is absent."""
+
+    option: str = ""
+    absent: str = ""
+
+    def __call__(self, schema: dict[str, Any]) -> None:
+        """Nothing of this stands in the schema."""
+
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -65,10 +78,13 @@ if TYPE_CHECKING:
         max_length: int | None = None,
         strict: bool | None = None,
         optional: bool = False,
+        option: str = "",
+        absent: str = "",
     ) -> Any:
         """Default and meaning of a field.
 
         key : by which a machine file has it, where that is no name in Python. optional : its word in the schema need not be given.
+        option : of the command line, where it is not what name and type say: `--from VALUE`. absent : what holds where it is None.
         """
 
 else:
@@ -89,9 +105,11 @@ else:
     SomeNumbers = SomeRows = Any
     ModelMetaclass = type(BaseModel)
 
-    def Field(*, key=None, optional=False, **words):
-        extra = {"json_schema_extra": {"optional": True}} if optional else {}
-        return pydantic.Field(**words, **extra, **({} if key is None else {"alias": key}))
+    def Field(*, key=None, optional=False, option="", absent="", **words):
+        if absent:
+            words["description"] += f"; default: {absent}"
+        extra = {"optional": True} if optional else Shown(option, absent)
+        return pydantic.Field(json_schema_extra=extra, **words, **({} if key is None else {"alias": key}))
 
 
 OneNumber = Given[float, float, float | str]

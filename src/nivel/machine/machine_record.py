@@ -38,7 +38,7 @@ from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint
 from nivel.machine.laws.functions import MachineFunction, functions_of
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor

@@ -8,13 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, wraps
-from inspect import Parameter, signature
+from functools import cache, reduce, wraps
+from inspect import Parameter, Signature, signature
 from numbers import Integral, Real
+from operator import or_
 from os import PathLike
 from sys import float_info
 from types import FunctionType, NoneType, UnionType
-from typing import Any, Final, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Any,
+    Final,
+    Literal,
+    ParamSpec,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+    is_typeddict,
+)
 
 from nivel.errors import Fault, ModelError
 from nivel.words.wording import shown, unknown_word
@@ -49,7 +61,38 @@ def checked_arguments(function: Callable[Given, Result]) -> Callable[Given, Resu
             raise ModelError(faults)
         return function(*given, **named)  # type: ignore[arg-type]
 
+    if (its := _unpacked(function)) != signature(function):
+        call.__signature__ = its  # type: ignore[attr-defined]
     return call
+
+
+def _unpacked(function: Any) -> Signature:
+    """The signature of a function, in which the keys of a mapping stand in place of `**settings: Unpack[…]`, before other keywords.
+
+    Words of settings are any texts: who reads settings tells the nearest word.
+    """
+    its = signature(function)
+    its_own = [each for each in its.parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
+    rest = [str(each.annotation) for each in its.parameters.values() if each.kind is Parameter.VAR_KEYWORD]
+    keys = function.__globals__.get("".join(rest).removeprefix("Unpack[").removesuffix("]"))
+    if not is_typeddict(keys):
+        return its
+    settings = [
+        Parameter(key, Parameter.KEYWORD_ONLY, default=None, annotation=_any_words(kind))
+        for key, kind in get_type_hints(keys).items()
+    ]
+    first = next((k for k, each in enumerate(its_own) if each.kind is Parameter.KEYWORD_ONLY), len(its_own))
+    return its.replace(parameters=[*its_own[:first], *settings, *its_own[first:]])
+
+
+def _any_words(wanted: Any) -> Any:
+    """A type in which every choice of words is any text."""
+    if get_origin(wanted) is Literal:
+        return str
+    kinds = _alternatives(wanted)
+    if kinds:
+        return reduce(or_, map(_any_words, kinds))
+    return Sequence[_any_words(get_args(wanted)[0])] if get_origin(wanted) is Sequence else wanted
 
 
 def checked_fields(made: type[Result]) -> type[Result]:
@@ -84,7 +127,9 @@ def _signature(function: FunctionType) -> _Signature:
     """That of a function. The type of its result may be known to type checkers only."""
     bare = FunctionType(function.__code__, function.__globals__, closure=function.__closure__)
     bare.__annotations__ = {name: each for name, each in function.__annotations__.items() if name != "return"}
-    types, parameters = get_type_hints(bare), signature(function).parameters.values()
+    types, parameters = get_type_hints(bare), _unpacked(function).parameters.values()
+    settings = [each for each in parameters if each.name not in types and each.annotation is not Parameter.empty]
+    types |= {each.name: each.annotation for each in settings}
     return _Signature(
         types,
         [each.name for each in parameters if each.kind in UNNAMED],

@@ -14,7 +14,7 @@ import numpy as np
 from nivel.analysis.assembly.effective_mass import mobility
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.errors import Fault, ModelError
-from nivel.machine.settings import Penalty, SimulationSettings
+from nivel.machine.settings.run import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts
 from nivel.system.system import Array
 

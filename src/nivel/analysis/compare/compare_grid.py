@@ -8,9 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import ceil, lcm
-from typing import Annotated, Any, Final, TypeVar
-
-from pydantic import BeforeValidator
+from typing import Final
 
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
@@ -19,61 +17,15 @@ from nivel.analysis.progress.listener import Listener
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.changes import changed
-from nivel.machine.core.record import Record
-from nivel.machine.given import Field, Given
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import (
-    Coordinates,
-    Formulation,
-    Integrator,
-    Rotations,
-    SimulationSettings,
-    Stabilisation,
-    Tolerance,
-)
-from nivel.machine.units.quantity import Duration, fault, listed
+from nivel.machine.settings.compare import Axes
+from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
 from nivel.results.comparison.comparison import Method
-from nivel.words.arguments import plain
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against
 FEWEST_FRAMES: Final = 10  # a common output interval gives at least so many
 FINEST: Final = 10**12  # largest denominator of a step in seconds that is looked for
-
-
-def _listed(value: Any) -> Any:
-    """A single value as a list of one; a list of none, and one with an empty text, is refused."""
-    if value is None:
-        return None
-    value = listed(plain(value))
-    if isinstance(value, str | float | int):
-        value = (value,)
-    if isinstance(value, Collection):
-        if len(value) == 0:
-            raise fault("a value is missing; leave it out for the machine's own setting, or give one value at least")
-        empty = [str(k + 1) for k, each in enumerate(value) if isinstance(each, str) and not each.strip()]
-        if empty and len(value) == 1:
-            raise fault("a value is missing; leave it out for the machine's own setting, or give a value")
-        if empty:
-            places = f"at place {empty[0]}" if len(empty) == 1 else f"at the places {', '.join(empty)}"
-            raise fault(f"a value is missing {places} of {len(value)}; give a value, or take a comma away")
-    return value
-
-
-Word = TypeVar("Word")
-Several = Annotated[tuple[Word, ...] | None, BeforeValidator(_listed)]
-
-
-class Axes(Record):
-    """The words, steps [s] and tolerances of a grid. Where an axis is None, the machine's own setting is taken."""
-
-    integrators: Several[Integrator] = None
-    formulations: Several[Formulation] = None
-    coordinates: Several[Coordinates] = None
-    rotations: Several[Rotations] = None
-    stabilisations: Several[Stabilisation] = None
-    steps: Given[Several[Duration], Several[float], Any] = Field(default=None)
-    tolerances: Several[Tolerance] = None
 
 
 @dataclass(frozen=True)

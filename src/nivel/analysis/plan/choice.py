@@ -17,7 +17,7 @@ from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.machine.forces import Friction
 from nivel.machine.joints.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.beams.nodes import with_nodes
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
 

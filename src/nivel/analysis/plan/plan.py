@@ -25,7 +25,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
 from nivel.system.beams.nodes import with_nodes

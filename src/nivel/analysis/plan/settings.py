@@ -11,7 +11,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
-from nivel.machine.settings import Corrector, Penalty, SimulationSettings
+from nivel.machine.settings.run import Corrector, Penalty, SimulationSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.methods import chooses

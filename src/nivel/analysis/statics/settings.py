@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.settings import SHORTEST
+from nivel.machine.settings.run import SHORTEST
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 

@@ -278,7 +278,7 @@ class Quantity:
         number: dict[str, Any] = {"type": "number"}
         if self.positive:
             number["exclusiveMinimum"] = 0
-        return {"anyOf": [number, {"type": "string"}], "description": meaning}
+        return {"anyOf": [number, {"type": "string"}], "description": meaning, "takes": meaning}
 
 
 def expression_fault(

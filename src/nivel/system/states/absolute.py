@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.system import Array, System
 
 

@@ -15,7 +15,7 @@ from nivel.kernels.record.record import EULER_ANGLES
 from nivel.machine.core.orientation import euler_parameters_from_matrix, matrix_from_euler_parameters
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.states.three_coordinates import arranged
 from nivel.system.system import Array, System
 

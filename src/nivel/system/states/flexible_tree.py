@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from nivel.kernels.record.record import NONE, Record
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.topology import FREE
 from nivel.system.flexible import Bending, bending_bodies, modal_tree
 from nivel.system.states.floating import carried_markers, with_modes

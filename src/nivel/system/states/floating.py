@@ -16,7 +16,7 @@ from nivel.kernels.record.record import NONE, Bodies, Friction, Record, Saddle
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.elimination import plan
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
 from nivel.system.joints.interfaces import marker_place

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.partition import partition
 from nivel.system.states import floating
 from nivel.system.system import Array, System

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.partition import partition
 from nivel.system.system import Array, System
 

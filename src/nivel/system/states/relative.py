@@ -17,7 +17,7 @@ from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs
 from nivel.machine.forces import Friction
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.elimination.elimination import plan
 from nivel.system.elimination.topology import FREE, Edge, SpanningTree, spanning_tree

@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.kernels.record.record import ROTATION_VECTOR
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 from nivel.system.states.three_coordinates import arranged
 from nivel.system.system import Array, System
 

@@ -83,6 +83,7 @@ class GeneralisedAlpha(Record):
     )
 
 
+ENDLESS = ("duration",)  # settings of no use to a machine that is moved step by step
 SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers
 
 
@@ -93,29 +94,40 @@ class SimulationSettings(Checked):
     value of each coordinate so far, or the size of the machine).
     """
 
-    duration: Duration = Field(default=1.0)
-    step: Duration = Field(default=1e-3)
+    duration: Duration = Field(default=1.0, description="simulated time, e.g. 8 or '8 s'")
+    step: Duration = Field(
+        default=1e-3, description="time step, e.g. '1 ms'; first step of integrators that choose their steps"
+    )
     output_interval: Maybe[Duration] = Field(
-        default=None, description="time between stored results; absent, the run chooses"
+        default=None,
+        description="time between frames; with a fixed step a multiple of it",
+        absent="up to 1000 intervals",
     )
-    integrator: OneRecord[Integrator] = Field(default="rk4")
-    formulation: Formulation = "newton-euler"
-    coordinates: Coordinates = "auto"
-    stabilisation: Stabilisation = "direct"
-    start: Start = Field(
-        default="as-given", description="the assembled machine, or the equilibrium where it settles, at rest"
+    integrator: OneRecord[Integrator] = Field(default="rk4", description="time integration method")
+    formulation: Formulation = Field(default="newton-euler", description="equations of motion")
+    coordinates: Coordinates = Field(default="auto", description="coordinates of the equations")
+    rotations: Rotations = Field(default="euler-parameters", description="rotation coordinates of lagrange")
+    cut: ManyNames[str] = Field(
+        default=(),
+        description="joints that close loops: they stay constraints in relative coordinates",
+        option="--cut JOINTS",
+        absent="chosen automatically",
     )
+    stabilisation: Stabilisation = Field(default="direct", description="constraint stabilisation")
+    start: Start = Field(default="as-given", description="initial state: as assembled, or the equilibrium at rest")
     free: ManyNames[CoordinateReference] = Field(
         default=(), description="joint coordinates without stiffness that an equilibrium leaves where they are placed"
     )
-    rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
-    cut: ManyNames[str] = Field(default=(), description="joints that stay constraints in relative coordinates")
     step_control: StepControl = Field(
-        default="own", description="fixed steps, or steps chosen for the tolerance; own: as the integrator does"
+        default="own", description="steps fixed, or chosen by their error; own: as the integrator does"
     )
-    tolerance: Tolerance = Field(default=1e-6, description="of integrators that choose their steps")
-    largest_step: Maybe[Duration] = Field(default=None, description="of integrators that choose their steps")
-    corrector: OneRecord[Corrector] = Field(default=Corrector(), description="of implicit methods")
+    tolerance: Tolerance = Field(
+        default=1e-6, description="relative tolerance of the motion, for integrators that choose their steps"
+    )
+    largest_step: Maybe[Duration] = Field(
+        default=None, description="longest step of integrators that choose their steps", absent="the duration"
+    )
+    corrector: OneRecord[Corrector] = Field(default=Corrector(), description="iteration of implicit methods")
     newmark: OneRecord[Newmark] = Field(default=Newmark(), description="constants of newmark")
     hht: OneRecord[HHT] = Field(default=HHT(), description="damping of hht")
     generalised_alpha: OneRecord[GeneralisedAlpha] = Field(
@@ -123,7 +135,9 @@ class SimulationSettings(Checked):
     )
     penalty: OneRecord[Penalty] = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
     baumgarte: Maybe[OneRecord[Baumgarte]] = Field(
-        default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"
+        default=None,
+        description="coefficients in 1/s; need the stabilisation baumgarte",
+        absent="from the step",
     )
 
     @field_validator("cut")

@@ -1,0 +1,161 @@
+"""Keywords of the Python interface and options of the command line, as a module that imports nothing heavy, from the records."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from json import dumps
+from types import NoneType, UnionType
+from typing import Annotated, Any, Final, Literal, NamedTuple, Union, get_args, get_origin
+
+from pydantic.fields import FieldInfo
+
+from nivel import methods
+from nivel.machine.core.record import Record
+from nivel.machine.given import Shown
+from nivel.machine.settings.compare import COMMON, Axes
+from nivel.machine.settings.run import ENDLESS, SimulationSettings
+from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.quantity import Quantity
+
+HEAD: Final = '''"""Settings of the analyses as keywords of Python, with the option of the command line and its help.
+
+Written by `python -m nivel.machine.settings` from the records in `nivel/machine/settings`. Do not edit.
+"""
+
+# fmt: off
+# ruff: noqa: E501
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, TypedDict
+
+from nivel.methods import {aliases}
+'''
+
+
+class Kind(NamedTuple):
+    """What a field takes: type of the keyword, what the command line calls such a value (none: no option), SI unit, and words if it is
+    one of some."""
+
+    type: str
+    metavar: str = ""
+    unit: str = ""
+    words: tuple[str, ...] = ()
+
+
+class Keywords(NamedTuple):
+    """A mapping of keywords: name, meaning, fields by name, and whether a default is that of the machine file."""
+
+    name: str
+    meaning: str
+    fields: Mapping[str, FieldInfo]
+    of_file: bool = False
+
+
+PLAIN: Final = {
+    float: Kind("float | str", "NUMBER"),
+    int: Kind("int | str", "NUMBER"),
+    bool: Kind("bool"),
+    str: Kind("str", "TEXT"),
+}
+
+
+def all_keywords() -> tuple[Keywords, ...]:
+    """The mappings of all analyses."""
+    run = SimulationSettings.model_fields
+    return (
+        Keywords("RunSettingsDict", "Settings of a run.", run, of_file=True),
+        Keywords("StepSettingsDict", "Settings of a machine that is moved step by step.", _without(run, ENDLESS), True),
+        Keywords(
+            "CompareSettingsDict",
+            "Settings of a comparison: axes of its grid, and settings of all runs.",
+            Axes.model_fields | {name: run[name] for name in COMMON},
+            True,
+        ),
+    )
+
+
+def module() -> str:
+    """Text of the module `nivel.settings`."""
+    found = all_keywords()
+    aliases = {
+        kind_of(field).type.rpartition(" ")[2]
+        for each in found
+        for field in each.fields.values()
+        if kind_of(field).words
+    }
+    lines = [HEAD.format(aliases=", ".join(sorted(aliases)))]
+    for each in found:
+        lines += ["", f"class {each.name}(TypedDict, total=False):", f'    """{each.meaning}"""', ""]
+        lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in each.fields.items()]
+        lines += [""]
+    return "\n".join(lines)
+
+
+def _annotation(name: str, field: FieldInfo, of_file: bool) -> str:
+    """Type, option and help."""
+    kind, option = kind_of(field), option_of(name, field)
+    type_ = f"{kind.type} | None" if kind.type != "Any" else "Any"
+    said = ", ".join(dumps(text, ensure_ascii=False) for text in (option, _help(field, of_file)))
+    return f"Annotated[{type_}, {said}]" if option else type_
+
+
+def _help(field: FieldInfo, of_file: bool) -> str:
+    """The meaning as a sentence; of one of some words without its end, where they will be listed."""
+    text, kind = field.description or "", kind_of(field)
+    if not of_file and type(field.default) in (int, float):
+        text += f"; default {field.default:g}".replace("e-0", "e-")
+    return f"{text[:1].upper()}{text[1:]}{':' if kind.words else '.'}"
+
+
+def option_of(name: str, field: FieldInfo) -> str:
+    """The option of a setting, `--from VALUE`; empty where it has none."""
+    its, metavar = field.json_schema_extra, kind_of(field).metavar
+    if isinstance(its, Shown) and its.option:
+        return its.option
+    return f"--{name.replace('_', '-')} {metavar}".rstrip() if metavar or kind_of(field).type == "bool" else ""
+
+
+def absent_of(field: FieldInfo) -> str:
+    """What holds where a setting is not given."""
+    its = field.json_schema_extra
+    return its.absent if isinstance(its, Shown) else ""
+
+
+def kind_of(field: FieldInfo) -> Kind:
+    """What a field takes."""
+    return _kind(field.annotation, field.metadata)
+
+
+def _kind(annotation: Any, marks: Sequence[Any] = ()) -> Kind:
+    found = [*_parts(annotation), *marks]
+    quantities = [each.kind for each in found if isinstance(each, Quantity)]
+    if quantities:
+        kind = quantities[0] if isinstance(quantities[0], str) else ""
+        return Kind("float | str", "TIME" if kind == "time" else "VALUE", KINDS[kind][1] if kind else "")
+    for each in found:
+        origin = get_origin(each) or each
+        if origin is Literal:
+            (alias,) = [name for name, value in vars(methods).items() if value == each]
+            return Kind(alias, "NAME", words=get_args(each))
+        if origin is tuple:
+            one = _kind(get_args(each)[0])
+            metavar = f"{'NAME' if one.type == 'str' else one.metavar}S"
+            return Kind(f"Sequence[{one.type}] | {one.type}", metavar, one.unit, one.words)
+        if isinstance(origin, type) and issubclass(origin, (Record, Mapping)):
+            return Kind("Mapping[str, Any]")
+    return next((PLAIN[each] for each in found if each in PLAIN), Kind("Any"))
+
+
+def _parts(annotation: Any) -> Iterator[Any]:
+    """The alternatives of a type, and what they are annotated with; not None."""
+    if get_origin(annotation) in (Union, UnionType):
+        for each in get_args(annotation):
+            yield from _parts(each)
+    elif get_origin(annotation) is Annotated:
+        base, *marks = get_args(annotation)
+        yield from (*_parts(base), *marks)
+    elif annotation is not NoneType:
+        yield annotation
+
+
+def _without(fields: Mapping[str, FieldInfo], names: Collection[str]) -> dict[str, FieldInfo]:
+    return {name: field for name, field in fields.items() if name not in names}

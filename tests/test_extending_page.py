@@ -1,6 +1,7 @@
 """docs/extending.md is followed: its files and lines are put in place, and do what the page says."""
 
 import importlib
+import json
 import math
 import os
 import re
@@ -250,7 +251,7 @@ def is_of_integrators(path):
 def package(tmp_path_factory):
     """A copy of the package with the edits of the page, but those of integrators."""
     edits = [each for each in EDIT.findall(PAGE) if not is_of_integrators(each[0])]
-    assert len(edits) == 10
+    assert len(edits) == 11
     return edited(tmp_path_factory.mktemp("package"), edits)
 
 
@@ -308,6 +309,61 @@ def test_the_joint_and_the_result_variable_of_the_page_are_there(package):
 def test_the_command_of_the_page_is_there(package):
     assert "count" in run(package, "-m", "nivel", "--help")
     assert run(package, "-m", "nivel", "count", "pair.yaml") == "2 bodies\n"
+
+
+SETTING = """
+import inspect, sys
+from pathlib import Path
+import nivel
+from nivel.api import Machine
+from nivel.files.schema import schema
+page = Path("simulation.md").read_text()
+print(next(line for line in page.splitlines() if line.startswith("| `pause`")))
+print(schema()["$defs"]["SimulationSettings"]["properties"]["pause"]["description"])
+for function in (Machine.simulate, Machine.start, Machine.sweep):
+    assert inspect.signature(function).parameters["pause"].default is None
+machine = nivel.load("pair.yaml", {"simulation.pause": "1500 ms"})
+print(machine.simulation.pause, machine.with_settings({"pause": 2}).simulation.pause)
+for wrong in ("2 kg", -1, []):
+    try:
+        machine.simulate(pause=wrong)
+    except nivel.ModelError as error:
+        print(*(f"{fault.path}: {fault.message}" for fault in error.faults))
+"""
+
+
+def test_the_setting_of_the_page_is_one_field(package):
+    """Command line, keywords, table and schema follow; a user's script with the keyword passes the type checker."""
+    shutil.copy(ROOT / "docs" / "machine-files" / "simulation.md", package)
+    before = run(package, "-m", "nivel", "run", "--help")
+    run(package, "-m", "nivel.machine.settings", "simulation.md")
+    lines = run(package, "-m", "nivel", "run", "--help").splitlines()
+    added = [line for line in lines if line not in before.splitlines()]
+    assert [line.split() for line in added] == [
+        *map(str.split, ["--pause TIME  Time at rest before the motion; default: none."])
+    ]
+    row, described, values, *refused = run(package, "-c", SETTING).splitlines()
+    assert row == "| `pause` | s | none | greater than 0 | time at rest before the motion |"
+    assert described == "time at rest before the motion; default: none"
+    assert values == "1.5 2.0"
+    assert refused == [
+        "pause: `2 kg` is a mass (kg); a time (s) was expected",
+        "pause: a time greater than zero was expected, got `-1`",
+        "pause: a number or a text was expected, got a list",
+    ]
+    script = (
+        "# pyright: strict\nimport nivel\nm = nivel.load('pair.yaml')\nm.simulate(pause='2 s')\nm.simulate(pause=[])\n"
+    )
+    (package / "script.py").write_text(script, encoding="utf-8")
+    checked = subprocess.run(
+        [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable, "script.py"],
+        cwd=package,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    found = json.loads(checked.stdout)["generalDiagnostics"]
+    assert {each["range"]["start"]["line"] + 1 for each in found} == {5}
 
 
 SWING = """

@@ -202,7 +202,7 @@ class Machine(Model):
         A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
-        given = {key: value for key, value in settings.items() if value is not None}
+        given = _given(settings)
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
@@ -250,7 +250,7 @@ class Machine(Model):
         Settings override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
         record : keep a frame every `output_interval`, for ``sim.result()``. Raises ModelError.
         """
-        given = {key: value for key, value in settings.items() if value is not None}
+        given = _given(settings)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
@@ -284,7 +284,7 @@ class Machine(Model):
         `verdict` stand there for every variant. Ctrl-C ends the sweep; what was computed is returned.
         Raises ModelError where values or names are not known, or no variant can be run.
         """
-        machine = self.with_settings({key: value for key, value in settings.items() if value is not None})
+        machine = self.with_settings(_given(settings))
         return _sweep([machine], values, (combine, samples, seed), (save, processes), listener)
 
     @checked_arguments
@@ -658,7 +658,7 @@ class Machine(Model):
         """
         if repeat < 1:
             raise ModelError(Fault("", 0, 0, "repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
-        asked = {key: value for key, value in settings.items() if value is not None}
+        asked = _given(settings)
         axes = Axes(**{key: value for key, value in asked.items() if key in Axes.model_fields})
         given = {key: value for key, value in asked.items() if key in COMMON}
         chosen = self.with_settings(given)
@@ -747,6 +747,11 @@ def _sweep(
     names = (save,) if isinstance(save, str) else tuple(save)
     with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
         return sweep(made, variants, names, processes=processes or processors(), listener=hearer)
+
+
+def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Settings that are given: None stands for what is not."""
+    return {name: value for name, value in settings.items() if value is not None}
 
 
 def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:

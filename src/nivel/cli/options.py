@@ -97,7 +97,7 @@ class SettingOption(click.Option):
 def setting_options(keys: Any, *names: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Options for the settings in a mapping of `nivel.settings`, or for some; those that were given come as the mapping `settings`."""
     options = [
-        SettingOption(name, *kind.__metadata__[:1], kind.__origin__, help=kind.__metadata__[1])
+        SettingOption(name, kind.__metadata__[0], kind.__origin__, help=kind.__metadata__[1])
         for name, kind in get_type_hints(keys, include_extras=True).items()
         if get_origin(kind) is Annotated and name in (names or (name,))
     ]

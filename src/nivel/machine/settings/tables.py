@@ -48,7 +48,7 @@ def _meaning(field: FieldInfo) -> str:
 
 def _default(field: FieldInfo) -> str:
     value = field.default
-    if isinstance(value, bool) or value is None or value == ():
+    if isinstance(value, bool) or value in (None, (), ""):
         return absent_of(field)
     if isinstance(value, BaseModel):
         return "see below"

@@ -7,6 +7,7 @@ import nivel
 from nivel.machine.settings.keywords import module
 from nivel.machine.settings.tables import with_tables
 
-(Path(nivel.__file__).parent / "settings.py").write_text(module(), encoding="utf-8")
-for page in map(Path, sys.argv[1:]):
-    page.write_text(with_tables(page.read_text(encoding="utf-8")), encoding="utf-8")
+if __name__ == "__main__":
+    (Path(nivel.__file__).parent / "settings.py").write_text(module(), encoding="utf-8")
+    for page in map(Path, sys.argv[1:]):
+        page.write_text(with_tables(page.read_text(encoding="utf-8")), encoding="utf-8")

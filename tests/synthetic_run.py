@@ -9,6 +9,10 @@ import json
 import numpy as np
 
 import nivel
+from nivel.analysis.trust.checks.freedom import Freedom
+from nivel.analysis.trust.checks.redundancy import Redundancy
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Motion
 from nivel.integrate.loop.sink import Header
 from nivel.system.layout import FrameLayout, frame_layout
 
@@ -37,6 +41,12 @@ def scene(shape=None):
             }
         ],
     }
+
+
+def judged(result, outcome="done", *, degrees=1, failure="", **found):
+    """The trust report of a run; degrees : of freedom, None where they are not known. found : what checks have found besides."""
+    known = {"redundancy": Redundancy(), **({} if degrees is None else {"degrees_of_freedom": Freedom(degrees)})}
+    return assess(Motion(result, outcome, failure), known | found)
 
 
 def header(**attributes) -> Header:

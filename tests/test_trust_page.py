@@ -7,10 +7,8 @@ import matplotlib as mpl
 import pytest
 from click.testing import CliRunner
 
+from nivel.analysis.trust.report import every_check
 from nivel.cli import main
-from nivel.results.trust.findings import _damped_item, _growth_item
-from nivel.results.trust.second_look import Damped, Growth
-from nivel.results.trust.verdicts import CHECKS
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "trust.md").read_text(encoding="utf-8")
@@ -37,32 +35,8 @@ def test_the_program_of_the_page_runs(verified, monkeypatch, capsys):
     assert 0.0 < float(error) < 1e-6
 
 
-def test_every_item_that_is_told_stands_in_the_table():
+def test_every_line_that_is_told_where_it_is_not_green_stands_in_the_table():
     told = re.findall(r"^\| (\w[\w-]*) \|", PAGE, re.MULTILINE)
-    assert {
-        "Loads",
-        "Sampling",
-        "Turning",
-        "Round-off",
-        "Parts",
-        "Stiffening",
-        "Bending",
-        "Mesh",
-        "Contact",
-        "Damped",
-        "Sensitivity",
-    } <= set(told)
-    assert set(CHECKS) == {
-        "loads",
-        "sampling",
-        "steps",
-        "turn",
-        "rounding",
-        "parts",
-        "stiffening",
-        "bending",
-        "mesh",
-        "modes",
-    }
-    assert _damped_item(Damped(1.0, 1.0), "bdf").text.startswith("Damped")
-    assert _growth_item(Growth(1.0, 2.0)).text.startswith("Sensitivity")
+    quiet = [check for check in every_check() if check.title and (check.quiet or check.blind)]
+    assert {check.title.split()[0] for check in quiet} <= set(told)
+    assert "Sensitivity" in told

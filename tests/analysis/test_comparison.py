@@ -11,7 +11,7 @@ from nivel.analysis.compare.compare_grid import Axes, lay_out
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
 from nivel.results.comparison.comparison import Comparison
-from nivel.results.trust.motion import Motion, distance
+from nivel.results.motion import Motion, distance
 from simulating import hinge, machine, slide, solid, wheel
 
 G = (0, -9.81, 0)

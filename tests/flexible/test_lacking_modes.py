@@ -5,9 +5,9 @@ import pytest
 
 import simulating
 from models import bar, block, needs, reduced
+from nivel.analysis.trust.checks.modes import response
 from nivel.flexible.body.body_file import read_body, write_body
 from nivel.results.scales import rotated
-from nivel.results.trust.basis import response
 
 LENGTH, WIDTH, HEIGHT, MODULUS, DENSITY = 2.0, 0.02, 0.03, 210e9, 7850.0
 EI = MODULUS * HEIGHT * WIDTH**3 / 12  # bent along y

@@ -11,7 +11,6 @@ from nivel.report.panel import TOGETHER
 from nivel.report.panels import panels
 from nivel.report.write import report_html
 from nivel.results import Memory
-from nivel.results.trust.trust import Facts, assess
 from nivel.system.layout import frame_layout
 
 TIME = np.linspace(0.0, 2.0, 21)
@@ -30,7 +29,7 @@ def run(*outputs, time=TIME):
     memory = Memory()
     memory.begin(Header(plan, pendulum.header().attributes))
     memory.take(frames)
-    trust = assess(memory.result(), Facts("done", 1)).to_json()
+    trust = pendulum.judged(memory.result()).to_json()
     return memory.close({"outcome": "done", "trust": trust})
 
 
@@ -195,7 +194,7 @@ def test_rows_in_radians_are_among_the_violations(unit, shown):
     memory = Memory()
     memory.begin(pendulum.header(constraint_units=json.dumps(rows)))
     memory.take(pendulum.frames(TIME))
-    trust = assess(memory.result(), Facts("done", 1)).to_json()
+    trust = pendulum.judged(memory.result()).to_json()
     found = panel(memory.close({"outcome": "done", "trust": trust}), "Constraint violations")
     (group,) = [group for group in found.groups if group.label == "misalignments"]
     assert group.unit == shown

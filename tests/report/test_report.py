@@ -8,23 +8,23 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
+from nivel.analysis.trust.checks.redundancy import Redundancy
 from nivel.errors import ModelError
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.thinning import Thinning
 from nivel.report.write import number, quantity, report_html
 from nivel.results import Memory
-from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 2.0, 201)
 
 
-def run(time=TIME, outcome="done", attributes=None, facts=None, ended=None, **histories):
+def run(time=TIME, outcome="done", attributes=None, found=None, ended=None, **histories):
     memory = Memory()
     memory.begin(pendulum.header(**(attributes or {})))
     if len(time):
         memory.take(pendulum.packed(time, {**pendulum.histories(time), **histories}))
-    trust = assess(memory.result(), facts or Facts(outcome, 1)).to_json()
+    trust = pendulum.judged(memory.result(), outcome, **(found or {})).to_json()
     timing = {"steps": 2000, "evaluations": 8001, "loop_seconds": 0.0123}
     return memory.close({"outcome": outcome, "trust": trust, "timing": json.dumps(timing), **(ended or {})})
 
@@ -104,7 +104,7 @@ def test_a_joint_without_reactions_says_so():
 
 
 def test_reactions_that_are_not_unique_are_marked():
-    result = run(facts=Facts("done", 1, ("hinge.d1.xz",), ("hinge",)))
+    result = run(found={"redundancy": Redundancy(("hinge.d1.xz",), ("hinge",))})
     text = words(report_html(result))
     assert "hinge * revolute" in text
     assert "With care: see what is amber" in text

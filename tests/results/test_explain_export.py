@@ -13,7 +13,6 @@ import synthetic_run as pendulum
 from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.results import Result, Store
-from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 1.0, 11)
 
@@ -25,7 +24,7 @@ def folder(tmp_path, monkeypatch):
     sink = Store(tmp_path / "run.nc")
     sink.begin(pendulum.header(machine="swing [/bold]"))  # what looks like markup is a name
     sink.take(pendulum.frames(TIME))
-    sink.close({"outcome": "done", "trust": assess(sink.result(), Facts("done", 1)).to_json()})
+    sink.close({"outcome": "done", "trust": pendulum.judged(sink.result()).to_json()})
     return tmp_path
 
 

@@ -10,7 +10,6 @@ import pytest
 import synthetic_run as pendulum
 from nivel.errors import ModelError
 from nivel.results import Memory, Result, Store
-from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 2.0, 201)
 EXPECTED = pendulum.histories(TIME)
@@ -21,7 +20,7 @@ def result(request, tmp_path):
     sink = Memory() if request.param == "memory" else Store(tmp_path / "run.nc")
     sink.begin(pendulum.header())
     sink.take(pendulum.frames(TIME))
-    trust = assess(sink.result(), Facts("done", 1)).to_json()
+    trust = pendulum.judged(sink.result()).to_json()
     return sink.close({"outcome": "done", "trust": trust, "timing": json.dumps({"steps": 2000})})
 
 
@@ -183,12 +182,11 @@ import sys, numpy as np
 sys.path[:0] = {sys.path!r}
 import synthetic_run as pendulum
 from nivel.results import Store
-from nivel.results.trust.trust import Facts, assess
 import nivel.report.write
 sink = Store({str(tmp_path / "run.nc")!r})
 sink.begin(pendulum.header())
 sink.take(pendulum.frames(np.linspace(0, 1, 11)))
-result = sink.close({{"trust": assess(sink.result(), Facts("done")).to_json()}})
+result = sink.close({{"trust": pendulum.judged(sink.result(), degrees=None).to_json()}})
 result.report({str(tmp_path / "run.html")!r})
 repr(result)
 print([name for name in ("xarray", "pandas", "h5netcdf", "matplotlib", "numba", "scipy", "pint") if name in sys.modules])

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
+from nivel.analysis.trust.checks.accuracy import MARGIN, Accuracy, Verified, error_from_finer
+from nivel.analysis.trust.checks.neglected import Cost
+from nivel.analysis.trust.checks.redundancy import Redundancy
+from nivel.analysis.trust.report import blindness, thresholds_of
+from nivel.analysis.trust.subject import Scales
 from nivel.results import Memory
-from nivel.results.trust.accuracy import MARGIN, error_from_finer
-from nivel.results.trust.neglected import Cost
-from nivel.results.trust.trust import Facts, Peak, Trust, assess
-from nivel.results.trust.verdicts import THRESHOLDS, Item
+from nivel.results.trust import Item, Trust
 
 TIME = np.linspace(0.0, 2.0, 201)
 
@@ -20,6 +22,14 @@ def run(time=TIME, attributes=None, **histories):
     memory.begin(pendulum.header(**(attributes or {})))
     memory.take(pendulum.packed(time, {**pendulum.histories(time), **histories}))
     return memory.result()
+
+
+THRESHOLDS = thresholds_of(run(), quiet=False)
+
+
+def estimated(error, body, time, *, until=None, blind=""):
+    """What a second run has found of the pendulum."""
+    return Accuracy(error, body, time, "steps of 0.6 ms", until, blind, Scales(pendulum.SIZE, "machine's size"))
 
 
 def item(trust, name):
@@ -33,7 +43,7 @@ def spike(columns, row, frame, value):
 
 
 def test_the_scales_are_those_of_the_machine():
-    trust = assess(run(), Facts("done", 1))
+    trust = pendulum.judged(run())
     kinetic = pendulum.histories(TIME)["kinetic_energy"].max()
     assert trust.energy_scale == kinetic
     assert trust.energy_scale_kind == "largest kinetic energy"
@@ -43,8 +53,8 @@ def test_the_scales_are_those_of_the_machine():
 
 
 def test_a_designer_reads_numbers_scales_and_thresholds():
-    trust = assess(
-        run(kinetic_energy=np.full(len(TIME), 812.0), energy_error=np.full(len(TIME), 3.1e-9 * 812)), Facts("done", 1)
+    trust = pendulum.judged(
+        run(kinetic_energy=np.full(len(TIME), 812.0), energy_error=np.full(len(TIME), 3.1e-9 * 812))
     )
     text = "Energy: error 3.1e-9 of the largest kinetic energy 812 J (green below 1e-4, amber below 1e-2)"
     assert item(trust, "energy").text == text
@@ -68,7 +78,7 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
         "nan": np.nan,
         "inf": np.inf,
     }[factor]
-    reference = assess(run(), Facts("done", 1))
+    reference = pendulum.judged(run())
     histories, accuracy, neglected = {}, None, None
     match name:
         case "energy":
@@ -78,10 +88,11 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
         case "rate_violation":
             histories["constraint_rate_violation"] = spike(5, 2, 77, -fraction * reference.speed)
         case "accuracy":
-            accuracy = Peak(fraction * reference.size, "arm", TIME[77])
+            accuracy = estimated(fraction * reference.size, "arm", float(TIME[77]))
         case "neglected":
             neglected = Cost(fraction, "arm", ("I5", "I9"), TIME[77])
-    trust = assess(run(**histories), Facts("done", 1, accuracy=accuracy, neglected=neglected))
+    given = {"accuracy": accuracy} if accuracy else {"neglected": neglected} if neglected else {}
+    trust = pendulum.judged(run(**histories), **given)
     found = item(trust, name)
     assert found.verdict == verdict
     assert found.time == TIME[77]
@@ -93,12 +104,12 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
 def test_cosines_are_not_compared_with_metres():
     # hinge.d1.xz (a cosine) is off by 3e-7, hinge.s.x by 2e-7 m of 0.5 m = 4e-7: the smaller number is the larger fault
     violation = spike(5, 3, 10, 3e-7) + spike(5, 0, 20, 2e-7)
-    trust = assess(run(constraint_violation=violation), Facts("done"))
+    trust = pendulum.judged(run(constraint_violation=violation), degrees=None)
     assert (trust.constraint_violation_row, trust.constraint_violation_max) == ("hinge.s.x", 2e-7)
-    trust = assess(run(constraint_violation=spike(5, 3, 10, 2e-6)), Facts("done"))
+    trust = pendulum.judged(run(constraint_violation=spike(5, 3, 10, 2e-6)), degrees=None)
     assert (trust.constraint_violation_units, item(trust, "violation").fraction) == ("1", 2e-6)
     assert "as a cosine" in item(trust, "violation").text
-    trust = assess(run(constraint_rate_violation=spike(5, 3, 10, 1e-3)), Facts("done"))
+    trust = pendulum.judged(run(constraint_rate_violation=spike(5, 3, 10, 1e-3)), degrees=None)
     assert trust.constraint_rate_violation_units == "1/s"
     assert item(trust, "rate_violation").fraction == pytest.approx(1e-3 * trust.size / trust.speed)
 
@@ -113,7 +124,7 @@ def test_cosines_are_not_compared_with_metres():
 )
 def test_the_energy_scale_is_the_largest_energy_that_moved(name, kind):
     offset = 1e6 if name == "potential_energy" else 0.0  # where the zero of the height lies does not matter
-    trust = assess(run(**{name: offset + np.linspace(0.0, -50.0, len(TIME))}), Facts("done"))
+    trust = pendulum.judged(run(**{name: offset + np.linspace(0.0, -50.0, len(TIME))}), degrees=None)
     assert trust.energy_scale == pytest.approx(50.0)
     assert trust.energy_scale_kind == kind
     assert kind in item(trust, "energy").text
@@ -123,7 +134,7 @@ def test_a_machine_at_rest_is_green():
     still = {name: np.zeros_like(values) for name, values in pendulum.histories(TIME).items()}
     still |= {"orientation": np.tile([1.0, 0, 0, 0], (len(TIME), 1)), "potential_energy": np.full(len(TIME), 1e6)}
     still |= {"energy_error": spike(1, 0, 3, 1e-10), "constraint_rate_violation": spike(5, 0, 3, 1e-17)}
-    trust = assess(run(**still), Facts("done", 1))
+    trust = pendulum.judged(run(**still))
     assert trust.verdict == "green"
     assert np.isfinite(item(trust, "energy").fraction)
 
@@ -131,35 +142,40 @@ def test_a_machine_at_rest_is_green():
 def test_the_first_value_that_is_no_number_is_named():
     error = np.zeros(len(TIME))
     error[50:] = np.nan
-    assert "not a number from t = 0.5 s on" in item(assess(run(energy_error=error), Facts("failed")), "energy").text
+    assert (
+        "not a number from t = 0.5 s on"
+        in item(pendulum.judged(run(energy_error=error), "failed", degrees=None), "energy").text
+    )
 
 
 @pytest.mark.parametrize(
     ("outcome", "verdict"), [("done", "green"), ("interrupted", "amber"), ("running", "amber"), ("failed", "red")]
 )
 def test_an_unfinished_run_is_not_green(outcome, verdict):
-    trust = assess(run(), Facts(outcome, 1, failure="stopped at t = 2 s"))
+    trust = pendulum.judged(run(), outcome, failure="stopped at t = 2 s")
     assert trust.verdict == verdict
     assert trust.items[0].text.endswith(": stopped at t = 2 s")
 
 
 def test_redundant_rows_leave_the_motion_unique_but_not_the_reactions():
-    trust = assess(run(), Facts("done", 1, ("hinge.d1.xz",), ("hinge", "pin")))
+    trust = pendulum.judged(run(), redundancy=Redundancy(("hinge.d1.xz",), ("hinge", "pin")))
     found = item(trust, "redundancy")
     assert (found.verdict, trust.verdict) == ("amber", "amber")
     assert "(hinge.d1.xz)" in found.text
     assert "hinge, pin" in found.text
-    assert item(assess(run(), Facts("done", 1)), "redundancy").verdict == "green"
+    assert item(pendulum.judged(run(), redundancy=Redundancy()), "redundancy").verdict == "green"
 
 
 def test_a_machine_that_cannot_move_is_amber():
-    assert item(assess(run(), Facts("done", 0)), "degrees_of_freedom").verdict == "amber"
-    assert item(assess(run(), Facts("done", 3)), "degrees_of_freedom").text.startswith("Freedom: 3 degrees of freedom")
+    assert item(pendulum.judged(run(), degrees=0), "degrees_of_freedom").verdict == "amber"
+    assert item(pendulum.judged(run(), degrees=3), "degrees_of_freedom").text.startswith(
+        "Freedom: 3 degrees of freedom"
+    )
 
 
 def test_every_threshold_is_printed_and_has_a_reason():
     neglected = Cost(1e-9, "arm", ("I5",), 1.0)
-    trust = assess(run(), Facts("done", 1, accuracy=Peak(1e-9, "arm", 1.0), neglected=neglected))
+    trust = pendulum.judged(run(), accuracy=estimated(1e-9, "arm", 1.0), neglected=neglected)
     for name, threshold in THRESHOLDS.items():
         assert str(threshold) in item(trust, name).text
         assert len(threshold.reason) > 60
@@ -168,9 +184,8 @@ def test_every_threshold_is_printed_and_has_a_reason():
 
 @pytest.mark.parametrize("value", [1e-9, np.nan, np.inf])
 def test_json_out_and_in_changes_nothing(value):
-    trust = assess(
-        run(energy_error=spike(1, 0, 4, value)), Facts("done", 1, ("a.s.x",), ("a",), Peak(1e-5, "arm", 0.5))
-    )
+    given = {"redundancy": Redundancy(("a.s.x",), ("a",)), "accuracy": estimated(1e-5, "arm", 0.5)}
+    trust = pendulum.judged(run(energy_error=spike(1, 0, 4, value)), **given)
     text = trust.to_json()
     json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is not JSON"))
     assert str(Trust.from_json(text)) == str(trust)
@@ -178,14 +193,14 @@ def test_json_out_and_in_changes_nothing(value):
 
 
 def test_json_of_a_later_version_is_read():
-    data = json.loads(assess(run(), Facts("done", 1)).to_json())
+    data = json.loads(pendulum.judged(run()).to_json())
     data["something_new"] = 1
     data["items"][0]["something_new"] = 2
-    assert Trust.from_json(json.dumps(data)) == assess(run(), Facts("done", 1))
+    assert Trust.from_json(json.dumps(data)) == pendulum.judged(run())
 
 
 def test_json_has_the_agreed_keys():
-    data = json.loads(assess(run(), Facts("done", 1)).to_json())
+    data = json.loads(pendulum.judged(run()).to_json())
     agreed = "energy_error_max energy_scale constraint_violation_max constraint_violation_row constraint_violation_time"
     agreed += " constraint_rate_violation_max degrees_of_freedom redundant_rows non_unique_joints accuracy_estimate"
     assert set(agreed.split()) <= set(data)
@@ -200,27 +215,24 @@ def test_a_finer_run_finds_the_worst_body_and_time():
 
 
 def test_what_was_not_verified_says_so_and_what_was_says_how_exact():
-    assert assess(run(), Facts("done", 1)).headline == "not verified"
-    found = Facts("done", 1, accuracy=Peak(3.1e-6, "rod", 7.2), refinement="steps of 0.6 ms")
-    assert (
-        assess(run(), found).headline == "within 3.1e-6 m of the exact motion of this model; largest at rod, t = 7.2 s"
-    )
+    assert pendulum.judged(run()).headline == "not verified"
+    found = pendulum.judged(run(), accuracy=estimated(3.1e-6, "rod", 7.2))
+    assert found.headline == "within 3.1e-6 m of the exact motion of this model; largest at rod, t = 7.2 s"
+    assert "by a second run with steps of 0.6 ms; largest at rod, t = 7.2 s" in item(found, "accuracy").text
 
 
 def test_what_two_runs_miss_alike_is_no_exactness():
     """A load between the steps of both: the headline claims nothing, and neither does the item."""
     missed = Item("loads", "red", "Loads: …", 1.0, row="push.vector.x")
-    trust = assess(run(), Facts("done", 1, accuracy=Peak(1e-9, "rod", 0.5), further=(missed,)))
+    trust = pendulum.judged(run(), accuracy=estimated(1e-9, "rod", 0.5, blind=blindness((missed,))))
     assert trust.headline == "of unknown error: two runs agree within 1e-9 m, but their steps miss push.vector.x"
     assert "within 1e-9 m, but both may have the same error" in item(trust, "accuracy").text
     assert "exact motion" not in str(trust)
 
 
 def test_verification_that_ends_early_is_amber_and_says_up_to_when():
-    found = Facts(
-        "done", 1, accuracy=Peak(1e-9, "rod", 0.5), verified_until=0.7, verification_ended="its time was spent"
-    )
-    trust = assess(run(), found)
+    accuracy, verified = estimated(1e-9, "rod", 0.5, until=0.7), Verified(0.7, "its time was spent")
+    trust = pendulum.judged(run(), accuracy=accuracy, verified=verified)
     assert trust.verdict == "amber"
     assert "up to t = 0.7 s, not verified beyond" in trust.headline
     assert "its time was spent" in item(trust, "verified").text
@@ -256,7 +268,7 @@ def assessed(length, mass, duration, error):
     scene["bodies"][0]["points"] = [[-length * pendulum.LENGTH, 0, 0]]
     other = {name: values * factors.get(name, 1.0) for name, values in histories.items()}
     other["energy_error"] = np.full(len(TIME), error * energy * histories["kinetic_energy"].max())
-    return assess(run(TIME * duration, {"scene": json.dumps(scene)}, **other), Facts("done", 1))
+    return pendulum.judged(run(TIME * duration, {"scene": json.dumps(scene)}, **other))
 
 
 @pytest.mark.parametrize(("error", "verdict"), [(1e-9, "green"), (1e-3, "amber"), (1.0, "red")])
@@ -275,28 +287,28 @@ def still(**histories):
 
 
 def test_where_there_is_no_energy_only_no_error_is_none():
-    found = item(assess(run(**still()), Facts("done", 1)), "energy")
+    found = item(pendulum.judged(run(**still())), "energy")
     assert (found.verdict, found.fraction) == ("green", 0.0)
     assert "no energy anywhere, and no error" in found.text
-    found = item(assess(run(**still(energy_error=spike(1, 0, 3, 1e-30))), Facts("done", 1)), "energy")
+    found = item(pendulum.judged(run(**still(energy_error=spike(1, 0, 3, 1e-30)))), "energy")
     assert found.verdict == "red"
     assert "error 1e-30 J where there is no energy" in found.text
 
 
 def test_round_off_of_a_loaded_machine_at_rest_is_green_at_any_height():
     load = np.tile([0.0, 20.0, 0.0], (len(TIME), 1))
-    trust = assess(run(**still(joint_force=load, energy_error=spike(1, 0, 3, 1e-15))), Facts("done", 1))
+    trust = pendulum.judged(run(**still(joint_force=load, energy_error=spike(1, 0, 3, 1e-15))))
     assert item(trust, "energy").verdict == "green"
     assert trust.energy_scale == pytest.approx(1e-9 * 20.0 * pendulum.SIZE)
 
 
 def test_a_machine_at_rest_is_said_to_be():
-    trust = assess(run(**still(constraint_rate_violation=spike(5, 0, 3, 1e-17))), Facts("done", 1))
+    trust = pendulum.judged(run(**still(constraint_rate_violation=spike(5, 0, 3, 1e-17))))
     assert trust.at_rest
     assert "the machine is at rest" in item(trust, "rate_violation").text
     assert "largest speed" not in item(trust, "rate_violation").text
-    assert not assess(run(), Facts("done", 1)).at_rest
-    assert "of the largest speed" in item(assess(run(), Facts("done", 1)), "rate_violation").text
+    assert not pendulum.judged(run()).at_rest
+    assert "of the largest speed" in item(pendulum.judged(run()), "rate_violation").text
 
 
 def test_a_single_point_is_compared_with_its_path_or_with_a_metre():
@@ -304,11 +316,11 @@ def test_a_single_point_is_compared_with_its_path_or_with_a_metre():
     off = spike(5, 0, 3, 1e-9)
     path = np.zeros((len(TIME), 1, 3))
     path[:, 0, 0] = 0.1 + 3e-6 * TIME
-    trust = assess(run(attributes=scene, position=path, constraint_violation=off), Facts("done", 1))
+    trust = pendulum.judged(run(attributes=scene, position=path, constraint_violation=off))
     assert trust.size == pytest.approx(6e-6)
     assert "of the extent of its path 6e-6 m" in item(trust, "violation").text
     path[:, 0, 0] = 0.1 + 1e-17 * TIME  # round-off is no path
-    trust = assess(run(attributes=scene, position=path, constraint_violation=off), Facts("done", 1))
+    trust = pendulum.judged(run(attributes=scene, position=path, constraint_violation=off))
     assert trust.size == 1.0
     assert "of the length taken for a single point at rest 1 m" in item(trust, "violation").text
 
@@ -316,9 +328,10 @@ def test_a_single_point_is_compared_with_its_path_or_with_a_metre():
 def test_a_run_beyond_all_bounds_is_red_without_warnings():
     huge = pendulum.histories(TIME)["velocity"] * 1e300
     huge[7] = np.inf
-    trust = assess(
+    trust = pendulum.judged(
         run(velocity=huge, kinetic_energy=np.full(len(TIME), np.inf), energy_error=np.full(len(TIME), np.inf)),
-        Facts("failed"),
+        "failed",
+        degrees=None,
     )
     assert trust.verdict == "red"
     position = pendulum.histories(TIME)["position"] * 1e300
@@ -328,7 +341,7 @@ def test_a_run_beyond_all_bounds_is_red_without_warnings():
 def test_angles_that_are_held_are_said_in_radians():
     """Rows of gears and of driven angles."""
     rows = {"constraint_units": json.dumps({**pendulum.ROWS, "hinge.d1.xz": "rad"})}
-    trust = assess(run(attributes=rows, constraint_violation=spike(5, 3, 10, 2e-6)), Facts("done"))
+    trust = pendulum.judged(run(attributes=rows, constraint_violation=spike(5, 3, 10, 2e-6)), degrees=None)
     assert trust.constraint_violation_units == "rad"
     assert "open by at most 2e-6 rad, row hinge.d1.xz" in item(trust, "violation").text
 

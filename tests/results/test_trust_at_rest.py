@@ -7,7 +7,6 @@ import pytest
 
 import synthetic_run as pendulum
 from nivel.results import Memory
-from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 10.0, 101)
 MASS, GYRATION, WEIGHT = 1.5, 0.08, 1.5 * 9.81
@@ -41,7 +40,7 @@ def resting(attributes=None, **histories):
     memory = Memory()
     memory.begin(pendulum.header(**(block() if attributes is None else attributes)))
     memory.take(pendulum.packed(TIME, {**still, **histories}))
-    return assess(memory.result(), Facts("done", 1))
+    return pendulum.judged(memory.result())
 
 
 def item(trust, name):

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from nivel.analysis.trust.checks.energy import unresolved_force
 from nivel.errors import SolveError
 from nivel.results.result import Result
-from nivel.results.trust.unresolved import unresolved_force
 from simulating import G, simulate, slide, solid
 from test_growth import stiff_pair
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from nivel.results.result import Result
-    from nivel.results.trust.verdicts import Trust
+    from nivel.results.trust import Trust
 
 COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 OUTCOMES = {"done": "completed", "failed": "failed", "interrupted": "interrupted"}

@@ -37,7 +37,8 @@ def _print(result: Result) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from nivel.results.trust.verdicts import CHECKS, RULES, THRESHOLDS
+    from nivel.analysis.trust.report import thresholds_of
+    from nivel.results.scales import RULES
 
     console, trust = Console(highlight=False), result.trust
     time = result.time
@@ -55,7 +56,7 @@ def _print(result: Result) -> None:
     if result.advice:
         console.print(Text(f"\n{result.advice}"))
     reasons = Table.grid(padding=(0, 2))
-    for name, threshold in {**THRESHOLDS, **CHECKS}.items():
+    for name, threshold in thresholds_of(result).items():
         reasons.add_row(Text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), Text(threshold.reason, "dim"))
     for name, rule in RULES.items():
         reasons.add_row(Text(name.replace("_", " "), "dim"), Text(f"{rule[:1].upper()}{rule[1:]}.", "dim"))

@@ -32,7 +32,7 @@ ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not 
 
 if TYPE_CHECKING:
     from nivel.results import Result
-    from nivel.results.trust.verdicts import Trust
+    from nivel.results.trust import Trust
 
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")

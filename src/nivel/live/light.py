@@ -13,20 +13,19 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.trust.checks import circuits, energy, joints
+from nivel.analysis.trust.checks.energy import Energy
+from nivel.analysis.trust.checks.joints import Violation
+from nivel.analysis.trust.subject import Motion
 from nivel.integrate.loop.sink import Header
 from nivel.live.timing import Timing
 from nivel.results.memory import MemoryContents
 from nivel.results.result import Result
 from nivel.results.scales import largest_speed, speed_of_rest
-from nivel.results.trust.circuits import Guard, circuit_items, guard_items
-from nivel.results.trust.statements import statements
-from nivel.results.trust.trust import Facts, assess
-from nivel.results.trust.verdicts import Item, Threshold, Trust, Verdict, number, worst
+from nivel.results.trust import Item, Threshold, Verdict, number, worst
 from nivel.system.layout import FrameLayout
 
 Array = NDArray[np.float64]
-OF_MOTION: Final = ("energy", "violation", "rate_violation")
-OF_CIRCUITS: Final = ("hydraulics", "fluid mass")
 REAL_TIME: Final = Threshold(
     1e-2,
     1e-1,
@@ -64,13 +63,13 @@ class Judge:
     attributes: dict[str, Any]
     _first: Array | None = None  # the frame at the start, from which energies and the time are counted
     _new: list[Array] = field(default_factory=list)
-    _trust: Trust | None = None  # the worst so far
+    _worst: tuple[Energy, Violation, Violation] | None = None  # the worst so far: energy, joints and their rates
     _speed: float = 0.0
     _circuits: tuple[Item, ...] = ()
 
     def begin_again(self) -> None:
         """The machine was put somewhere else: what was found before does not belong to this motion."""
-        self._new, self._trust, self._speed, self._circuits = [], None, 0.0, ()
+        self._new, self._worst, self._speed, self._circuits = [], None, 0.0, ()
 
     def take(self, frames: Array) -> None:
         """New frames (n, width)."""
@@ -90,11 +89,13 @@ class Judge:
     def _items(self, timing: Timing, counts: Counts, steps: int, problem: str) -> Iterator[Item]:
         if problem:
             yield Item("outcome", "red", f"Outcome: {problem}")
-        if self._trust is not None:
-            yield from (each for each in statements(self._trust, "") if each.name in OF_MOTION)
+        if self._worst is not None:
+            balance, opening, rates = self._worst
+            said = energy.say(balance), joints.say(opening), joints.say_rates(rates)
+            yield from (each for each in said if each is not None)
         yield from self._circuits
-        if counts.guards:
-            yield from guard_items(Guard(steps, counts.divided, counts.guarded, counts.difference))
+        if counts.guards and steps:
+            yield circuits.say_steps(circuits.Guard(steps, counts.divided, counts.guarded, counts.difference))
         if timing.ticks:
             yield _real_time_item(timing)
 
@@ -102,27 +103,35 @@ class Judge:
     def _look(self, frames: Array, kinetic_energy: float) -> None:
         """Judge frames, the first of which is that of the start; kinetic_energy : the largest one of steps [J]."""
         result = Result(MemoryContents(Header(self.layout, self.attributes), frames, self.attributes))
-        found = assess(result, Facts("running", kinetic_energy=kinetic_energy))
+        motion = Motion(result, "running", kinetic_energy=kinetic_energy)
+        found = replace(energy.look(motion), force=""), joints.look(motion), joints.look_at_rates(motion)
         self._speed = max(self._speed, largest_speed(result))
-        self._circuits = tuple(each for each in circuit_items(result) if each.name in OF_CIRCUITS)
-        slowest = speed_of_rest(result, found.size)
-        merged = found if self._trust is None else _worse(self._trust, found)
-        self._trust = replace(merged, speed=max(self._speed, slowest), at_rest=self._speed < slowest)
+        if circuits.CIRCUITS.met(motion):
+            balances = (
+                circuits.say_energy(circuits.look_at_energy(motion)),
+                circuits.say_mass(circuits.look_at_mass(motion)),
+            )
+            self._circuits = balances
+        slowest = speed_of_rest(result, motion.scales.size)
+        balance, opening, rates = found if self._worst is None else _worse(self._worst, found)
+        scales = replace(rates.scales, speed=max(self._speed, slowest), at_rest=self._speed < slowest)
+        self._worst = balance, opening, replace(rates, scales=scales)
 
 
-def _worse(old: Trust, new: Trust) -> Trust:
+def _worse(
+    old: tuple[Energy, Violation, Violation], new: tuple[Energy, Violation, Violation]
+) -> tuple[Energy, Violation, Violation]:
     """The worst of both, each against the larger scale."""
-    out = old
-    if not new.energy_error_max <= old.energy_error_max:
-        out = replace(out, energy_error_max=new.energy_error_max, energy_error_time=new.energy_error_time)
-    if new.energy_scale > old.energy_scale:
-        out = replace(out, energy_scale=new.energy_scale, energy_scale_kind=new.energy_scale_kind)
-    for name in ("constraint_violation", "constraint_rate_violation"):
-        keys = [f"{name}_{part}" for part in ("max", "row", "time", "units")]
-        before, now = getattr(out, keys[0]), getattr(new, keys[0])
-        if not getattr(out, keys[1]) or isnan(now) or now > before:
-            out = replace(out, **{key: getattr(new, key) for key in keys})
-    return out
+    balance, now = old[0], new[0]
+    if not now.error <= balance.error:
+        balance = replace(balance, error=now.error, time=now.time)
+    if now.scale > balance.scale:
+        balance = replace(balance, scale=now.scale, scale_kind=now.scale_kind)
+    opening, rates = (
+        after if not before.row or isnan(after.value) or after.value > before.value else before
+        for before, after in zip(old[1:], new[1:], strict=True)
+    )
+    return balance, opening, rates
 
 
 def _real_time_item(timing: Timing) -> Item:

@@ -11,13 +11,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.failures.outcome import failure
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome, counts_of
-from nivel.analysis.run.held_friction import resting_frictions
-from nivel.analysis.run.outcome import failure
 from nivel.analysis.run.simulate import close_run
 from nivel.api import Machine
 from nivel.errors import ModelError
@@ -119,14 +118,13 @@ def replay(
     sink.begin(
         Header(prepared.motion.system.layout, run_attributes(machine, recording.source, prepared, plan.settings))
     )
-    resting = resting_frictions(plan.machine, prepared.absolute, prepared.assembly.y)
     outcome = RunOutcome("done")
     found = Comparison(take.frames)
     for frames in _frames_of(again, take.tape, outcome):
         sink.take(frames)
         found.take(frames)
     seconds = {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
-    result = close_run(sink, replace(plan, machine=machine), prepared, outcome, None, resting, seconds)
+    result = close_run(sink, replace(plan, machine=machine), prepared, outcome, None, seconds)
     return found.replay(result)
 
 

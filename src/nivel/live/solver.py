@@ -13,9 +13,8 @@ from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
 
+from nivel.analysis.failures.outcome import failure
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.run.outcome import failure
-from nivel.analysis.run.simulate import guards_circuits
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.loop.paced import (
     CLOCK,
@@ -117,7 +116,7 @@ class Solver:
         self._arrays = arrays_of([*live_run.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         self._saved: Snapshot | None = None
-        self._guards = guards_circuits(live_run.prepared)
+        self._guards = live_run.prepared.guards_circuits
         self._counts: dict[str, float] = {}
 
     def live(self, urgent: bool) -> None:

@@ -20,7 +20,7 @@ from nivel.results.comparison.comparison_table import (
     simulated,
     stops,
 )
-from nivel.results.trust.motion import DEFINITION
+from nivel.results.motion import DEFINITION
 
 HERE = Path(__file__).parent
 WANTED = (1e-3, 1e-6, 1e-9)  # errors to which the cheapest cell is told

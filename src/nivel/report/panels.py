@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nivel.analysis.trust.checks import joints
 from nivel.report.control_panel import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
 from nivel.results.beams.beam_nodes import beam_nodes, stations
 from nivel.results.scales import bodies, rotated
-from nivel.results.trust.verdicts import THRESHOLDS
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -196,7 +196,7 @@ def _violations(result: Result) -> Panel | None:
     """The largest violation of each joint, apart for lengths and cosines, at position and at velocity level."""
     groups = []
     trust = result.trust
-    position, rate = THRESHOLDS["violation"], THRESHOLDS["rate_violation"]
+    position, rate = joints.THRESHOLD, joints.RATES
     for variable, suffix, level, threshold, scales in (
         ("constraint_violation", "violation", "", position, {"m": trust.size, "1": 1.0}),
         (

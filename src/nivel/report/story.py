@@ -8,9 +8,10 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from nivel.analysis.trust.report import titles
 from nivel.results.beams.beam_nodes import beam_nodes
 from nivel.results.frames.occurrence import in_words
-from nivel.results.trust.verdicts import Item, Trust, Verdict
+from nivel.results.trust import Item, Trust, Verdict
 from nivel.words.wording import set_in_motion
 
 if TYPE_CHECKING:
@@ -41,44 +42,6 @@ VERDICTS: dict[Verdict, str] = {
     "red": "No: see what is red",
 }
 UNVERIFIED = "Not verified"
-NAMES = {
-    "outcome": "Outcome",
-    "energy": "Energy",
-    "violation": "Joints closed",
-    "velocities": "Velocities fit the joints",
-    "branches": "Branches of positions",
-    "rate_violation": "Joint rates",
-    "degrees_of_freedom": "Freedom",
-    "redundancy": "Redundancy",
-    "shared_friction": "Friction",
-    "accuracy": "Accuracy",
-    "verified": "Verified",
-    "loads": "Loads",
-    "sampling": "Sampling",
-    "contact": "Contact",
-    "steps": "Steps",
-    "turn": "Turning",
-    "rounding": "Round-off",
-    "parts": "Parts",
-    "singular": "Singular position",
-    "stiffening": "Stiffening",
-    "bending": "Bending",
-    "mesh": "Mesh",
-    "damped": "Damped",
-    "sensitivity": "Sensitivity",
-    "residual": "Equilibrium",
-    "stability": "Stability",
-    "critical": "Critical points",
-    "vibrations": "Vibrations",
-    "at_rest": "At rest",
-    "potential": "Potential",
-    "rolling": "Rolling",
-    "hydraulics": "Hydraulics",
-    "fluid mass": "Fluid",
-    "cavitation": "Cavitation",
-    "saturation": "Saturation",
-    "pressure steps": "Pressure steps",
-}
 
 
 @dataclass(frozen=True)
@@ -175,8 +138,9 @@ def facts(result: Result) -> list[str]:
 
 def trust_lines(trust: Trust) -> list[TrustLine]:
     """The items of the trust report as the page shows them. The outcome stands above already."""
+    names = titles()
     return [
-        TrustLine(NAMES.get(item.name, item.name), item.verdict, _statement(item), _gauge(item))
+        TrustLine(names.get(item.name, item.name), item.verdict, _statement(item), _gauge(item))
         for item in trust.items
         if item.name != "outcome"
     ]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.trust.report import thresholds_of
 from nivel.errors import ModelError
 from nivel.files.target import keep_sources
 from nivel.looks.circuit.drawing import circuit_diagram
@@ -26,9 +27,9 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
+from nivel.results.frames.pressures import pressures_at
 from nivel.results.frames.stored import understood
-from nivel.results.trust.circuits import pressures_at
-from nivel.results.trust.verdicts import RESIDUAL, RULES, THRESHOLDS
+from nivel.results.scales import RULES
 from nivel.view.export import scene_html
 from nivel.view.playback import SMALL
 
@@ -75,7 +76,7 @@ def report_html(result: Result) -> str:
         trust_lines=trust_lines(result.trust),
         assembly=assembly_lines(result),
         events=event_lines(result),
-        thresholds={"residual": RESIDUAL, "violation": THRESHOLDS["violation"]} if result.is_statics else THRESHOLDS,
+        thresholds=thresholds_of(result, quiet=False),
         rules=RULES,
         picture_style=STYLE,
         picture=_picture(result, record),

@@ -1,12 +1,16 @@
-"""Pages that results open: reports and views, by the functions that make them.
+"""Pages that results open, and the trust report of a run that was killed, by the functions that make them.
 
-These functions stand in packages above results, so they are imported by name, when a page is asked for.
+These functions stand in packages above results, so they are imported by name, when they are asked for.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+    from nivel.results.trust import Trust
 
 MAKERS: Final = {
     "comparison": ("nivel.report.compare_page", "write_comparison"),
@@ -24,3 +28,9 @@ def page_maker(page: str) -> Any:
     """The function or class that makes the page."""
     module, name = MAKERS[page]
     return getattr(import_module(module), name)
+
+
+def report_of_remains(result: Result) -> Trust:
+    """The trust report of a run that was killed, or still goes on, from what its file holds."""
+    trust = import_module("nivel.analysis.trust.report")
+    return trust.assess_remains(result)

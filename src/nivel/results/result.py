@@ -12,16 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.results.estimate import ATTRIBUTE, Estimate
 from nivel.results.frames.contents import Contents
 from nivel.results.frames.names import Selection, selections, unknown_name
 from nivel.results.frames.occurrence import Occurrence, from_json
 from nivel.results.frames.row_units import own_units
 from nivel.results.frames.stored import StoredContents, understood
 from nivel.results.frames.tabulated import Column, Rows, Tabulated
-from nivel.results.pages import page_maker
-from nivel.results.trust.estimate import ATTRIBUTE, Estimate
-from nivel.results.trust.trust import Facts, assess
-from nivel.results.trust.verdicts import Trust
+from nivel.results.pages import page_maker, report_of_remains
+from nivel.results.trust import Trust
 from nivel.system.layout import Variable
 from nivel.words.arguments import checked_arguments
 
@@ -108,7 +107,7 @@ class Result(Tabulated):
         if "trust" in self.attributes:
             with understood(self._contents, "trust"):
                 return Trust.from_json(str(self.attributes["trust"]))
-        return assess(self, Facts(outcome=self.outcome, failure=self.failure))
+        return report_of_remains(self)
 
     @checked_arguments
     def sections(self, beam: str) -> xarray.Dataset:

@@ -1,4 +1,4 @@
-"""The scales of a run that its errors are compared with: size, speed, energy. `verdicts.RULES` states them in words."""
+"""The scales of a run that its errors are compared with: size, speed, energy. `RULES` states them in words."""
 
 from __future__ import annotations
 
@@ -11,10 +11,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.machine.core.vectors import cross
-from nivel.results.trust.verdicts import CLOSED, ENERGY_FLOOR, EXTENT_FLOOR, OPENING_WORK, POINT_SIZE, REST
 
 Array = NDArray[np.float64]
 BLOCK = 16 * 1024  # frames read at once: a long run need not fit in memory
+EXTENT_FLOOR = 1e-12  # of the distance from the global origin: round-off of points that are one
+REST = 1e-3  # of the size, travelled in the time of the run: a machine that stays below it is at rest
+# of the potential energy, of a load times the size, of the energy of travelling by the size in the run: round-off of a machine at rest
+# is below green
+ENERGY_FLOOR = 1e-9
+ROUND_OFF = 1e-14  # of the size: an error below it is none
+CLOSED = 1e-12  # of the size: joints that are open by less are closed as well as a run closes them
+OPENING_WORK = 1e5  # times the work of the loads over what closed joints are open by: it is a decade below green
+POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
+
+RULES = {
+    "energy_scale": "the largest of: the kinetic energy, the change of potential energy, the work of external forces, the dissipated "
+    "energy. For a machine at rest the scale has lower limits: 1e-9 of the largest potential energy; 1e-9 (or the tolerance, at rest with "
+    "chosen steps) of the largest load, without dampers, and the weight, times the size, and of the kinetic energy of moving by the size "
+    "during the run; 1e5 times the work of these loads over the opening of the joints, if this is at most 1e-12 of the size. There is no "
+    "fixed number of joules: if all energies are zero, an error of zero is the fraction zero",
+    "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
+    "If all of them are one point, the larger of: the diagonal of the box around its path, and twice the largest radius of gyration. If "
+    "both are missing (a point mass, or one that moves by less than 1e-9 of what its loads would move it), 1 m by convention. "
+    "Constraint rows that are cosines of angles are compared with 1",
+    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r, where r is the radius of "
+    "gyration of a body without other points). If the machine moves at this speed by less than 1e-3 of its size during the run, it is at "
+    "rest, and the speed that moves it by 1e-3 of its size is used. Rates of cosines of angles are compared with speed / size",
+}
 
 
 class Readable(Protocol):
@@ -32,7 +55,7 @@ class Readable(Protocol):
 
 
 def machine_size(result: Readable) -> tuple[float, str]:
-    """The length [m], never zero, that distances are compared with, and what it is: see `verdicts.RULES`."""
+    """The length [m], never zero, that distances are compared with, and what it is: see `RULES`."""
     extent = _extent_at_start(result)
     if extent > 0.0:
         return extent, "machine's size"
@@ -138,7 +161,7 @@ def largest_kinetic_energy(result: Readable, size: float) -> float:
 
 
 def largest_energy(result: Readable, size: float, opening: float = 0.0, at_rest: bool = False) -> tuple[float, str]:
-    """The energy [J] that the energy error is compared with, and what it is: see `verdicts.RULES`. It may be zero.
+    """The energy [J] that the energy error is compared with, and what it is: see `RULES`. It may be zero.
 
     size : of the machine [m]. opening : by how much of it (of 1 for cosines) joints are open at most. at_rest : it is slower than
     `speed_of_rest`. A run without frames has no energy: 0 J of no kind.
@@ -168,7 +191,7 @@ def _mechanical_energies(result: Readable) -> list[tuple[str, float]]:
 
 
 def _energy_of_rest(result: Readable, size: float, opening: float, at_rest: bool) -> float:
-    """The energy [J] of which round-off, and what a run at rest is not solved for any more, are below green: see `verdicts.RULES`."""
+    """The energy [J] of which round-off, and what a run at rest is not solved for any more, are below green: see `RULES`."""
     settings = json.loads(str(result.attributes.get("settings", "{}")))
     # loads of a machine that moves may be impacts, whose work is no measure of what it is solved for
     share = max(ENERGY_FLOOR, float(settings.get("tolerance", 0.0))) if at_rest else ENERGY_FLOOR

@@ -16,10 +16,10 @@ from nivel.errors import ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Method, Row, Spread
 from nivel.results.comparison.comparison_table import number, seconds
+from nivel.results.comparison.measures import constraint_measures, energy_measures
+from nivel.results.motion import Motion, distance
 from nivel.results.result import Result
 from nivel.results.scales import largest_kinetic_energy, machine_size
-from nivel.results.trust.measures import constraint_measures, energy_measures
-from nivel.results.trust.motion import Motion, distance
 
 
 def compare(machine: MachineRecord, grid: Grid, *, repeat: int = 3, listener: Listener | None = None) -> Comparison:

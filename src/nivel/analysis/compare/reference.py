@@ -21,9 +21,9 @@ from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison.comparison import Reference
 from nivel.results.comparison.comparison_table import seconds
+from nivel.results.motion import Motion, common_frames, distance
 from nivel.results.result import Result
 from nivel.results.scales import largest_kinetic_energy, machine_size
-from nivel.results.trust.motion import Motion, common_frames, distance
 
 TIGHT, EXTRAPOLATED = REFERENCES
 TOLERANCE: Final = 1e-12

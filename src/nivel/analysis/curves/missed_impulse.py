@@ -9,6 +9,7 @@ between samples are found by bounds of the function over intervals, which are ha
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,6 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.bounds import Interval
 from nivel.machine.units.tree import TIME
 from nivel.results.result import Result
-from nivel.results.trust.missed_impulse import Unseen
 
 Array = NDArray[np.float64]
 # Parts of a step between samples, and how many parts of the run are judged by themselves.
@@ -33,6 +33,22 @@ QUIET = 1e-2
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
 # A found feature is sampled by so many points; at most so many are.
 FEATURE, MOST_FEATURES = 2048, 32
+
+
+@dataclass(frozen=True)
+class Unseen:
+    """name : of a function. share : of the integral of its magnitude, over a twentieth of the run, that was missed. At `time` [s] it
+    changes by its whole range within `scale` [s], where steps are `step` [s] long. of : what it depends on, the time or a signal.
+    hidden : share of the integral of its magnitude over the whole run that was missed where it has more than the steps look at: no finer
+    run need see that either."""
+
+    name: str
+    share: float
+    time: float
+    scale: float
+    step: float
+    of: str = "time"
+    hidden: float = 0.0
 
 
 def unseen_loads(

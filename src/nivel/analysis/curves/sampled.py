@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.curves.functions import Varying, varying
+from nivel.analysis.curves.missed_impulse import Unseen
 from nivel.analysis.curves.step_limits import with_features
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
-from nivel.results.trust.missed_impulse import Unseen
 
 Array = NDArray[np.float64]
 # Places between two samples that are looked at, and samples at most.

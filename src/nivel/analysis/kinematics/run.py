@@ -11,6 +11,8 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.failures.lockup import find_jam
+from nivel.analysis.failures.outcome import failure
 from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
 from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.analysis.kinematics.singular import singular_positions
@@ -22,9 +24,9 @@ from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
-from nivel.analysis.run.lockup import find_jam
-from nivel.analysis.run.outcome import failure
 from nivel.analysis.run.preparation import prepare
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Positions
 from nivel.errors import SolveError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.positions import follow_positions
@@ -37,7 +39,6 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
-from nivel.results.trust.kinematics_trust import KinematicsFacts, assess_kinematics
 from nivel.system.layout import FrameLayout, laid_out
 from nivel.system.system import Array
 
@@ -94,7 +95,7 @@ def kinematics(
     with terminable():
         finished, run = follow(prepared, steps, chosen[0], listener)
         finished.timing |= seconds
-        return _close(sink, prepared, finished, run)
+        return _close(sink, machine, prepared, finished, run)
 
 
 def _attributes(
@@ -158,26 +159,23 @@ def _without_histories(layout: FrameLayout, sink: Memory | Store) -> tuple[_Chos
     return _Chosen(sink, np.array(columns, dtype=np.intp)), laid_out(entries, dict(layout.coordinates))
 
 
-def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: Run) -> Result:
+def _close(sink: Memory | Store, machine: MachineRecord, prepared: Prepared, finished: RunOutcome, run: Run) -> Result:
     message, advice, at = finished.failure or ("", "", 0.0)
-    redundancy = prepared.redundancy
     near = singular_positions(prepared, sink.result())
     jammed = finished.failure is not None and "jams" in message
     if finished.failure is not None and not jammed and near is not None and near.least < STUCK:
         message = f"a position at t = {near.time:.6g} s is singular: the rows of {', '.join(near.joints)} depend on each other there"
         advice = "Branches of positions meet in it. Take another number of positions, so that none falls on it: it is then stepped over."
-    facts = KinematicsFacts(
+    positions = Positions(
+        result=sink.result(),
         outcome=finished.outcome,
         failure=message,
-        drivers=prepared.drivers,
-        redundant_rows=redundancy.redundant_rows,
-        non_unique_joints=redundancy.non_unique_joints,
+        machine=machine,
+        prepared=prepared,
         halved=int(run.counter[REJECTED]),
+        near=near,
         # a machine that jams has come to the singular position, not past it
         passed=tuple(pair for pair in near.passed if not jammed or pair[1] < at) if near is not None else (),
-        nearest=(near.least, near.time) if near is not None else None,
-        split=near.joints if near is not None else (),
-        held=tuple(fact.name for fact in prepared.motion.system.states if not fact.integral),
     )
     result = sink.close(
         {
@@ -186,7 +184,7 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
             "advice": advice,
             "events": "[]",
             "stopped_by": "",
-            "trust": assess_kinematics(sink.result(), facts).to_json(),
+            "trust": assess(positions).to_json(),
             "timing": json.dumps(finished.timing),
         }
     )

@@ -83,6 +83,11 @@ class Prepared:
     allowed: Array | None = None
     jumping: tuple[str, ...] = ()
 
+    @property
+    def guards_circuits(self) -> bool:
+        """Whether the steps of a run guard the pressures of circuits."""
+        return bool(self.integrator.guarded and self.motion.system.nodes)
+
 
 def prepare(
     methods: Methods,

@@ -14,18 +14,18 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback
+from nivel.analysis.failures.crawling import CRAWLS, Crawl, crawling, jump_advice
+from nivel.analysis.failures.divergence import GROWN, UNBOUND
+from nivel.analysis.failures.fastest import fastest_beyond, held_step
+from nivel.analysis.failures.lockup import Jam, can_be_asked, find_jam
+from nivel.analysis.failures.outcome import failure
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.progress.pacing import Pacing
-from nivel.analysis.run.crawling import CRAWLS, Crawl, crawling, jump_advice
-from nivel.analysis.run.divergence import GROWN, UNBOUND
-from nivel.analysis.run.fastest import fastest_beyond, held_step
 from nivel.analysis.run.history import start_history
-from nivel.analysis.run.lockup import Jam, can_be_asked, find_jam
-from nivel.analysis.run.outcome import failure
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
     ACCEPTED,

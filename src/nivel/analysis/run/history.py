@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.implicit import constraint_index
+from nivel.analysis.failures.lockup import can_be_asked
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.run.lockup import can_be_asked
+from nivel.analysis.trust.checks.indeterminate_friction import STILL
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import (
     ALL_STEPS,
@@ -44,7 +45,6 @@ from nivel.kernels.signals.sampling import sample
 from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.motion.direct import VISIBLE
-from nivel.results.trust.indeterminate_friction import STILL
 from nivel.system.elimination.partition import forget
 from nivel.system.signals.control import ONCE
 from nivel.system.system import Array, System

@@ -19,9 +19,9 @@ from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.preparation import prepare
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
+from nivel.results.estimate import TIMES
 from nivel.results.memory import Memory
 from nivel.results.result import Result
-from nivel.results.trust.estimate import TIMES
 from nivel.words.wording import seconds
 
 # Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.

@@ -34,6 +34,8 @@ from nivel.analysis.statics.settings import StaticsSettings
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Equilibria
 from nivel.errors import SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.solve.saddle import LEFT_OUT
@@ -42,7 +44,6 @@ from nivel.results.frames.occurrence import Occurrence, to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
-from nivel.results.trust.statics_trust import StaticsFacts, assess_statics
 
 
 def statics_attributes(
@@ -293,14 +294,12 @@ def _close(
     if walk.ended is None and (loaded := loaded_free(machine, result, prepared.motion.system.size)):
         walk.outcome, walk.ended = "failed", loaded
     message, advice = walk.ended or ("", "")
-    redundancy = prepared.redundancy
-    facts = StaticsFacts(
+    equilibria = Equilibria(
+        result=result,
         outcome=walk.outcome,
         failure=message,
-        degrees_of_freedom=redundancy.degrees_of_freedom,
-        drivers=prepared.drivers,
-        redundant_rows=redundancy.redundant_rows,
-        non_unique_joints=redundancy.non_unique_joints,
+        machine=machine,
+        prepared=prepared,
         critical=tuple((each.kind, each.t, None if each.found is not None else each.between) for each in walk.critical),
         at_rest=at_rest(machine),
         rigid=walk.rigid,
@@ -324,7 +323,7 @@ def _close(
         "stopped_by": "",
         "critical_points": json.dumps(critical),
         "buckling": json.dumps([{"time": t, "moves": words} for t, words in walk.buckling]),
-        "trust": assess_statics(result, facts).to_json(),
+        "trust": assess(equilibria).to_json(),
         "timing": json.dumps({"steps": len(walk.counts), "iterations": walk.iterations, **seconds}),
     }
     reached = float(result.time[-1]) if len(result.time) else 0.0

@@ -38,7 +38,7 @@ class Row:
     loop_seconds, seconds_per_step : process time in the compiled loop, the least of the repeats, frames included.
     constraint_error, _mean : largest and mean magnitude over frames and rows, lengths divided by the machine's size.
     constraint_rate_error, _mean [1/s] : the same of their rates. energy_error [J] : largest; energy_error_relative : divided by the
-    largest kinetic energy, None of a machine at rest. motion_error : distance from the reference, see `nivel.results.trust.motion`; its
+    largest kinetic energy, None of a machine at rest. motion_error : distance from the reference, see `nivel.results.motion`; its
     body
     and time [s].
     reference : the name of the reference it was held against; order : slope of the error from the next larger step to this one.

@@ -14,14 +14,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.plan.plan import Plan
+from nivel.analysis.trust.check import STEPS, Check
+from nivel.analysis.trust.subject import Run
 from nivel.machine.core.orientation import euler_parameters_from_matrix
+from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, largest_mechanical_energy
-from nivel.results.trust.findings import measured
-from nivel.results.trust.verdicts import Item, number
+from nivel.results.trust import Item, Threshold, number
 
 Array = NDArray[np.float64]
 FRAMES = 200  # that are looked at, at most
+THRESHOLD = Threshold(
+    1e-2,
+    1e-1,
+    "Displacements are too small by about the share of the energy that the elements miss. Stiffness is known to about a hundredth; a "
+    "tenth is visible.",
+)
 
 
 @dataclass(frozen=True)
@@ -49,6 +56,11 @@ class Coarse:
     order: int
 
 
+def look(run: Run) -> Coarse | None:
+    """The beam whose elements miss most."""
+    return coarsest(run.result, meshes(run.machine))
+
+
 def say(coarse: Coarse) -> Item:
     """What the elements of a beam miss, and what to do."""
     advice = "use twice as many, or `order: 2`" if coarse.order == 1 else "use twice as many"
@@ -56,13 +68,13 @@ def say(coarse: Coarse) -> Item:
         f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
         f"t = {coarse.time:.6g} s, because the curvature changes within them; {advice}"
     )
-    return measured("mesh", said, coarse.share, coarse.time, coarse.beam)
+    return THRESHOLD.item("mesh", said, coarse.share, coarse.time, coarse.beam)
 
 
-def meshes(plan: Plan) -> list[BeamMesh]:
+def meshes(machine: MachineRecord) -> list[BeamMesh]:
     """The beams whose elements are linear or quadratic."""
     out = []
-    for beam in plan.machine.beams:
+    for beam in machine.beams:
         if beam.order <= 2 and beam.model != "ancf-cable":
             axes = beam.frames(beam.shares)[1]
             theta = np.array([euler_parameters_from_matrix(each) for each in axes])
@@ -121,3 +133,19 @@ def turns(theta: Array) -> Array:
     v = np.where(s < 0.0, -v, v)
     sine = np.linalg.norm(v, axis=-1, keepdims=True)
     return v * np.where(sine > 1e-12, 2.0 * np.arctan2(sine, np.abs(s)) / np.maximum(sine, 1e-300), 2.0)
+
+
+CHECKS = (
+    Check(
+        "beam_mesh",
+        (Run,),
+        look,
+        say,
+        place=280,
+        needs=(STEPS,),
+        line="mesh",
+        title="Mesh",
+        threshold=THRESHOLD,
+        quiet=True,
+    ),
+)

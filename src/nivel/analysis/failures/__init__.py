@@ -1,0 +1,1 @@
+"""Failures of an analysis: what stopped it, and what to do about it."""

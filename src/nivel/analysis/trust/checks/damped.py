@@ -1,0 +1,71 @@
+"""Damping by the method: energy that it takes from the motion, and takes from that of a second, finer run too."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.analysis.trust.check import SECOND_RUN, Check, Need
+from nivel.analysis.trust.subject import Run
+from nivel.results.motion import common_frames
+from nivel.results.scales import Readable, largest_energy, machine_size
+from nivel.results.trust import Item, quantity
+
+# A loss of energy counts above this share of the largest energy; it does not get less where this share of it is left.
+LOSS, STAYS = 1e-8, 0.7
+IMPLICIT = Need("an implicit method", lambda run: run.prepared.integrator.needs != "evaluations")
+
+
+@dataclass(frozen=True)
+class Damped:
+    """Energy [J] that the run lost, and what a finer one did. method : the integrator."""
+
+    lost: float
+    lost_finer: float
+    method: str
+
+
+def look(run: Run) -> Damped | None:
+    """What the method takes whatever the step."""
+    return damped(run.result, run.finer.result, run.plan.settings.integrator)
+
+
+def say(found: Damped) -> Item:
+    """How much it takes, and what to do."""
+    text = (
+        f"Damped: {found.method} takes {quantity(found.lost, 'J')} from the motion, and {quantity(found.lost_finer, 'J')} with finer "
+        f"steps: vibrations faster than the steps are damped numerically; use steps of a tenth of their period, or add damping to the "
+        f"model if these vibrations do not matter "
+        f"(green if finer steps lose less, amber otherwise)"
+    )
+    return Item("damped", "amber", text, found.lost)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def damped(result: Readable, finer: Readable, method: str) -> Damped | None:
+    """Energy that the method takes from the motion whatever the step: None where it takes none that counts, or less with finer steps."""
+    if "energy_error" not in result.variables:
+        return None
+    first, second = common_frames(result.time, finer.time)
+    if not len(first):
+        return None
+    coarse, fine = result.array("energy_error")[first], finer.array("energy_error")[second]
+    k = int(np.argmin(coarse))
+    lost, lost_finer = -float(coarse[k]), -float(fine[k])
+    scale = largest_energy(result, machine_size(result)[0])[0]
+    return Damped(lost, lost_finer, method) if lost > LOSS * scale and lost_finer > STAYS * lost else None
+
+
+CHECKS = (
+    Check(
+        "damped",
+        (Run,),
+        look,
+        say,
+        place=330,
+        needs=(SECOND_RUN, IMPLICIT),
+        title="Damped",
+        blind="their method damps vibrations",
+    ),
+)

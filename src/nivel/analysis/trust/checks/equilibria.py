@@ -1,0 +1,174 @@
+"""States of equilibrium: how well they are balanced, how stable they are, and what statics does not tell of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nivel.analysis.trust.check import FRAMES, Check
+from nivel.analysis.trust.subject import Equilibria
+from nivel.results.peaks import peak
+from nivel.results.trust import Item, Threshold, number
+
+SHOWN = 6
+RESIDUAL = Threshold(
+    1e-8,
+    1e-5,
+    "Largest unbalanced force as a share of the largest load. Loads are rarely known to 1e-3; 1e-5 is two decades below. Newton's method "
+    "ends far below 1e-8, unless the machine has both very stiff and very soft parts.",
+)
+
+
+@dataclass(frozen=True)
+class Residual:
+    """The largest unbalanced force, as a share of the largest load, and its time [s]. rounded : round-off of positions explains all that
+    is not green."""
+
+    value: float
+    time: float
+    rounded: bool
+
+
+@dataclass(frozen=True)
+class Stability:
+    """States of all that are unstable, in how many directions at most, and the time [s] of the first. known : False where it depends on
+    sampled blocks."""
+
+    known: bool
+    unstable: int = 0
+    states: int = 0
+    directions: int = 0
+    time: float = 0.0
+
+
+@dataclass(frozen=True)
+class CriticalPoints:
+    """(kind, t [s], None or the times [s] between which it is where it was not found) of limit and bifurcation points."""
+
+    points: tuple[tuple[str, float, tuple[float, float] | None], ...]
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """What is said, in words."""
+
+    said: str
+
+
+def look_at_residual(subject: Equilibria) -> Residual:
+    """Forces left over; those that round-off explains are as good as none."""
+    left, result = peak(subject.result, "residual"), subject.result
+    values, rounded = result.array("residual"), result.array("residual_round_off")
+    explained = bool(np.all(values <= np.maximum(rounded, RESIDUAL.green)))
+    return Residual(left.value, left.time, explained and RESIDUAL.verdict(left.value) != "green")
+
+
+def say_residual(found: Residual) -> Item:
+    """How well the states are balanced."""
+    said = f"unbalanced forces are at most {number(found.value)} of the largest load, at t = {found.time:.6g} s"
+    if not found.rounded:
+        return RESIDUAL.item("residual", f"Equilibrium: {said}", found.value, found.time)
+    said += "; round-off of the positions makes as much of them, with parts so stiff"
+    return replace(RESIDUAL.item("residual", f"Equilibrium: {said}", found.value, found.time), verdict="green")
+
+
+def look_at_stability(subject: Equilibria) -> Stability:
+    """Directions of negative stiffness."""
+    counts, time = subject.result.array("unstable_directions"), subject.result.time
+    if np.any(counts < 0):
+        return Stability(False)
+    unstable = np.flatnonzero(counts > 0)
+    first = float(time[unstable[0]]) if len(unstable) else 0.0
+    return Stability(True, len(unstable), len(counts), int(counts.max()), first)
+
+
+def say_stability(found: Stability) -> Item:
+    """Whether a machine that is left alone stays there."""
+    if not found.known:
+        text = (
+            "Stability: not determined, because it depends on sampled blocks; a run from this state shows whether the machine "
+            "stays there (amber)"
+        )
+        return Item("stability", "amber", text)
+    if not found.unstable:
+        said = "Stability: every state is stable: no direction of negative stiffness (green)"
+        return Item("stability", "green", said)
+    directions = "1 direction" if found.directions == 1 else f"up to {found.directions} directions"
+    text = (
+        f"Stability: {found.unstable} of {found.states} states are unstable, in {directions}, the first at t = {found.time:.6g} s: left "
+        f"alone, a machine does not stay there (amber)"
+    )
+    return Item("stability", "amber", text, time=found.time)
+
+
+def say_critical(found: CriticalPoints) -> Item:
+    """Limit and bifurcation points on the path."""
+    named = [
+        f"{kind} at t = {t:.9g} s"
+        if between is None
+        else f"{kind} between the states of t = {between[0]:.9g} s and {between[1]:.9g} s"
+        for kind, t, between in found.points
+    ]
+    more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
+    return Item("critical", "amber", f"Critical points: {', '.join(named[:SHOWN])}{more} (amber if there are any)")
+
+
+def look_at_potential(subject: Equilibria) -> Sentence | None:
+    """Whether some force has none, as one that follows a body."""
+    loads = "some loads have no potential (follower forces, or torques about a fixed axis)"
+    return Sentence(f"{loads}: flutter is not examined") if subject.without_potential else None
+
+
+def look_at_vibrations(subject: Equilibria) -> Sentence | None:
+    """Vibrations of no frequency."""
+    return (
+        Sentence(f"{subject.rigid} with frequency zero: rigid-body motions of the machine") if subject.rigid else None
+    )
+
+
+CHECKS = (
+    Check(
+        "residual",
+        (Equilibria,),
+        look_at_residual,
+        say_residual,
+        place=10,
+        needs=(FRAMES,),
+        title="Equilibrium",
+        threshold=RESIDUAL,
+    ),
+    Check("stability", (Equilibria,), look_at_stability, say_stability, place=40, needs=(FRAMES,), title="Stability"),
+    Check(
+        "critical",
+        (Equilibria,),
+        lambda subject: CriticalPoints(subject.critical) if subject.critical else None,
+        say_critical,
+        place=42,
+        title="Critical points",
+    ),
+    Check(
+        "potential",
+        (Equilibria,),
+        look_at_potential,
+        lambda found: Item("potential", "amber", f"Potential: {found.said} (green if all loads have one)"),
+        place=44,
+        title="Potential",
+    ),
+    Check(
+        "vibrations",
+        (Equilibria,),
+        look_at_vibrations,
+        lambda found: Item("vibrations", "amber", f"Vibrations: {found.said} (green if none)"),
+        place=46,
+        title="Vibrations",
+    ),
+    Check(
+        "at_rest",
+        (Equilibria,),
+        lambda subject: Sentence("; ".join(subject.at_rest)) if subject.at_rest else None,
+        lambda found: Item("at_rest", "green", f"At rest: {found.said} (said, always green)"),
+        place=48,
+        title="At rest",
+    ),
+)

@@ -1,0 +1,137 @@
+"""Convex hulls that pass through each other between two frames, as steps that are longer than the time in which they overlap let them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.trust.check import STEPS, Check
+from nivel.analysis.trust.checks.passed_spheres import (
+    BLIND,
+    DEEP,
+    SHOWN,
+    UNCHANGED,
+    Passed,
+    place_and_velocity,
+    say,
+)
+from nivel.analysis.trust.subject import Run
+from nivel.machine.forces import Contact
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.scales import Readable, rotated
+from nivel.system.forces.hulls import hull_of
+
+Array = NDArray[np.float64]
+# Places looked at on the way through the thinner hull, and at most between two frames; intervals between frames that are looked at.
+LOOKS, MOST_LOOKS, MOST_INTERVALS = 8, 100, 100
+
+
+@dataclass(frozen=True)
+class HullPair:
+    """A contact of two hulls: its name, bodies, and of each hull its middle in the body frame, its corners from there and its faces
+    (normal, distance) [m]."""
+
+    contact: str
+    bodies: tuple[str, str]
+    middles: tuple[Array, Array]
+    corners: tuple[Array, Array]
+    faces: tuple[Array, Array]
+
+    @property
+    def thinnest(self) -> float:
+        """[m] of the two least widths between a face and the corners, the smaller one."""
+        widths = [
+            float((faces[:, 3] - (corners @ faces[:, :3].T).min(axis=0)).min())
+            for corners, faces in zip(self.corners, self.faces, strict=True)
+        ]
+        return min(widths)
+
+    @property
+    def reach(self) -> float:
+        """[m] between the middles, from which on they cannot touch."""
+        return sum(float(np.linalg.norm(corners, axis=1).max()) for corners in self.corners)
+
+
+def look(run: Run) -> list[Passed]:
+    """The pairs of hulls that passed each other."""
+    return passed_hulls(run.result, pairs_of(run.machine))[:SHOWN]
+
+
+def pairs_of(machine: MachineRecord) -> list[HullPair]:
+    """The contacts of two convex hulls."""
+    out, bodies = [], {each.name: each for each in machine.bodies}
+    for force in machine.forces:
+        if isinstance(force, Contact) and force.bodies is not None and force.foundation_modulus is not None:
+            first, second = (hull_of(bodies[name]) for name in force.bodies)
+            middles, corners = (first.middle, second.middle), (first.corners, second.corners)
+            out.append(HullPair(force.name, force.bodies, middles, corners, (first.faces, second.faces)))
+    return out
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def passed_hulls(result: Readable, pairs: Sequence[HullPair]) -> list[Passed]:
+    """The deepest of each pair, where straight lines between frames, along the speeds at both, lead through the overlap."""
+    out = []
+    for pair in pairs:
+        found = [each for each in _passages(result, pair) if each.overlap > DEEP]
+        if found:
+            out.append(max(found, key=lambda each: each.overlap))
+    return out
+
+
+def _passages(result: Readable, pair: HullPair) -> Iterator[Passed]:
+    """The intervals at whose ends the hulls are apart and inside which they overlap."""
+    time, thinnest = result.time, pair.thinnest
+    first, second = (place_and_velocity(result, body, at) for body, at in zip(pair.bodies, pair.middles, strict=True))
+    place, speed = second[0] - first[0], second[1] - first[1]
+    way, span = np.diff(place, axis=0), np.diff(time)[:, None]
+    length = np.linalg.norm(way, axis=1)
+    share = np.clip(-np.sum(place[:-1] * way, axis=1) / length**2, 0.0, 1.0)
+    near = np.linalg.norm(place[:-1] + share[:, None] * way, axis=1) < pair.reach
+    straight = np.ones(len(way), dtype=bool)
+    for each in (speed[:-1], speed[1:]):
+        straight &= np.linalg.norm(each * span - way, axis=1) < UNCHANGED * length
+    turns = [result.array("orientation")[:, result.coordinates["body"].index(body)] for body in pair.bodies]
+    fast = np.flatnonzero(near & straight & (length > thinnest / LOOKS))
+    for k in fast[np.argsort(-length[fast])][:MOST_INTERVALS]:
+        count = int(np.clip(np.ceil(LOOKS * length[k] / thinnest), 2, MOST_LOOKS))
+        shares = np.linspace(0.0, 1.0, count + 1)
+        depth = np.array(
+            [_depth(pair, place[k] + s * way[k], *(_between(turn, k, s) for turn in turns)) for s in shares]
+        )
+        if depth[0] <= 0.0 and depth[-1] <= 0.0 and depth.max() > 0.0:
+            lasted = float((depth > 0.0).sum() / count * span[k, 0])
+            at = float(time[k] + shares[np.argmax(depth)] * span[k, 0])
+            yield Passed(
+                pair.contact, pair.bodies, float(depth.max() / thinnest), "the thinner one's width", at, lasted
+            )
+
+
+def _between(theta: Array, k: int, share: float) -> Array:
+    """Euler parameters at a share of the way from frame k to the next, along the shorter turn."""
+    there = theta[k + 1] if theta[k] @ theta[k + 1] >= 0.0 else -theta[k + 1]
+    mean = (1.0 - share) * theta[k] + share * there
+    return mean / np.linalg.norm(mean)
+
+
+def _depth(pair: HullPair, r: Array, first: Array, second: Array) -> float:
+    """[m] by which two hulls overlap, r from the first middle to the second; negative where a face keeps them apart, 0 where edges do."""
+    from scipy.optimize import linprog
+
+    normals = [rotated(turn, faces[:, :3]) for turn, faces in zip((first, second), pair.faces, strict=True)]
+    corners = [rotated(turn, points) for turn, points in zip((first, second), pair.corners, strict=True)]
+    of_first = pair.faces[0][:, 3] - ((corners[1] + r) @ normals[0].T).min(axis=0)
+    of_second = pair.faces[1][:, 3] - ((corners[0] - r) @ normals[1].T).min(axis=0)
+    least = float(min(of_first.min(), of_second.min()))
+    if least <= 0.0:
+        return least
+    rows = np.vstack([np.column_stack([n, np.ones(len(n))]) for n in normals])
+    heights = np.concatenate([pair.faces[0][:, 3], pair.faces[1][:, 3] + normals[1] @ r])
+    deepest = linprog([0.0, 0.0, 0.0, -1.0], rows, heights, bounds=[(None, None)] * 4)
+    return 2.0 * max(float(deepest.x[3]), 0.0) if deepest.success else 0.0
+
+
+CHECKS = (Check("passed_hulls", (Run,), look, say, place=221, needs=(STEPS,), line="contact", blind=BLIND),)

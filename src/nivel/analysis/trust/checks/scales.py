@@ -1,0 +1,6 @@
+"""Scales of the other checks: size and speed of the machine. They have no line."""
+
+from nivel.analysis.trust.check import Check
+from nivel.analysis.trust.subject import Subject
+
+CHECKS = (Check("scales", (Subject,), lambda subject: subject.scales, lambda _: None, place=0),)

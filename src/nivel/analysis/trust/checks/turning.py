@@ -1,0 +1,77 @@
+"""Turning of bodies in a step, seen without a second run: beyond what the method resolves, or beyond what can be counted."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.trust.check import FIXED_STEPS, Check
+from nivel.analysis.trust.subject import Run
+from nivel.integrate.loop.run import TURNED
+from nivel.results.scales import Readable
+from nivel.results.trust import Item, Threshold, number
+
+Array = NDArray[np.float64]
+THRESHOLD = Threshold(
+    0.5,
+    3.0,
+    "Rotation in a step, in radians. At 0.5 the error of methods of order four is 2e-4 rad a turn. Near half a turn (3 rad) no method "
+    "can determine the sense of the rotation.",
+)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """The largest angle [rad] by which a body turned in one step, and at which `time` [s]. counted : turns are part of the state, so that
+    none is lost."""
+
+    body: str
+    angle: float
+    time: float
+    counted: bool = False
+
+
+def look(run: Run) -> Turn | None:
+    """The largest turn in a step; where steps are chosen no body turns too far."""
+    settings = run.plan.settings
+    return largest_turn(run.result, run.pace[TURNED], settings.duration, counted=settings.coordinates == "relative")
+
+
+def say(found: Turn) -> Item:
+    """The turn, and what is lost by it."""
+    threshold = Threshold(THRESHOLD.amber, math.inf, "") if found.counted else THRESHOLD
+    lost = "forces that depend on its angle are not resolved" if found.counted else "its turns can no longer be counted"
+    meaning = lost if found.angle > THRESHOLD.amber else "that is more than the method resolves"
+    turns = f"{found.body} rotates by {number(found.angle)} rad in one step at t = {found.time:.6g} s"
+    said = f"Turning: {turns}, and {meaning}; use shorter steps"
+    return threshold.item("turn", said, found.angle, found.time, found.body)
+
+
+def largest_turn(result: Readable, turned: Array, end: float, *, counted: bool) -> Turn | None:
+    """turned : (parts,) [rad] largest angle in a step of each part of the duration `end` [s]. The body is the fastest one then."""
+    if "angular_velocity" not in result.variables or not len(result.time) or not turned.size:
+        return None
+    part = int(np.argmax(turned))
+    time = float((part + 0.5) / len(turned) * end)
+    frame = min(int(np.searchsorted(result.time, time)), len(result.time) - 1)
+    speed = np.linalg.norm(result.array("angular_velocity", slice(frame, frame + 1))[0], axis=-1)
+    return Turn(result.coordinates["body"][int(np.nan_to_num(speed).argmax())], float(turned[part]), time, counted)
+
+
+CHECKS = (
+    Check(
+        "turn",
+        (Run,),
+        look,
+        say,
+        place=230,
+        needs=(FIXED_STEPS,),
+        title="Turning",
+        threshold=THRESHOLD,
+        blind="{row} rotates too far in a step",
+        quiet=True,
+    ),
+)

@@ -1,0 +1,159 @@
+"""Subjects of the trust report: a result, and what the analysis that computed it knows beside."""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from nivel.integrate.loop.run import MOVING
+from nivel.results.peaks import Peak, worst_row
+from nivel.results.scales import Readable, largest_speed, machine_size, speed_of_rest
+from nivel.results.trust import Item
+
+if TYPE_CHECKING:
+    from nivel.analysis.kinematics.singular import Singularity
+    from nivel.analysis.plan.plan import Plan
+    from nivel.analysis.preparation.preparation import Prepared
+    from nivel.analysis.run.dynamics import RunOutcome
+    from nivel.analysis.run.second_run import Verified
+    from nivel.machine.machine_record import MachineRecord
+    from nivel.results.estimate import Estimate
+    from nivel.results.result import Result
+
+
+@dataclass(frozen=True)
+class Scales:
+    """What errors are compared with: size [m] and what it is, to be said after "the"; speed [m/s], the least one that counts where the
+    machine is `at_rest`."""
+
+    size: float
+    size_kind: str
+    speed: float = 1.0
+    at_rest: bool = False
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A result. outcome : done, interrupted, failed or running. failure : what stopped the analysis, in a sentence.
+
+    items : lines of the other checks, for checks that are looked at last.
+    """
+
+    result: Readable
+    outcome: str
+    failure: str = ""
+    items: tuple[Item, ...] = ()
+
+    def with_lines(self, items: tuple[Item, ...]) -> Self:
+        """The same subject, with lines of other checks."""
+        known = copy(self)
+        object.__setattr__(known, "items", items)
+        return known
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Size and speed of the machine."""
+        raise NotImplementedError
+
+    @cached_property
+    def opening(self) -> tuple[Peak, str]:
+        """The constraint row that is open most, and its units: m, rad or 1."""
+        return worst_row(self.result, "constraint_violation", {"m": 1.0 / self.scales.size, "1": 1.0})
+
+
+@dataclass(frozen=True)
+class Motion(Subject):
+    """A run in time, of which the result alone is known where it was killed, or still goes on.
+
+    stopped_by : name of the event that ended it. kinetic_energy : the largest one that its steps had [J]; frames may all meet a vibration
+    where it is slow.
+    """
+
+    stopped_by: str = ""
+    kinetic_energy: float = 0.0
+
+    @cached_property
+    def scales(self) -> Scales:
+        size, kind = machine_size(self.result)
+        speed, slowest = largest_speed(self.result), speed_of_rest(self.result, size)
+        return Scales(size, kind, max(speed, slowest), speed < slowest)
+
+
+@dataclass(frozen=True)
+class Computed:
+    """What analyses know that have just been made."""
+
+    machine: MachineRecord
+    prepared: Prepared
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run(Motion, Computed):
+    """A run that has ended. second : the second run, and `estimate` what follows from it for each number; None where there are none."""
+
+    result: Result
+    plan: Plan
+    finished: RunOutcome
+    second: Verified | None = None
+    estimate: Estimate | None = None
+
+    @property
+    def finer(self) -> Verified:
+        """The second run, for checks that need one."""
+        assert self.second is not None
+        return self.second
+
+    @property
+    def pace(self) -> np.ndarray:
+        """Of `nivel.integrate.loop.run.Run`."""
+        assert self.finished.pace is not None
+        return self.finished.pace
+
+
+def run_of(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result) -> Run:
+    """A run that has ended, without a second one."""
+    return Run(
+        result=result,
+        outcome=finished.outcome,
+        failure=finished.failure[0] if finished.failure is not None else "",
+        stopped_by=finished.stopped_by,
+        kinetic_energy=float(finished.pace[MOVING].max()) if finished.pace is not None else 0.0,
+        machine=plan.machine,
+        prepared=prepared,
+        plan=plan,
+        finished=finished,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equilibria(Subject, Computed):
+    """States of equilibrium. critical : (kind, t [s], None or the times [s] between which it is where it was not found) of limit and
+    bifurcation points, along the path. at_rest : sentences on what makes no force at rest. rigid : vibrations of no frequency.
+    without_potential : some force has none, as one that follows a body."""
+
+    critical: tuple[tuple[str, float, tuple[float, float] | None], ...] = ()
+    at_rest: tuple[str, ...] = ()
+    rigid: int = 0
+    without_potential: bool = False
+
+    @cached_property
+    def scales(self) -> Scales:
+        return Scales(*machine_size(self.result), at_rest=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Positions(Subject, Computed):
+    """Positions of a kinematic analysis. halved : steps that were shortened on the way. near : the singular position that it came nearest
+    to; None where there are no constraints. passed : pairs of times [s] between which one was passed."""
+
+    halved: int = 0
+    near: Singularity | None = None
+    passed: tuple[tuple[float, float], ...] = ()
+
+    @cached_property
+    def scales(self) -> Scales:
+        return Scales(*machine_size(self.result), max(largest_speed(self.result), 1e-300))

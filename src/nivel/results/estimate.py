@@ -1,0 +1,82 @@
+"""Estimate of the error of every result variable from a second, finer run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.results.frames.contents import shape_of
+from nivel.results.motion import common_frames
+from nivel.results.scales import Readable
+
+Array = NDArray[np.float64]
+ATTRIBUTE = "estimated_errors"
+# Estimates are kept at so many times, at fewer of machines with more numbers than this.
+TIMES, NUMBERS = 50, 200_000
+# Errors are not smaller than this share of a value.
+ROUND_OFF = 2.220446049250313e-16
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Estimated errors of all numbers of a result up to some times.
+
+    time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time.
+    """
+
+    time: Array
+    values: Mapping[str, Array]
+
+    def at(self, name: str, time: Array) -> Array:
+        """Errors (n, …) of the variable `name` at times (n,) [s]; not a number after the last estimate."""
+        place = np.searchsorted(self.time, time * (1.0 - 1e-12))
+        known = np.minimum(place, len(self.time) - 1)
+        out = self.values[name][known]
+        out[place >= len(self.time)] = np.nan
+        return out
+
+    def to_json(self) -> str:
+        """JSON text, three digits."""
+        values = {name: _rounded(each) for name, each in self.values.items()}
+        return json.dumps({"time": self.time.tolist(), "values": values}, separators=(",", ":"))
+
+    @classmethod
+    def from_json(cls, text: str) -> Estimate:
+        """Read what `to_json` wrote."""
+        data = json.loads(text)
+        return cls(np.array(data["time"]), {name: np.array(each, dtype=float) for name, each in data["values"].items()})
+
+
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is no warning
+def estimate_errors(result: Readable, finer: Readable, factor: float) -> Estimate | None:
+    """Errors of `result` from its distance to a run with less of them; None where both have no frame at the same time.
+
+    factor : what the distance is multiplied by. Euler parameters are taken with the sign of the others: θ and -θ are one orientation.
+    """
+    first, second = common_frames(result.time, finer.time)
+    if not len(first):
+        return None
+    width = sum(int(np.prod(shape_of(each, result.coordinates))) for each in result.variables.values())
+    count = int(np.clip(NUMBERS // max(width, 1), 1, min(TIMES, len(first))))
+    ends = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
+    values = {}
+    for name in result.variables:
+        a, b = result.array(name)[first], finer.array(name)[second]
+        if name == "orientation":
+            b = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -b, b)
+        off = np.maximum(factor * np.abs(a - b), ROUND_OFF * np.abs(a))
+        values[name] = np.maximum.accumulate(off, axis=0)[ends]
+    return Estimate(result.time[first][ends], values)
+
+
+def _rounded(values: Array) -> Any:
+    """Nested lists of numbers with three digits; what is no number is null."""
+    flat: list[Any] = [float(f"{each:.3g}") if np.isfinite(each) else None for each in values.ravel().tolist()]
+    for length in reversed(values.shape[1:]):
+        flat = [flat[k : k + length] for k in range(0, len(flat), length)]
+    return flat

@@ -1,0 +1,301 @@
+"""Verdicts of a result: what checks have found, the thresholds that it is held against, and the verdict in words."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any, Final, Literal, NamedTuple
+
+import numpy as np
+
+Verdict = Literal["green", "amber", "red"]
+ROUND_OFF: Final = 1e-14  # of the size: an error below it is none
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A number is green below `green`, amber below `amber`, red otherwise; NaN is red."""
+
+    green: float
+    amber: float
+    reason: str
+
+    def verdict(self, number: float) -> Verdict:
+        if number < self.green:
+            return "green"
+        return "amber" if number < self.amber else "red"
+
+    def shown(self, value: float) -> str:
+        """A number in a sentence; with four digits where two would look like a threshold."""
+        text = number(value)
+        if float(text) not in (self.green, self.amber) or value in (self.green, self.amber):
+            return text
+        mantissa, exponent = f"{value:.3e}".split("e")
+        return f"{mantissa}e{int(exponent)}"
+
+    def item(self, name: str, text: str, value: float, time: float | None = None, row: str = "") -> Item:
+        """The line of a number that is held against this threshold."""
+        return Item(name, self.verdict(value), f"{text} ({self})", value, self.green, self.amber, row, time)
+
+    def __str__(self) -> str:
+        beyond = f"amber below {self.amber:.0e}" if math.isfinite(self.amber) else "amber otherwise"
+        return f"green below {self.green:.0e}, {beyond}".replace("e-0", "e-")
+
+
+@dataclass(frozen=True)
+class Item:
+    """One line of the trust report.
+
+    fraction : what is held against `green` and `amber`; None where the item is not a number.
+    text : the whole statement for a machine designer, thresholds included.
+    """
+
+    name: str
+    verdict: Verdict
+    text: str
+    fraction: float | None = None
+    green: float | None = None
+    amber: float | None = None
+    row: str = ""
+    time: float | None = None
+
+
+class Key(NamedTuple):
+    """A number of a check under a name of its own: name of the check, of its field, type, and value where the check has found nothing."""
+
+    check: str
+    field: str
+    type: str
+    absent: Any = None
+
+
+# names that the JSON of every result has, and attributes of `Trust`; other numbers stand in `found` alone
+KEYS: Final = {
+    "energy_error_max": Key("energy", "error", "float", 0.0),
+    "energy_error_time": Key("energy", "time", "float", 0.0),
+    "energy_scale": Key("energy", "scale", "float", 0.0),
+    "energy_scale_kind": Key("energy", "scale_kind", "str", ""),
+    "unresolved_force": Key("energy", "force", "str", ""),
+    "unresolved_work": Key("energy", "force_work", "float", 0.0),
+    "unresolved_time": Key("energy", "force_time", "float", 0.0),
+    "size": Key("scales", "size", "float", 1.0),
+    "size_kind": Key("scales", "size_kind", "str", "machine's size"),
+    "speed": Key("scales", "speed", "float", 1.0),
+    "at_rest": Key("scales", "at_rest", "bool", False),
+    "constraint_violation_max": Key("violation", "value", "float", 0.0),
+    "constraint_violation_row": Key("violation", "row", "str", ""),
+    "constraint_violation_time": Key("violation", "time", "float", 0.0),
+    "constraint_violation_units": Key("violation", "units", "str", "m"),
+    "constraint_rate_violation_max": Key("rate_violation", "value", "float", 0.0),
+    "constraint_rate_violation_row": Key("rate_violation", "row", "str", ""),
+    "constraint_rate_violation_time": Key("rate_violation", "time", "float", 0.0),
+    "constraint_rate_violation_units": Key("rate_violation", "units", "str", "m/s"),
+    "degrees_of_freedom": Key("degrees_of_freedom", "velocities", "int | None"),
+    "position_freedoms": Key("degrees_of_freedom", "positions", "int | None"),
+    "modes": Key("degrees_of_freedom", "modes", "int", 0),
+    "drivers": Key("degrees_of_freedom", "drivers", "int", 0),
+    "redundant_rows": Key("redundancy", "rows", "tuple[str, ...]", ()),
+    "non_unique_joints": Key("redundancy", "joints", "tuple[str, ...]", ()),
+    "undetermined_efforts": Key("shared_friction", "efforts", "tuple[str, ...]", ()),
+    "accuracy_estimate": Key("accuracy", "error", "float | None"),
+    "accuracy_body": Key("accuracy", "body", "str", ""),
+    "accuracy_time": Key("accuracy", "time", "float | None"),
+    "accuracy_refinement": Key("accuracy", "refinement", "str", ""),
+    "accuracy_blind": Key("accuracy", "blind", "str", ""),
+    "verified_until": Key("verified", "until", "float | None"),
+    "verification_ended": Key("verified", "ended", "str", ""),
+    "neglected_share": Key("neglected", "share", "float | None"),
+    "neglected_body": Key("neglected", "body", "str", ""),
+    "neglected_names": Key("neglected", "names", "tuple[str, ...]", ()),
+    "neglected_time": Key("neglected", "time", "float | None"),
+}
+# why the error is unknown, by the names of items, in results of versions without the key `accuracy_blind`
+BLIND: Final = {
+    "loads": "their steps miss {row}",
+    "contact": "their steps pass {row}",
+    "turn": "{row} rotates too far in a step",
+    "rounding": "{row} is so far from the origin that the motion in a step is below round-off",
+    "damped": "their method damps vibrations",
+    "singular": "at t = {time} s the motion may continue in more than one way",
+}
+
+
+@dataclass(frozen=True)
+class Trust:
+    """The verdict on a result, its lines, and the numbers behind them in SI units.
+
+    found : what each check has found, by its name: a mapping of its numbers, or a tuple of those. `KEYS` has names for some of
+    them, which are attributes too: `energy_error_max`, `constraint_violation_row` (as in the machine, `hinge.s.x`), `accuracy_estimate`.
+    Times are in seconds; violations in `…_units`: m, rad or 1 (a cosine).
+    """
+
+    verdict: Verdict
+    outcome: str
+    found: Mapping[str, Any] = field(default_factory=dict)
+    items: tuple[Item, ...] = ()
+
+    def __getattr__(self, name: str) -> Any:
+        """A number of KEYS."""
+        if name not in KEYS:
+            raise AttributeError(f"'Trust' has no attribute '{name}'", name=name, obj=self)
+        key = KEYS[name]
+        found = self.found.get(key.check)
+        return key.absent if found is None else found.get(key.field, key.absent)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *KEYS]
+
+    def to_json(self) -> str:
+        """JSON text; NaN and infinities stand as the strings "nan", "inf", "-inf"."""
+        flat = {"verdict": self.verdict, "outcome": self.outcome} | {name: getattr(self, name) for name in KEYS}
+        items = [{each.name: getattr(item, each.name) for each in fields(Item)} for item in self.items]
+        return json.dumps({**_storable({**flat, "items": items}), "found": _tagged(self.found)}, ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Trust:
+        """Read what `to_json` wrote, or an earlier version, which has the names of KEYS alone; those of later versions are passed over."""
+        data = json.loads(text)
+        items = tuple(Item(**_known(Item, each)) for each in data["items"])
+        found = _untagged(data["found"]) if "found" in data else _of_keys(data, items)
+        trust = cls(data["verdict"], data["outcome"], found, items)
+        for each in (*items, trust):
+            _refuse_other_types(each, {field.name: str(field.type) for field in fields(each)})
+        _refuse_other_types(trust, {name: key.type for name, key in KEYS.items()})
+        return trust
+
+    @property
+    def headline(self) -> str:
+        """How exact the run is, in a sentence: what a second run says, or that there was none."""
+        if self.accuracy_estimate is None:
+            return "not verified"
+        if self.accuracy_blind:
+            return (
+                f"of unknown error: two runs agree within {number(self.accuracy_estimate)} m, but {self.accuracy_blind}"
+            )
+        where = f"; largest at {self.accuracy_body}" if self.accuracy_body else ""
+        when = f", t = {self.accuracy_time:.6g} s" if self.accuracy_time is not None else ""
+        until = (
+            f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
+        )
+        if self.accuracy_estimate < ROUND_OFF * self.size:
+            return f"exact for this model, except for round-off{until}"
+        return f"within {number(self.accuracy_estimate)} m of the exact motion of this model{until}{where}{when}"
+
+    def lines(self) -> list[str]:
+        """One line per item: its verdict and its statement."""
+        return [f"{item.verdict:>5}  {item.text}" for item in self.items]
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines())
+
+
+def worst(items: Iterable[Item]) -> Verdict:
+    """The verdict of the whole: that of its worst item."""
+    found = [item.verdict for item in items]
+    return "red" if "red" in found else "amber" if "amber" in found else "green"
+
+
+def number(value: float) -> str:
+    """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    if 1e-3 <= abs(value) < 1e6:
+        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{float(mantissa):g}e{int(exponent)}"
+
+
+def quantity(value: float, unit: str) -> str:
+    """A number with its unit as people say it: 94 kJ, 1.25 MJ, 812 J."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if factor <= abs(value) < 1e12:
+            return f"{value / factor:.3g} {prefix}{unit}"
+    return f"{number(value)} {unit}"
+
+
+def plain(value: Any) -> Any:
+    """Records as mappings, sequences as tuples, numbers of NumPy as those of Python."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return {each.name: plain(getattr(value, each.name)) for each in fields(value)}
+    if isinstance(value, list | tuple):
+        return tuple(plain(each) for each in value)
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _of_keys(data: dict[str, Any], items: tuple[Item, ...]) -> dict[str, Any]:
+    """What checks have found, of names of KEYS."""
+    found: dict[str, dict[str, Any]] = {}
+    for name, key in KEYS.items():
+        if name in data:
+            value = _number(data[name], key.type)
+            found.setdefault(key.check, {})[key.field] = tuple(value) if isinstance(value, list) else value
+    if "accuracy" in found:
+        blind = [each for each in items if each.verdict != "green" and each.name in BLIND]
+        why = [BLIND[each.name].format(row=each.row, time=f"{each.time or 0.0:.6g}") for each in blind[:1]]
+        found["accuracy"]["blind"] = "".join(why)
+    return found
+
+
+def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:
+    """The entries that the record has; numbers that JSON cannot hold are read back."""
+    types = {field.name: str(field.type) for field in fields(record)}
+    return {key: _number(value, types[key]) for key, value in data.items() if key in types}
+
+
+def _number(value: Any, kind: str) -> Any:
+    return float(value) if value in ("nan", "inf", "-inf") and "float" in kind else value
+
+
+# of annotations of fields, the types of their values
+TYPES: Final[dict[str, tuple[type, ...]]] = {
+    "str": (str,),
+    "Verdict": (str,),
+    "bool": (bool,),
+    "int": (int,),
+    "int | None": (int, type(None)),
+    "float": (int, float),
+    "float | None": (int, float, type(None)),
+    "tuple[str, ...]": (tuple,),
+    "tuple[Item, ...]": (tuple,),
+    "Mapping[str, Any]": (dict,),
+}
+
+
+def _refuse_other_types(record: Item | Trust, types: Mapping[str, str]) -> None:
+    """Raise TypeError where a value is none of its type."""
+    for name, kind in types.items():
+        value = getattr(record, name)
+        names = value if isinstance(value, tuple) and "str" in kind else ()
+        if not isinstance(value, TYPES[kind]) or not all(isinstance(each, str) for each in names):
+            raise TypeError(f"{name} is {type(value).__name__}")
+        if kind == "Verdict" and value not in ("green", "amber", "red"):
+            raise ValueError(f"{name} is {value!r}")
+
+
+def _storable(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _storable(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_storable(each) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return value
+
+
+def _tagged(value: Any) -> Any:
+    """The same, where texts may look like numbers: {"number": "nan"}."""
+    if isinstance(value, Mapping):
+        return {key: _tagged(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_tagged(each) for each in value]
+    return {"number": str(value)} if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _untagged(value: Any) -> Any:
+    if isinstance(value, dict):
+        if value.keys() == {"number"}:
+            return float(value["number"])
+        return {key: _untagged(each) for key, each in value.items()}
+    return tuple(_untagged(each) for each in value) if isinstance(value, list) else value

@@ -1,1 +1,0 @@
-"""Trust report: its checks and its sentences."""

@@ -46,7 +46,7 @@ def scene(shape=None):
 def judged(result, outcome="done", *, degrees=1, failure="", **found):
     """The trust report of a run; degrees : of freedom, None where they are not known. found : what checks have found besides."""
     known = {"redundancy": Redundancy(), **({} if degrees is None else {"degrees_of_freedom": Freedom(degrees)})}
-    return assess(Motion(result, outcome, failure), known | found)
+    return assess(Motion(result=result, outcome=outcome, failure=failure), known | found)
 
 
 def header(**attributes) -> Header:

@@ -251,7 +251,7 @@ def is_of_integrators(path):
 def package(tmp_path_factory):
     """A copy of the package with the edits of the page, but those of integrators."""
     edits = [each for each in EDIT.findall(PAGE) if not is_of_integrators(each[0])]
-    assert len(edits) == 11
+    assert len(edits) == 12
     return edited(tmp_path_factory.mktemp("package"), edits)
 
 
@@ -364,6 +364,33 @@ def test_the_setting_of_the_page_is_one_field(package):
     )
     found = json.loads(checked.stdout)["generalDiagnostics"]
     assert {each["range"]["start"]["line"] + 1 for each in found} == {5}
+
+
+FLY = """
+import json, nivel
+from nivel.results import Result
+for speed in ("400", "300"):
+    with open("flight.yaml", "w") as file:
+        file.write(
+            "format: 1\\nname: flight\\ngravity: [0, 0, 0]\\n"
+            "bodies: {shell: {mass: 1, inertia: [1, 1, 1], velocity: [0, " + speed + ", 0]}}\\n"
+            "simulation: {duration: 0.01}\\n"
+        )
+    trust = nivel.load("flight.yaml").simulate(verify=False, out=f"{speed}.nc").trust
+    print(json.dumps([[item.name, item.verdict, item.text] for item in trust.items if item.name == "supersonic"]))
+    print(json.dumps(Result.open(f"{speed}.nc").trust.found["supersonic"]))
+"""
+
+
+def test_the_line_of_the_trust_report_of_the_page_is_told(package):
+    fast, found, slow, of_slow = map(json.loads, run(package, "-c", FLY).splitlines())
+    assert slow == []
+    ((name, verdict, text),) = fast
+    assert (name, verdict) == ("supersonic", "amber")
+    assert "shell moves at 400 m/s at t = 0 s" in text
+    assert found == {"body": "shell", "speed": 400.0, "time": 0.0}
+    assert of_slow["speed"] == 300.0
+    assert "more than the square of the speed" in run(package, "-m", "nivel", "explain", "400.nc")
 
 
 SWING = """

@@ -103,7 +103,7 @@ class Judge:
     def _look(self, frames: Array, kinetic_energy: float) -> None:
         """Judge frames, the first of which is that of the start; kinetic_energy : the largest one of steps [J]."""
         result = Result(MemoryContents(Header(self.layout, self.attributes), frames, self.attributes))
-        motion = Motion(result, "running", kinetic_energy=kinetic_energy)
+        motion = Motion(result=result, outcome="running", kinetic_energy=kinetic_energy)
         found = replace(energy.look(motion), force=""), joints.look(motion), joints.look_at_rates(motion)
         self._speed = max(self._speed, largest_speed(result))
         if circuits.CIRCUITS.met(motion):

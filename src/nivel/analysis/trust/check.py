@@ -35,8 +35,8 @@ class Check(Generic[S, F]):
     look : what it finds: a record, a list of them where each has a line, or None. The fields of records are numbers, texts, and records
     or tuples of these.
     say : the line of a record, None where nothing is to be said.
-    place : of its lines in the report, which are in rising order. line : the name of its lines, by default that of the check. title : of
-    its lines in the page. threshold : that numbers of it are held against.
+    place : of its lines in the report, which are in rising order. title : of its lines in the page. threshold : that its numbers are held
+    against. line : the name of its lines, by default that of the check.
     blind : why a second run may be wrong alike where a line is not green; `{row}` and `{time}` are those of the line.
     quiet : green lines are not told. last : it looks at lines of the others, `subject.items`.
     """
@@ -47,9 +47,9 @@ class Check(Generic[S, F]):
     say: Callable[[F], Item | None]
     place: int
     needs: tuple[Need, ...] = ()
-    line: str = ""
     title: str = ""
     threshold: Threshold | None = None
+    line: str = ""
     blind: str = ""
     quiet: bool = False
     last: bool = False

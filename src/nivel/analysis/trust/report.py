@@ -53,7 +53,7 @@ def assess(subject: Subject, given: Mapping[str, Any] | None = None) -> Trust:
 
 def assess_remains(result: Result) -> Trust:
     """The trust report of a run that was killed, or still goes on."""
-    return assess(Motion(result, result.outcome, result.failure))
+    return assess(Motion(result=result, outcome=result.outcome, failure=result.failure))
 
 
 def blindness(items: Iterable[Item]) -> str:

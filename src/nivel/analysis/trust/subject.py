@@ -36,14 +36,13 @@ class Scales:
     at_rest: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Subject:
-    """A result. outcome : done, interrupted, failed or running. failure : what stopped the analysis, in a sentence.
+    """An analysis. outcome : done, interrupted, failed or running. failure : what stopped it, in a sentence.
 
     items : lines of the other checks, for checks that are looked at last.
     """
 
-    result: Readable
     outcome: str
     failure: str = ""
     items: tuple[Item, ...] = ()
@@ -53,6 +52,13 @@ class Subject:
         known = copy(self)
         object.__setattr__(known, "items", items)
         return known
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recorded(Subject):
+    """An analysis whose result has frames."""
+
+    result: Readable
 
     @cached_property
     def scales(self) -> Scales:
@@ -65,8 +71,8 @@ class Subject:
         return worst_row(self.result, "constraint_violation", {"m": 1.0 / self.scales.size, "1": 1.0})
 
 
-@dataclass(frozen=True)
-class Motion(Subject):
+@dataclass(frozen=True, kw_only=True)
+class Motion(Recorded):
     """A run in time, of which the result alone is known where it was killed, or still goes on.
 
     stopped_by : name of the event that ended it. kinetic_energy : the largest one that its steps had [J]; frames may all meet a vibration
@@ -83,7 +89,7 @@ class Motion(Subject):
         return Scales(size, kind, max(speed, slowest), speed < slowest)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Computed:
     """What analyses know that have just been made."""
 
@@ -130,7 +136,7 @@ def run_of(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Equilibria(Subject, Computed):
+class Equilibria(Recorded, Computed):
     """States of equilibrium. critical : (kind, t [s], None or the times [s] between which it is where it was not found) of limit and
     bifurcation points, along the path. at_rest : sentences on what makes no force at rest. rigid : vibrations of no frequency.
     without_potential : some force has none, as one that follows a body."""
@@ -146,7 +152,7 @@ class Equilibria(Subject, Computed):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Positions(Subject, Computed):
+class Positions(Recorded, Computed):
     """Positions of a kinematic analysis. halved : steps that were shortened on the way. near : the singular position that it came nearest
     to; None where there are no constraints. passed : pairs of times [s] between which one was passed."""
 

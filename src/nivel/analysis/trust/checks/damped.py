@@ -58,14 +58,5 @@ def damped(result: Readable, finer: Readable, method: str) -> Damped | None:
 
 
 CHECKS = (
-    Check(
-        "damped",
-        (Run,),
-        look,
-        say,
-        place=330,
-        needs=(SECOND_RUN, IMPLICIT),
-        title="Damped",
-        blind="their method damps vibrations",
-    ),
+    Check("damped", (Run,), look, say, 330, (SECOND_RUN, IMPLICIT), "Damped", blind="their method damps vibrations"),
 )

@@ -49,13 +49,12 @@ def say(found: Freedom) -> Item | None:
 
 
 CHECKS = (
-    Check("degrees_of_freedom", (Run, Equilibria), look, say, place=50, title="Freedom"),
-    # machines of kinematics move as they are driven
+    Check("degrees_of_freedom", (Run, Equilibria), look, say, 50, (), "Freedom"),
     Check(
         "degrees_of_freedom",
         (Positions,),
         lambda subject: Freedom(0, drivers=subject.prepared.drivers),
         lambda _: None,
-        place=50,
+        50,
     ),
 )

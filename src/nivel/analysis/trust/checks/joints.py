@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from nivel.analysis.trust.check import Check
-from nivel.analysis.trust.subject import Motion, Positions, Scales, Subject
+from nivel.analysis.trust.subject import Motion, Positions, Recorded, Scales
 from nivel.results.peaks import worst_row
 from nivel.results.trust import Item, Threshold, Verdict, number
 
@@ -37,7 +37,7 @@ class Violation:
     scales: Scales
 
 
-def look(subject: Subject) -> Violation:
+def look(subject: Recorded) -> Violation:
     """The joint that is open most."""
     worst, units = subject.opening
     return Violation(worst.value, worst.row, worst.time, units, subject.scales)
@@ -94,15 +94,16 @@ def say_velocities(found: Violation) -> Item:
 
 
 CHECKS = (
-    Check("violation", (Subject,), look, say, place=20, title="Joints closed", threshold=THRESHOLD),
-    Check("rate_violation", (Motion,), look_at_rates, say_rates, place=30, title="Joint rates", threshold=RATES),
+    Check("violation", (Recorded,), look, say, 20, (), "Joints closed", THRESHOLD),
+    Check("rate_violation", (Motion,), look_at_rates, say_rates, 30, (), "Joint rates", RATES),
     Check(
         "rate_violation",
         (Positions,),
         look_at_rates,
         say_velocities,
-        place=30,
+        30,
+        (),
+        "Velocities fit the joints",
         line="velocities",
-        title="Velocities fit the joints",
     ),
 )

@@ -95,27 +95,8 @@ def _is_missed(each: Unseen, agreed: float | None) -> bool:
 
 
 CHECKS = (
+    Check("loads", (Run,), look, say, 200, (STEPS,), "Loads", LOADS, blind="their steps miss {row}", quiet=True),
     Check(
-        "loads",
-        (Run,),
-        look,
-        say,
-        place=200,
-        needs=(STEPS,),
-        title="Loads",
-        threshold=LOADS,
-        blind="their steps miss {row}",
-        quiet=True,
-    ),
-    Check(
-        "sampling",
-        (Run,),
-        look_between_samples,
-        say_between_samples,
-        place=210,
-        needs=(STEPS,),
-        title="Sampling",
-        threshold=SAMPLING,
-        quiet=True,
+        "sampling", (Run,), look_between_samples, say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True
     ),
 )

@@ -105,4 +105,4 @@ def cost(result: Readable, bodies: Sequence[Neglected]) -> Cost | None:
     return found
 
 
-CHECKS = (Check("neglected", (Run,), look, say, place=100, title="Neglected", threshold=THRESHOLD),)
+CHECKS = (Check("neglected", (Run,), look, say, 100, (), "Neglected", THRESHOLD),)

@@ -39,7 +39,8 @@ class Outcome:
 
 def look(subject: Subject) -> Outcome:
     """The outcome, with the failure or the event that ended it."""
-    said = next(each for kind, each in SAID.items() if isinstance(subject, kind)).get(subject.outcome, subject.outcome)
+    words = next((each for kind, each in SAID.items() if isinstance(subject, kind)), {})
+    said = words.get(subject.outcome, subject.outcome)
     if isinstance(subject, Motion) and subject.stopped_by:
         said = f"the event {subject.stopped_by} ended the run, as intended"
     return Outcome(subject.outcome, f"{said}: {subject.failure}" if subject.failure else said)
@@ -50,4 +51,4 @@ def say(found: Outcome) -> Item:
     return Item("outcome", VERDICTS.get(found.outcome, "red"), f"Outcome: {found.said}")
 
 
-CHECKS = (Check("outcome", (Subject,), look, say, place=0, title="Outcome"),)
+CHECKS = (Check("outcome", (Subject,), look, say, 0, (), "Outcome"),)

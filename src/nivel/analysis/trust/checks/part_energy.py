@@ -171,4 +171,4 @@ def _energies(result: Readable, part: Part, frames: slice) -> tuple[Array, Array
     )
 
 
-CHECKS = (Check("part_energy", (Run,), look, say, place=310, needs=(STEPS,), line="parts", quiet=True),)
+CHECKS = (Check("part_energy", (Run,), look, say, 310, (STEPS,), line="parts", quiet=True),)

@@ -72,16 +72,4 @@ def own_error(result: Readable, estimate: Estimate) -> OwnError | None:
     return max(finite, key=lambda each: each.share, default=None)
 
 
-CHECKS = (
-    Check(
-        "parts",
-        (Run,),
-        look,
-        say,
-        place=320,
-        needs=(ESTIMATE,),
-        title="Parts",
-        threshold=THRESHOLD,
-        quiet=True,
-    ),
-)
+CHECKS = (Check("parts", (Run,), look, say, 320, (ESTIMATE,), "Parts", THRESHOLD, quiet=True),)

@@ -134,4 +134,4 @@ def _depth(pair: HullPair, r: Array, first: Array, second: Array) -> float:
     return 2.0 * max(float(deepest.x[3]), 0.0) if deepest.success else 0.0
 
 
-CHECKS = (Check("passed_hulls", (Run,), look, say, place=221, needs=(STEPS,), line="contact", blind=BLIND),)
+CHECKS = (Check("passed_hulls", (Run,), look, say, 221, (STEPS,), line="contact", blind=BLIND),)

@@ -116,16 +116,4 @@ def place_and_velocity(result: Readable, body: str, at: Array) -> tuple[Array, A
     return result.array("position")[:, k] + arm, result.array("velocity")[:, k] + turning
 
 
-CHECKS = (
-    Check(
-        "passed_spheres",
-        (Run,),
-        look,
-        say,
-        place=220,
-        needs=(STEPS,),
-        line="contact",
-        title="Contact",
-        blind=BLIND,
-    ),
-)
+CHECKS = (Check("passed_spheres", (Run,), look, say, 220, (STEPS,), "Contact", line="contact", blind=BLIND),)

@@ -88,9 +88,9 @@ CHECKS = (
         (Positions,),
         lambda subject: Shortened(subject.halved) if subject.halved else None,
         say_steps,
-        place=34,
+        34,
         line="steps",
     ),
-    Check("branches", (Positions,), look_at_branches, say_branches, place=36, title="Branches of positions"),
-    Check("histories", (Positions,), look_at_histories, say_histories, place=38, line="states"),
+    Check("branches", (Positions,), look_at_branches, say_branches, 36, (), "Branches of positions"),
+    Check("histories", (Positions,), look_at_histories, say_histories, 38, line="states"),
 )

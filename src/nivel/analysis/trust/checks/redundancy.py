@@ -41,4 +41,4 @@ def say(found: Redundancy) -> Item:
     return Item("redundancy", "amber", text)
 
 
-CHECKS = (Check("redundancy", (Run, Equilibria, Positions), look, say, place=60, title="Redundancy"),)
+CHECKS = (Check("redundancy", (Run, Equilibria, Positions), look, say, 60, (), "Redundancy"),)

@@ -65,4 +65,4 @@ def _wheel(result: Readable, wheel: str) -> Wheel:
     )
 
 
-CHECKS = (Check("rolling", (Motion,), look, say, place=420, needs=(FRAMES,), title="Rolling"),)
+CHECKS = (Check("rolling", (Motion,), look, say, 420, (FRAMES,), "Rolling"),)

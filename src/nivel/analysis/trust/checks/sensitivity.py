@@ -68,4 +68,4 @@ def _misfit(x: Array, y: Array) -> float:
     return float(np.mean((np.polyval(np.polyfit(x, y, 1), x) - y) ** 2))
 
 
-CHECKS = (Check("sensitivity", (Run,), look, say, place=340, needs=(SECOND_RUN,), title="Sensitivity"),)
+CHECKS = (Check("sensitivity", (Run,), look, say, 340, (SECOND_RUN,), "Sensitivity"),)

@@ -139,9 +139,9 @@ CHECKS = (
         (Run,),
         look,
         say,
-        place=250,
-        needs=(SECOND_RUN,),
-        title="Singular position",
+        250,
+        (SECOND_RUN,),
+        "Singular position",
         blind="at t = {time} s the motion may continue in more than one way",
     ),
 )

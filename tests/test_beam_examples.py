@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import nivel
+from needing import needs
 from references import hinged_beams, spin_up
 
 EXAMPLES = Path(__file__).parent.parent / "examples" / "beams"
@@ -46,7 +47,7 @@ def test_hinged_beams_follow_the_converged_solution():
 
 
 def test_hinged_beams_are_plotted(tmp_path):
-    pytest.importorskip("matplotlib").use("Agg")
+    needs("matplotlib").use("Agg")
     runpy.run_path(str(EXAMPLES / "hinged_beams.py"))["main"](str(tmp_path / "tip.png"))
     assert (tmp_path / "tip.png").stat().st_size > 10_000
 

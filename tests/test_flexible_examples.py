@@ -12,7 +12,8 @@ from scipy.optimize import minimize_scalar
 
 import nivel
 from lanes import tail
-from models import bar, needs, reduced
+from models import bar, reduced
+from needing import needs
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.reduce import reduce
 from simulating import simulate

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from click import Context
 
-from models import needs
+from needing import needs
 from nivel.cli import main
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.model.model_file import TOP_WORDS, parse_model, read_model

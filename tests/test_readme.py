@@ -5,8 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
+from needing import needs
 from nivel.cli import COMMANDS
 
 ROOT = Path(__file__).parent.parent
@@ -14,7 +13,7 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_python_of_the_readme_runs():
-    pytest.importorskip("matplotlib")
+    needs("matplotlib")
     (code,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
     script = f"import matplotlib\nmatplotlib.use('Agg')\n{code}"
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)

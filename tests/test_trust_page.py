@@ -3,10 +3,10 @@
 import re
 from pathlib import Path
 
-import matplotlib as mpl
 import pytest
 from click.testing import CliRunner
 
+from needing import needs
 from nivel.analysis.trust.report import every_check
 from nivel.cli import main
 
@@ -27,7 +27,7 @@ def test_the_command_of_the_page_says_its_headline(tmp_path, monkeypatch):
 @pytest.mark.filterwarnings("ignore")
 def test_the_program_of_the_page_runs(verified, monkeypatch, capsys):
     (program,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    mpl.use("Agg")
+    needs("matplotlib").use("Agg")
     monkeypatch.chdir(ROOT)
     exec(program, {})
     headline, error = capsys.readouterr().out.splitlines()

@@ -8,7 +8,8 @@ import pytest
 from click.testing import CliRunner
 
 import nivel
-from models import bar, needs, reduced
+from models import bar, reduced
+from needing import needs
 from nivel.cli import main
 from nivel.flexible.body.body_file import write_body
 

@@ -1,22 +1,9 @@
 """Model files that several tests reduce."""
 
-from importlib import import_module
-
-import pytest
-
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.reduce import reduce_model
 
 STEEL = "steel: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}"
-
-
-def needs(*modules):
-    """Skip the test where a module is not installed, or cannot be loaded: gmsh needs libraries of the system (libGLU and others)."""
-    for name in modules:
-        try:
-            import_module(name)
-        except (ImportError, OSError) as error:
-            pytest.skip(f"{name}: {error}", allow_module_level=True)
 
 
 def reduced(text, folder="."):

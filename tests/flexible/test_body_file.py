@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from models import bar, block, needs, reduced
+from models import bar, block, reduced
+from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.body_file import read_body, read_findings, write_body
 from nivel.flexible.body.invariants import UNITS

@@ -5,7 +5,8 @@ import pytest
 import scipy.io
 import scipy.sparse as sp
 
-from models import STEEL, bar, block, needs, reduced
+from models import STEEL, bar, block, reduced
+from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.model.beam import Beam, mass_matrix, stiffness
 from nivel.flexible.model.model_file import parse_model

@@ -8,7 +8,8 @@ import pytest
 import scipy.io
 import scipy.sparse as sp
 
-from models import bar, block, needs, reduced
+from models import bar, block, reduced
+from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.foreign.matrix import FormatError, fortran_number
 from nivel.flexible.foreign.mesh import read_mesh

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from models import bar, block, needs
+from models import bar, block
+from needing import needs
 from nivel.flexible.body.invariants import of_points, tilde
 from nivel.flexible.body.mass_invariants import invariants
 from nivel.flexible.body.reference import (

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import simulating
-from models import bar, block, needs, reduced
+from models import bar, block, reduced
+from needing import needs
 from nivel.analysis.trust.checks.modes import response
 from nivel.flexible.body.body_file import read_body, write_body
 from nivel.results.scales import rotated

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models import bar, needs, reduced
+from models import bar, reduced
+from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.rainflow import counted, rainflow, reversals
 from nivel.flexible.body.recovery import (
@@ -191,8 +192,7 @@ def test_vtk_files_hold_the_motion(cantilever, bent, tmp_path):
 
 
 def test_vtk_files_are_read_by_another_program(tmp_path):
-    meshio = pytest.importorskip("meshio")
-    needs("gmsh")
+    meshio = needs("gmsh", "meshio")
     from models import block
 
     body, _ = reduced(block(length=0.3, size=0.1, reduction="modes: 3"))

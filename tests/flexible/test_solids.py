@@ -6,7 +6,8 @@ import sys
 import numpy as np
 import pytest
 
-from models import STEEL, bar, block, needs, reduced
+from models import STEEL, bar, block, reduced
+from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.recovery import hot_spots, stress, von_mises
 from nivel.flexible.model.model_file import parse_model

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import nivel
+from needing import needs
 
-control = pytest.importorskip("control")
-pytest.importorskip("control.statesp")  # a folder `control` of examples is no library
+needs("control.statesp")  # a folder `control` of examples is no library
+control = needs("control")
 CRANE = Path(__file__).parents[2] / "examples" / "control" / "crane-control.yaml"
 
 

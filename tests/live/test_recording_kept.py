@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import cart
+from needing import needs
 from nivel.errors import ModelError
 from nivel.files.reader import parse_machine
 from nivel.live.journal import FIRST_LINE, PART, TICKS, Journal, journal_of
@@ -22,7 +23,7 @@ from nivel.live.preparation import live_plan
 from nivel.live.recording import about_run, read_recording
 from nivel.live.replay import replay
 
-pytest.importorskip("websockets")
+needs("websockets")
 SOME = 40_000  # bytes of the journal: some hundred ticks
 ENDED = 20.0  # s
 

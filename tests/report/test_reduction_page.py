@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models import needs
+from needing import needs
 from nivel.flexible.reduce import reduce
 from nivel.report.mode_picture import MOST_TRIANGLES, mode_pictures
 from nivel.report.reduction_page import mac_drawing, reduction_html

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
+from needing import needs
 from nivel.errors import ModelError
 from nivel.results import Memory, Result, Store
 
@@ -159,7 +160,7 @@ def test_csv_that_cannot_be_written_is_said(result, tmp_path):
 
 
 def test_curves_are_grouped_by_unit(result):
-    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib = needs("matplotlib")
     matplotlib.use("agg")
     from matplotlib import pyplot
 

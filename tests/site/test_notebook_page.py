@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("nbclient")
-pytest.importorskip("nbconvert")
-pytest.importorskip("ipykernel")
-pytest.importorskip("matplotlib")
+from needing import needs
+
+needs("nbclient", "nbconvert", "ipykernel", "matplotlib")
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -315,7 +315,7 @@ def test_methods_of_the_rates_agree_with_explicit_ones_in_a_closed_loop(integrat
 # --- what goes with it ---
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_matrix_is_the_derivative_of_the_residual(coordinates, rng):
-    """Rows of efforts, at the level of accelerations, sliding and sticking, and their columns; TOLERANCE as in `test_tangents`."""
+    """Rows of efforts, at the level of accelerations, sliding and sticking, and columns; TOLERANCE as in `test_residual_and_tangent`."""
     branches = set()
     for here in moving(linked.record(linked.every_element("stiction")), coordinates, rng, 4):
         residual = here.motion.system.record.residual

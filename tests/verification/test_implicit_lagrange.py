@@ -1,5 +1,5 @@
 """Implicit methods with exact tangents in the Lagrange equations: the unknowns are accelerations of rotation coordinates, which move as
-plain positions, and the motion is that of the Newton–Euler equations. Every element: `test_residual`, `test_tangents`."""
+plain positions, and the motion is that of the Newton–Euler equations. Every element: `test_residual_and_tangent`."""
 
 import numpy as np
 import pytest

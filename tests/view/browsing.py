@@ -6,17 +6,15 @@ import shutil
 import threading
 import time
 from contextlib import contextmanager
-from typing import NoReturn
 
 import pytest
 
+import needing
 from nivel.view.server import Address, Viewing, start
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 NO_BROWSER = "no chromium on this machine: what the page does in a browser is not tested"
-# where all is tested, a browser that could not be installed is a failure, not a test less
-MUST_RUN = bool(os.environ.get("CI"))
-with_browser = pytest.mark.skipif(CHROMIUM is None and not MUST_RUN, reason=NO_BROWSER)
+with_browser = pytest.mark.skipif(CHROMIUM is None and not needing.MUST_RUN, reason=NO_BROWSER)
 FLAGS = [
     "--use-gl=angle",
     "--use-angle=swiftshader",
@@ -34,11 +32,8 @@ LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 def chromium():
     """A browser; without one a skipped test with the reason, or a failed one in CI."""
     if CHROMIUM is None:
-        _miss(NO_BROWSER)
-    try:
-        from playwright import sync_api as playwright
-    except ModuleNotFoundError:
-        _miss("playwright is not installed: what the page does in a browser is not tested")
+        needing.miss(NO_BROWSER)
+    playwright = needing.needs("playwright.sync_api")
     root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
     with playwright.sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *root], timeout=1000 * PATIENCE)
@@ -46,12 +41,6 @@ def chromium():
             yield browser
         finally:
             browser.close()
-
-
-def _miss(reason) -> NoReturn:
-    if MUST_RUN:
-        pytest.fail(reason)
-    pytest.skip(reason)
 
 
 def until(page, condition, patience=PATIENCE):

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from browsing import drawn, until, watched
+from needing import needs
 from nivel.view.export import write_scene
 
 
 def picture(page):
     """The screen as (height, width, 3)."""
-    image = pytest.importorskip("PIL.Image")
+    image = needs("PIL.Image")
     return np.asarray(image.open(BytesIO(page.screenshot())).convert("RGB"))
 
 

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 import nivel
 import synthetic_run as pendulum
 from browsing import with_browser
+from needing import needs
 from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.results import Store
@@ -38,7 +39,7 @@ def source(path):
 
 
 def pixels(path):
-    image = pytest.importorskip("PIL.Image")
+    image = needs("PIL.Image")
     return np.asarray(image.open(path).convert("RGB")).astype(int)
 
 
@@ -58,7 +59,7 @@ def test_a_still_has_its_size_and_shows_its_moment(stored, tmp_path):
 @with_browser
 @pytest.mark.full
 def test_a_gif_has_all_frames_and_they_differ(stored, tmp_path):
-    image = pytest.importorskip("PIL.Image")
+    image = needs("PIL.Image")
     heard = []
     film(
         source(stored),
@@ -77,7 +78,7 @@ def test_a_gif_has_all_frames_and_they_differ(stored, tmp_path):
 @pytest.mark.full
 def test_an_mp4_is_made_where_ffmpeg_is_found(stored, tmp_path):
     if not shutil.which("ffmpeg"):
-        pytest.importorskip("imageio_ffmpeg")
+        needs("imageio_ffmpeg")
     film(source(stored), tmp_path / "a.mp4", Look(width=161, height=121, rate=10, speed=2.0), lambda *_: None)
     assert (tmp_path / "a.mp4").read_bytes()[4:8] == b"ftyp"
 

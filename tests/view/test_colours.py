@@ -9,6 +9,7 @@ import pytest
 import nivel
 from browsing import chromium, drawn, watched
 from models import bar, reduced
+from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.body.picture import moving_surface
@@ -233,7 +234,7 @@ def test_a_body_whose_file_is_gone_says_so(bending, tmp_path):
 
 @pytest.mark.full
 def test_colours_of_stills_are_those_that_are_there(bending, tmp_path):
-    pytest.importorskip("PIL.Image")
+    needs("PIL.Image")
     result, *_ = bending
     for name, colours in (("a", ""), ("b", "von Mises stress")):
         still(Playback([result]), tmp_path / f"{name}.png", Look(width=320, height=240, colours=colours), 0.1)

@@ -9,13 +9,14 @@ import pytest
 
 import nivel
 from browsing import with_browser
+from needing import needs
 from nivel.view.capture import Look, _ffmpeg, film, still
 from nivel.view.sources import Playback
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 LOOK = Look(width=320, height=240, rate=20, speed=0.5)
 FRAMES = 21  # of half a second: both ends count
-image = pytest.importorskip("PIL.Image")
+image = needs("PIL.Image")
 
 
 @pytest.fixture(scope="module")

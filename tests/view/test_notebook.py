@@ -5,11 +5,10 @@ from pathlib import Path
 import pytest
 
 from browsing import chromium, until, watched
+from needing import needs
 
-nbformat = pytest.importorskip("nbformat")
-nbclient = pytest.importorskip("nbclient")
-pytest.importorskip("ipykernel")
-nbconvert = pytest.importorskip("nbconvert")
+needs("ipykernel")
+nbformat, nbclient, nbconvert = needs("nbformat"), needs("nbclient"), needs("nbconvert")
 
 EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "mechanisms" / "simple-pendulum.yaml"
 

@@ -1,11 +1,14 @@
-"""What the default tests are worth: thirty lines of kernels are spoilt, one at a time, and each has to be noticed.
+"""What the default tests are worth: lines of kernels are spoilt, one at a time, and each has to be noticed.
 
-    python tests/mutation_guard.py [--only NAME] [--first N] [--count N]
+    python tests/mutation_guard.py [--seed N] [--count N] [--first N] [--named] [--only TEXT] [--list]
 
-Of each line the tests that are said to cover it run on a copy of the sources in which it is spoilt: first those of the default lane, until
-one fails; where none does, those marked `full`. A line that only these notice is a reason to take one of them into the default lane; one
-that nobody notices is a test that is missing. Machine code that does not depend on the file spoilt is taken from a copy of the user's
-cache, where `nivel warmup` has left it; what depends on it compiles. The working tree is left alone.
+Thirty lines are chosen by a seed: a sign, an operator, an index or a number is changed (`mutations.py`); with `--named` they are those of
+`spoilt_lines.py`. Of each line the tests that touch its kernel (`COVER`) run on a copy of the sources in which it is spoilt: first those of
+the default lane, until one fails; where none does, the kernels as plain Python, which are of the default lane as well; and at last the
+tests marked `full`. A line that only these notice is a reason to take one of them into the default lane; one that nobody notices is a test
+that is missing, or changes nothing but a guess, a limit or the order of a sum. Machine code that does not depend on the file spoilt is
+taken from a copy of the user's cache, where `nivel warmup` has left it; what the tests need of the rest compiles. The working tree is left
+alone.
 """
 
 import argparse
@@ -19,156 +22,189 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import mutations
 from nivel.native import store
+from spoilt_lines import NAMED
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "src" / "nivel"
 # outcomes of pytest: all tests passed; none was selected
 PASSED, NONE_THERE = 0, 5
-
-
-@dataclass(frozen=True)
-class Mutation:
-    """In `file` of the package `before`, which stands there once, becomes `after`; `tests` are files below `tests`."""
-
-    name: str
-    file: str
-    before: str
-    after: str
-    tests: tuple[str, ...]
+# a spoilt line may let a loop run for ever [s]
+LONGEST = 1800
+BY_DEFAULT, BY_FULL, NOT_AT_ALL = "default", "full", "none"
 
 
 def _verification(*names):
     return tuple(f"verification/test_{name}.py" for name in names)
 
 
-MUTATIONS = [
-    # forces
-    Mutation("spring: half the damper", "kernels/forces/spring.py", "damping = numbers[DAMPING] * rate",
-             "damping = 0.5 * numbers[DAMPING] * rate", _verification("springs")),
-    Mutation("spring: energy of the preload", "kernels/forces/spring.py", "(0.5 * numbers[STIFFNESS] * stretch + numbers[PRELOAD])",
-             "(0.5 * numbers[STIFFNESS] * stretch)", _verification("springs", "consistency")),
-    Mutation("impact: sign of the loss", "kernels/forces/impact.py", "(1.0 + x / speed * rate)", "(1.0 - x / speed * rate)",
-             _verification("contact", "contact_location")),
-    Mutation("contact: friction without its normal force", "kernels/forces/contact.py",
-             "numbers[FRICTION] * force * tanh", "numbers[FRICTION] * tanh", _verification("contact", "consistency")),
-    Mutation("stop: the upper one pulls", "kernels/forces/stop.py", "depth[1], rate, n[STIFFNESS]", "depth[1], -rate, n[STIFFNESS]",
-             _verification("contact", "springs", "element_references", "contact_location", "tangents")),
-    Mutation("bushing: moment of the offset", "kernels/forces/bushing.py", "m0 + d1 * f2 - d2 * f1,", "m0 - d1 * f2 + d2 * f1,",
-             _verification("springs", "consistency")),
-    Mutation("motor: speed held the wrong way", "kernels/forces/motor.py", "gain * (effort - coordinates.rate[q])",
-             "gain * (effort - 0.9 * coordinates.rate[q])", _verification("motors")),
-    Mutation("push: lever of a point", "kernels/forces/wrench.py", "n0, n1, n2 = u1 * z - u2 * y, u2 * x - u0 * z,",
-             "n0, n1, n2 = u1 * z - u2 * y, u2 * x + u0 * z,", _verification("contact", "contact_location")),
-    Mutation("table: its slope", "kernels/record/function.py", "c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]),",
-             "c[1] + s * (2.0 * c[2] + 2.0 * s * c[3]),",
-             ("machine/test_time_functions.py", *_verification("drivers", "laws"))),
-    # constraints
-    Mutation("coincident points: their acceleration", "kernels/bodies/constraint.py", "markers.bias[i, x] - markers.bias[j, x]",
-             "markers.bias[i, x] + markers.bias[j, x]", _verification("joints")),
-    Mutation("coordinate: Coriolis along an axis", "kernels/bodies/coordinate.py", "- ad * dot(w, w) + 2.0 * (s0",
-             "- ad * dot(w, w) + 1.0 * (s0",
-             _verification("joints")),
-    Mutation("coordinate: bias of an angle", "kernels/bodies/coordinate.py", "- rate * 2.0 * (c * cdot + s * sdot)",
-             "- rate * (c * cdot + s * sdot)",
-             _verification("drivers", "joints", "couplings")),
-    # bodies and trees
-    Mutation("Euler parameters: their rates", "kernels/algebra/rotation.py", "out[2] = theta[3] * x + theta[0] * y - theta[1] * z",
-             "out[2] = theta[3] * x + theta[0] * y + theta[1] * z", ("kernels/test_rotation.py", *_verification("motion"))),
-    Mutation("weight: its moment", "kernels/bodies/rigid.py", "F[4] = c[2] * F[0] - c[0] * F[2]", "F[4] = c[2] * F[0] + c[0] * F[2]",
-             _verification("consistency", "motion", "mechanisms")),
-    Mutation("kinetic energy of turning", "kernels/bodies/rigid.py", "+ 0.5 * turning", "+ 0.49 * turning", _verification("motion")),
-    Mutation("tree: inertia of a child", "kernels/tree/articulated.py", "P[5] - 2.0 * (K6 * y - K7 * x)", "P[5] - (K6 * y - K7 * x)",
-             _verification("relative")),
-    Mutation("tree: motion of a child", "kernels/tree/articulated.py", "parent[4] + parent[2] * r[0] - parent[0] * r[2]",
-             "parent[4] + parent[2] * r[0] + parent[0] * r[2]", _verification("relative")),
-    # friction and sensors
-    Mutation("friction: Stribeck's exponent", "kernels/elements/friction.py", "np.exp(-ratio * ratio)", "np.exp(-ratio)",
-             _verification("friction")),
-    Mutation("friction: load of a collar", "kernels/elements/friction.py", "return load + n[COLLAR] * absolute(fz)",
-             "return load + n[COLLAR] * fz",
-             _verification("friction", "frictions_together")),
-    Mutation("friction: multipliers", "kernels/elements/friction.py", "total += friction.response[k, row] * friction.force[k]",
-             "total -= friction.response[k, row] * friction.force[k]", _verification("friction")),
-    Mutation("sensor: Coriolis", "kernels/signals/sensor.py", "cross(w, cross(w, d))), coriolis), coriolis)",
-             "cross(w, cross(w, d))), coriolis), d)",
-             _verification("sensors")),
-    Mutation("sensor: relative angular acceleration", "kernels/signals/sensor.py", "value = less(value, cross(w, turning))",
-             "value = less(value, cross(turning, w))", _verification("sensors")),
-    # beams, rails, flexible bodies
-    Mutation("rail: product of rates", "kernels/bodies/rail.py", "+ 2.0 * dot(a[1], b[1])", "+ dot(a[1], b[1])", _verification("rails")),
-    Mutation("beam: stored energy", "kernels/elements/beam_element.py", "stored += 0.5 * elastic * strain",
-             "stored += 0.51 * elastic * strain",
-             _verification("beam_elements")),
-    Mutation("beam: change of the tangent", "kernels/elements/beam_element.py", "outwards = da * along - db * across",
-             "outwards = da * along + db * across", _verification("beam_elements")),
-    Mutation("flexible body: inertia of the second order", "kernels/bodies/floating_frame.py", "(2.0 * I8[c, k] + row[k])",
-             "(I8[c, k] + row[k])",
-             ("flexible/test_invariants.py", "flexible/test_flexible_motion.py", "flexible/test_tumbling.py")),
-    Mutation("flexible body: stiffening of a node", "kernels/bodies/floating_frame.py", "second -= pdot * across[j]",
-             "second += pdot * across[j]",
-             ("flexible/test_interfaces.py", "flexible/test_stiffening.py", "flexible/test_flexible_tree.py")),
-    # integrators, events
-    Mutation("rk4: a weight", "integrate/explicit/runge_kutta.py", "1 / 6, 1 / 3, 1 / 3, 1 / 6", "1 / 6, 1 / 3, 1 / 6, 1 / 3",
-             ("integrate/test_orders.py",)),
-    Mutation("ros2: second stage", "integrate/rosenbrock/rosenbrock.py", "second[i] -= 2.0 * first[i]", "second[i] -= 1.9 * first[i]",
-             _verification("ros2")),
-    Mutation("generalised-alpha: order of positions", "integrate/newmark/alpha_step.py", "(0.5 - c[BETA]) * a", "(0.55 - c[BETA]) * a",
-             _verification("alpha")),
-    Mutation("geometric stabilisation: the factor", "integrate/loop/energy.py", "np.sqrt(1.0 + missing / kinetic)",
-             "1.0 + missing / kinetic",
-             _verification("geometric")),
-    Mutation("events: sides are kept", "integrate/loop/events.py", "values[SIDE, k] = -values[SIDE, k]",
-             "values[SIDE, k] = values[SIDE, k]",
-             _verification("events")),
-]  # fmt: skip
+STATES = _verification("residual_and_tangent", "consistency")
+BEAMS = _verification("beam_elements", "beam_motion", "beam_methods")
+FLEXIBLE = tuple(
+    f"flexible/test_{name}.py"
+    for name in (
+        "flexible_motion",
+        "invariants",
+        "stiffening",
+        "tumbling",
+        "flexible_tree",
+        "flexible_independent",
+        "mixed_trees",
+    )
+)
+HYDRAULICS = tuple(
+    f"hydraulics/test_{name}.py"
+    for name in (
+        "characteristics",
+        "circuit_tangents",
+        "volumes",
+        "dynamics",
+        "pneumatics",
+        "end_stops",
+        "steps_in_parts",
+        "boom",
+    )
+)
+IMPLICIT = _verification("alpha", "implicit_lagrange", "implicit_independent", "implicit_friction", "tolerance")
+# tests that touch the kernels of a file, the cheapest first: the entry with the longest beginning of its path is taken
+COVER = {
+    "integrate/": ("integrate/test_orders.py", "integrate/test_chosen_steps.py", *_verification("tolerance", "events")),
+    "integrate/explicit/": ("integrate/test_orders.py", "integrate/test_chosen_steps.py", *_verification("tolerance", "events", "motion")),
+    "integrate/loop/": (
+        "integrate/test_loop.py", "integrate/test_chosen_steps.py",
+        *_verification("events", "contact_location", "driver_corners", "force_corners", "switches", "geometric", "states", "tolerance"),
+        "live/test_budget.py",
+    ),
+    "integrate/multistep/": ("integrate/test_multistep.py", "integrate/test_orders.py", *_verification("stiff", "newton_convergence")),
+    "integrate/newmark/": (*IMPLICIT, *_verification("implicit_tolerance", "energy_momentum", "stiff_springs", "newton_policy")),
+    "integrate/radau/": _verification("radau", "implicit_tolerance", "implicit_friction"),
+    "integrate/rosenbrock/": (*_verification("ros2"), *HYDRAULICS),
+    "integrate/stabilise/": _verification("geometric", "formulations", "motion"),
+    "integrate/variable_order/": ("integrate/test_multistep_polynomials.py", *_verification("bdf", "tolerance", "implicit_tolerance")),
+    "kernels/": STATES,
+    "kernels/algebra/": (
+        *(f"kernels/test_{name}.py" for name in ("rotation", "rotation_coordinates", "lu", "sparse_lu", "saddle_solvers", "trigonometry")),
+        *_verification("joints", "motion", "rotations", "euler_angle_sensors"), *STATES,
+    ),
+    "kernels/bodies/": (*_verification("joints", "motion", "mechanisms", "rolling", "driven_poses", "rails"), *STATES),
+    "kernels/bodies/floating": FLEXIBLE,
+    "kernels/bodies/geometric": FLEXIBLE,
+    "kernels/bodies/shared": (*_verification("rails", "eliminated_rails"), *FLEXIBLE),
+    "kernels/bodies/rail": (*_verification("rails", "eliminated_rails"), *STATES),
+    "kernels/elements/": (*BEAMS, *_verification("friction", "frictions_together", "implicit_friction")),
+    "kernels/forces/": (
+        *_verification("springs", "everyday_forces", "contact", "element_references", "motors", "drives", "loads"), *STATES,
+    ),
+    "kernels/forces/ancf": _verification("gradient_beams"),
+    "kernels/forces/beam": (*_verification("statics_beams"), *BEAMS),
+    "kernels/forces/elastic": (*_verification("statics_beams"), *BEAMS),
+    "kernels/forces/held": (*_verification("statics_beams"), *BEAMS),
+    "kernels/forces/hull": (*_verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
+    "kernels/forces/pressure_cells": (*_verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
+    "kernels/forces/rope": (*_verification("ropes"), *STATES),
+    "kernels/hydraulics/": HYDRAULICS,
+    "kernels/output/": (*_verification("consistency", "motion", "redundant_loops"), "flexible/test_flexible_motion.py"),
+    "kernels/record/": ("machine/test_time_functions.py", "system/test_programs.py", *_verification("drivers", "laws", "control"), *STATES),
+    "kernels/residual/": (*STATES, *_verification("implicit_points", "shifted_parts", "rails", "energy_momentum"), *IMPLICIT),
+    "kernels/residual/flexible": ("flexible/test_flexible_energy_momentum.py", *FLEXIBLE),
+    "kernels/residual/shared": ("flexible/test_flexible_energy_momentum.py", *_verification("rails", "energy_momentum"), *FLEXIBLE),
+    "kernels/signals/": (*_verification("sensors", "control", "states", "events", "inputs"), "live/test_budget.py"),
+    "kernels/solve/": (
+        "kernels/test_saddle_solvers.py", *_verification("independent", "formulations", "redundant_loops", "implicit_independent"), *STATES,
+    ),
+    "kernels/solve/flexible": ("flexible/test_flexible_independent.py", "flexible/test_redundant_flexible.py", *FLEXIBLE),
+    "kernels/tree/": (*_verification("relative", "relative_runs", "relative_turns", "eliminated_rails"), *STATES),
+    "kernels/tree/flexible": ("flexible/test_flexible_tree.py", "flexible/test_mixed_trees.py", *FLEXIBLE),
+    "kernels/tree/modal": ("flexible/test_flexible_tree.py", "flexible/test_mixed_trees.py", *FLEXIBLE),
+}  # fmt: skip
 
 
-def tests_of(mutation, source, marker):
-    """Outcome of pytest, and its last lines."""
-    files = [str(ROOT / "tests" / each) for each in mutation.tests]
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-m", marker, "-p", "no:cacheprovider", *files]
-    environment = {**os.environ, "PYTHONPATH": str(source), "NIVEL_CACHE_DIR": str(source.parent / "cache")}
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+@dataclass(frozen=True)
+class Case:
+    """A file of the package as it becomes, and the tests that touch it."""
+
+    name: str
+    file: str
+    text: str
+    tests: tuple[str, ...]
+
+
+def covered_by(file):
+    """Files of tests that touch the kernels of a file of the package."""
+    return dict.fromkeys(COVER[max((each for each in COVER if file.startswith(each)), key=len)])
+
+
+def named_cases():
+    """Those of `spoilt_lines.py`. Raises RuntimeError where a line is not there once."""
+    for each in NAMED:
+        text = (PACKAGE / each.file).read_text(encoding="utf-8")
+        if text.count(each.before) != 1:
+            raise RuntimeError(f"{each.name}: its line is not in {each.file} once")
+        yield Case(each.name, each.file, text.replace(each.before, each.after), each.tests)
+
+
+def chosen_cases(count, seed):
+    """So many lines chosen by a seed."""
+    for each in mutations.chosen(PACKAGE, count, seed):
+        name = f"{each.kind:8} {each.file}:{each.number} {each.function}"
+        yield Case(name, each.file, mutations.mutated(PACKAGE, each), tuple(covered_by(each.file)))
+
+
+def noticed(source, arguments, **more):
+    """The first test that fails on these sources, or nothing."""
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(source), "NIVEL_CACHE_DIR": str(source.parent / "cache"), **more}
+    try:
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=LONGEST
+        )
+    except subprocess.TimeoutExpired:
+        return "a test that does not end"
+    if done.returncode in (PASSED, NONE_THERE):
+        return ""
     failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
-    if done.returncode not in (PASSED, 1, NONE_THERE):
-        raise RuntimeError(done.stdout + done.stderr)
-    return done.returncode == 1, failed[0].removeprefix("tests/") if failed else ""
+    return failed[0].removeprefix("tests/") if failed else f"outcome {done.returncode} of pytest"
 
 
-def check(mutation):
-    """(verdict, test that noticed it, seconds)."""
+def check(case):
+    """(lane that notices the spoilt line, test that does, seconds)."""
     begin = time.perf_counter()
-    path = PACKAGE / mutation.file
-    text = path.read_text(encoding="utf-8")
-    if text.count(mutation.before) != 1:
-        return "stale: its line is not there once", "", 0.0
+    files = [str(ROOT / "tests" / each) for each in case.tests]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "src"
         shutil.copytree(PACKAGE.parent, source, ignore=shutil.ignore_patterns("__pycache__"))
-        (source / "nivel" / mutation.file).write_text(text.replace(mutation.before, mutation.after), encoding="utf-8")
+        (source / "nivel" / case.file).write_text(case.text, encoding="utf-8")
         shutil.copytree(store.folder(), source.parent / "cache" / "objects")
-        verdict = "caught by default"
-        caught, by = tests_of(mutation, source, "not full")
-        if not caught:
-            caught, by = tests_of(mutation, source, "full")
-            verdict = "only by full" if caught else "survived"
-    return verdict, by, time.perf_counter() - begin
+        lane = BY_DEFAULT
+        by = noticed(source, ["-m", "not full", *files])
+        if not by:
+            by = noticed(source, [str(ROOT / "tests" / "interpreted")], NUMBA_DISABLE_JIT="1")
+        if not by:
+            lane, by = BY_FULL, noticed(source, ["-m", "full", *files], NIVEL_TESTS_FULL="1")
+    return lane if by else NOT_AT_ALL, by, time.perf_counter() - begin
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--only", default="", help="mutations whose names contain this")
-    parser.add_argument("--first", type=int, default=0, help="number of the first one")
-    parser.add_argument("--count", type=int, default=len(MUTATIONS), help="how many at most")
+    parser.add_argument("--seed", type=int, default=1, help="of the choice of lines")
+    parser.add_argument("--count", type=int, default=30, help="how many")
+    parser.add_argument("--first", type=int, default=0, help="number of the first one that is tested")
+    parser.add_argument("--named", action="store_true", help="the lines of `spoilt_lines.py` instead")
+    parser.add_argument("--only", default="", help="those whose names contain this")
+    parser.add_argument("--list", action="store_true", help="name them and end")
     options = parser.parse_args()
-    chosen = [each for each in MUTATIONS if options.only in each.name][options.first :][: options.count]
+    every = list(named_cases()) if options.named else list(chosen_cases(options.first + options.count, options.seed))
+    cases = [each for each in every[options.first :][: options.count] if options.only in each.name]
     missed = 0
-    for mutation in chosen:
-        verdict, by, seconds = check(mutation)
-        missed += verdict != "caught by default"
-        print(f"{mutation.name:45} {verdict:18} {seconds:5.0f} s  {by}", flush=True)
-    sys.exit(f"{missed} of {len(chosen)} not caught by the default tests" if missed else 0)
+    for case in cases:
+        if options.list:
+            print(case.name)
+            continue
+        lane, by, seconds = check(case)
+        missed += lane == BY_FULL
+        print(f"{case.name:75} {lane:8} {seconds:5.0f} s  {by}", flush=True)
+    sys.exit(f"{missed} of {len(cases)} noticed by the full tests alone" if missed else 0)
 
 
 if __name__ == "__main__":

@@ -10,9 +10,13 @@ from typing import get_args
 import pytest
 
 import nivel.integrate
+from nivel.analysis.failures.outcome import FAILURES
+from nivel.analysis.failures.status import Status
+from nivel.analysis.trust.report import every_check
 from nivel.cli.run import command as run_command
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.kernels.core import status
 from nivel.kernels.hydraulics import tangent
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
@@ -111,3 +115,21 @@ def test_every_page_of_a_result_has_a_maker(page):
 def test_facts_of_an_integrator_travel_to_another_process(facts):
     """The solver of a live run is one: it gets the plan, with these facts."""
     assert pickle.loads(pickle.dumps(facts)) is facts
+
+
+def test_every_status_of_kernels_is_one_of_runs_in_order_and_what_is_said_of_a_failure_stands_in_the_table():
+    of_kernels = {name: value for name, value in vars(status).items() if name.isupper()}
+    assert {each.name: each.value for each in Status if each >= 0} == of_kernels
+    assert [each.value for each in Status] == sorted(each.value for each in Status)
+    goes_on = {Status.OK, Status.BUFFER_FULL, Status.BUDGET_SPENT, Status.DONE}
+    assert set(FAILURES) == set(Status) - goes_on
+    assert list(FAILURES) == sorted(FAILURES)
+
+
+def test_checks_of_a_subject_have_names_and_places_of_their_own():
+    checks = every_check()
+    for one in checks:
+        others = [each for each in checks if each is not one and set(each.of) & set(one.of)]
+        assert one.name not in {each.name for each in others}
+        assert one.place not in {each.place for each in others} or one.place == 0
+        assert not (one.quiet and not one.threshold) or one.line in {each.line or each.name for each in others}

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.failures.outcome import failure
+from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.preparation.attributes import run_attributes
@@ -153,7 +153,7 @@ def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Arr
     if status not in (BUDGET_SPENT, ENDED):
         at = float(run.clock[ACCEPTED])
         outcome.outcome = "failed"
-        message, advice = failure(again.prepared.motion, status, at, float(run.clock[STEP]), run.previous)
+        message, advice = failure(Stop(again.prepared.motion, status, at, float(run.clock[STEP]), run.previous))
         outcome.failure = message, advice, at
 
 

@@ -13,7 +13,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
 
-from nivel.analysis.failures.outcome import failure
+from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.plan.plan import Plan
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.loop.paced import (
@@ -191,9 +191,7 @@ class Solver:
     def _why(self, status: int) -> str:
         run, prepared = self._its.run, self._its.prepared
         at = float(run.clock[ACCEPTED])
-        message, advice = failure(
-            prepared.motion, status, at, float(run.clock[STEP_CLOCK]), run.previous, chosen_by="", beams=()
-        )
+        message, advice = failure(Stop(prepared.motion, status, at, float(run.clock[STEP_CLOCK]), run.previous))
         return f"{message}. {advice}" if advice else message
 
     def _obey(self, command: int) -> None:

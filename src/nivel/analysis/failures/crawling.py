@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
 
 from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, Run
 
-# A status of a run beside those of kernels.
-CRAWLS: Final = -1
 # A run is looked at after so many steps. It crawls where they were this much shorter than its longest one, and so many are left at least.
 LOOKED_AT, SHORT, LEFT = 10_000, 1e-5, 1e7
 
@@ -29,13 +26,6 @@ class Crawl:
         mean = (time - self.time) / (steps - self.steps)
         self.steps, self.time = steps, time
         return mean < SHORT * float(run.pace[TAKEN].max()) and self.duration - time > LEFT * mean
-
-
-def crawling(time: float, step: float, jumping: tuple[str, ...]) -> tuple[str, str]:
-    """(message, advice) of a run that crawls."""
-    return f"stopped at t = {time:.6g} s: steps have shrunk to {step:.2g} s, and the end is out of reach", jump_advice(
-        jumping
-    )
 
 
 def jump_advice(jumping: tuple[str, ...]) -> str:

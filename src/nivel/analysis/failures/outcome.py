@@ -1,38 +1,26 @@
-"""From a kernel's status to a sentence: when it failed, where by joint and coordinate, and what to try."""
+"""Failures by the status of a run: what is said of each, in one table: when it failed, where by joint and coordinate, and what to try."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknowns import unknown_name
+from nivel.analysis.failures.crawling import jump_advice
 from nivel.analysis.failures.divergence import grown_motion
 from nivel.analysis.failures.lockup import named_row, unit_of
+from nivel.analysis.failures.status import Status
 from nivel.analysis.plan.fast_beams import too_fast
 from nivel.analysis.preparation.broken_function import broken_function, owner_of
-from nivel.kernels.core.status import (
-    BRISTLE_TOO_FAST,
-    CONTRADICTION,
-    EVENT_NOT_FINITE,
-    FRICTION_DIVERGES,
-    MULTIPLIERS_NOT_FOUND,
-    NO_MASS_LEFT,
-    NO_VOLUME,
-    NOT_CLOSED,
-    NOT_CONVERGED,
-    NOT_FINITE,
-    NOT_ON_RAIL,
-    OPEN,
-    ROTATION_SINGULAR,
-    SINGULAR,
-)
 from nivel.kernels.elements import friction as columns
 from nivel.machine.beams.beam import Beam
 from nivel.system.layout import reported
-from nivel.system.system import Array
+from nivel.system.system import Array, System
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
 NEAR_SINGULAR = 1e-6
@@ -42,104 +30,111 @@ FOR_STIFF = ("radau", "bdf")
 TINY = 1e-9
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2
+# What a method ends with where a force jumps.
+NO_STEP = (Status.NOT_CONVERGED, Status.STEP_TOO_SMALL)
+Told = tuple[str, str]  # message and advice
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A run that failed in the step [s] from `time` [s], whose last accepted state is y.
+
+    chosen_by : the integrator that chose the step, and tried ever smaller ones; empty where steps are fixed. beams : that an explicit
+    method had to follow. jumping : functions that jump with the motion, in words.
+    """
+
+    motion: MotionEquations
+    status: int
+    time: float
+    step: float
+    y: Array
+    chosen_by: str = ""
+    beams: tuple[Beam, ...] = ()
+    jumping: tuple[str, ...] = ()
+
+    @property
+    def number(self) -> int:
+        """The number of what failed, as the kernel counts it."""
+        return int(self.motion.system.record.control.failure[0])
+
+    def evaluate(self) -> None:
+        """Put the record into the last accepted state."""
+        self.motion.evaluate(self.time, self.y)
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
-def failure(
-    motion: MotionEquations,
-    status: int,
-    time: float,
-    step: float,
-    y: Array,
-    *,
-    chosen_by: str = "",
-    beams: Sequence[Beam] = (),
-) -> tuple[str, str]:
-    """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y.
-
-    chosen_by : the integrator that chose the step, and tried ever smaller ones; empty where steps are fixed. beams : that an explicit
-    method had to follow.
-    """
-    number = int(motion.system.record.control.failure[0])
-    if status == CONTRADICTION:
-        told = _contradiction(motion, number)
-    elif status == FRICTION_DIVERGES:
-        told = _jammed(motion.system.frictions[number])
-    elif status == BRISTLE_TOO_FAST:
-        told = _fast_bristles(motion, number, step)
-    elif status == MULTIPLIERS_NOT_FOUND:
-        told = _slow_multipliers(motion)
-    elif status == EVENT_NOT_FINITE and number < len(motion.system.events):
-        told = _broken_event(motion.system.events[number])
-    elif status == NO_MASS_LEFT:
-        told = broken_function(motion, time, step, y) or _no_mass_left(motion.system.bodies[number])
-    elif status == ROTATION_SINGULAR:
-        told = _singular_rotation(motion.system.bodies[number])
-    elif status == NO_VOLUME and number < len(motion.system.nodes):
-        told = broken_function(motion, time, step, y) or _no_volume(motion.system.nodes[number].name)
-    elif status == NOT_ON_RAIL:
-        told = _off_rail(motion, number)
-    else:
-        # what is not a number spoils pivots as well, so look for it first
-        told = broken_function(motion, time, step, y) or too_fast(beams, step)
-        if told is None and chosen_by:
-            passed = status == SINGULAR and step > TINY * max(time, 1e-300)
-            told = _met(motion, number, time, step) if passed else _no_step(motion, status, time, step, y, chosen_by)
-        elif told is None and status == SINGULAR:
-            told = _singular(motion, number, time, step, y)
-        elif told is None and status in (NOT_CLOSED, OPEN):
-            told = _open(motion, number, status, time, step, y)
-        elif told is None and status == NOT_CONVERGED and len(motion.system.record.residual.vdot):
-            told = _no_solution(motion, number, time, step, y)
-        elif told is None:
-            told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
+def failure(stop: Stop) -> Told:
+    """(message, advice) of a run that failed."""
+    status = Status(stop.status)
+    told = next(filter(None, (tell(stop) for tell in FAILURES[status])))
     # an iteration on the rates of the state that does not converge says itself what to do
-    iterated = status == NOT_CONVERGED and not len(motion.system.record.residual.vdot)
-    if not chosen_by and not iterated and (grown := grown_motion(motion, time, step, y)):
+    iterated = status == Status.NOT_CONVERGED and not len(stop.motion.system.record.residual.vdot)
+    if not stop.chosen_by and not iterated and (grown := grown_motion(stop.motion, stop.time, stop.step, stop.y)):
         # what failed in the end failed because of that
-        told = too_fast(beams, step) or grown
-    return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
+        told = too_fast(stop.beams, stop.step) or grown
+    message, advice = told
+    if status in NO_STEP and stop.jumping:
+        advice = f"{jump_advice(stop.jumping)} {advice}"
+    return f"stopped at t = {stop.time:.6g} s: {message}", advice
 
 
-def _no_volume(node: str) -> tuple[str, str]:
-    """A node of a circuit without fluid or room."""
-    message = f"the volume {node} has no fluid left in it, or no room for it"
-    advice = (
-        "A step too long for the flows there empties it: try a shorter one, or `integrator: radau`. If it stops here again, look at the "
-        "size of the volume, and whether a cylinder is pushed beyond its stroke."
-    )
-    return message, advice
+def _broken(stop: Stop) -> Told | None:
+    """A function without a value."""
+    return broken_function(stop.motion, stop.time, stop.step, stop.y)
 
 
-def _no_step(
-    motion: MotionEquations, status: int, time: float, step: float, y: Array, integrator: str
-) -> tuple[str, str]:
+def _fast_beam(stop: Stop) -> Told | None:
+    return too_fast(stop.beams, stop.step)
+
+
+def _crawling(stop: Stop) -> Told:
+    return f"steps have shrunk to {stop.step:.2g} s, and the end is out of reach", jump_advice(stop.jumping)
+
+
+def _named(kind: Callable[[System], Sequence[str]], message: str, advice: str) -> Callable[[Stop], Told | None]:
+    """What is said of the one among these of a machine that failed, whose name is {name}."""
+
+    def tell(stop: Stop) -> Told | None:
+        names = kind(stop.motion.system)
+        if stop.number >= len(names):
+            return None
+        name = names[stop.number]
+        return message.format(name=name), advice.format(name=name)
+
+    return tell
+
+
+def _no_step(stop: Stop) -> Told | None:
     """Where an integrator that chooses its steps finds none that is small enough."""
-    motion.evaluate(time, y)
-    singular = status == SINGULAR or not _far_from_singular(motion)
+    if not stop.chosen_by:
+        return None
+    stop.evaluate()
+    singular = stop.status == Status.SINGULAR or not _far_from_singular(stop.motion)
     reason = {
-        SINGULAR: "leads out of a singular position",
-        NOT_FINITE: "leads to a state of numbers",
-        NOT_CONVERGED: "lets the corrector converge",
-    }.get(status, "meets the tolerance")
-    message = f"no step from here, down to {step:.2g} s, {reason}; {_worst(motion)}"
+        Status.SINGULAR: "leads out of a singular position",
+        Status.NOT_FINITE: "leads to a state of numbers",
+        Status.NOT_CONVERGED: "lets the corrector converge",
+    }.get(Status(stop.status), "meets the tolerance")
+    message = f"no step from here, down to {stop.step:.2g} s, {reason}; {_worst(stop.motion)}"
     if singular:
         return message, (
             "The machine is in or near a singular position, where constraints depend on each other: two links in line, or a loop folded "
             "flat? Start the run elsewhere, or move a joint by a small amount so that the machine does not pass through it exactly."
         )
-    stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != integrator)
+    stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != stop.chosen_by)
     return message, (
         f"Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
         f"{stiff}. A larger `tolerance` may also help, or an integrator of fixed step."
     )
 
 
-def _met(motion: MotionEquations, number: int, time: float, step: float) -> tuple[str, str]:
+def _met(stop: Stop) -> Told | None:
     """Where a step passes a singular position, and its end or a frame inside it is there."""
-    row = motion.system.rows[number]
+    if not stop.chosen_by or not stop.step > TINY * max(stop.time, 1e-300):
+        return None
+    row = stop.motion.system.rows[stop.number]
     message = (
-        f"the constraint {row} depends on the others at the end of the step of some {step:.2g} s from here, or in a frame inside it: "
+        f"the constraint {row} depends on the others at the end of the step of some {stop.step:.2g} s from here, or in a frame inside it: "
         f"there the machine is in a singular position, and reactions cannot be found"
     )
     advice = (
@@ -149,17 +144,17 @@ def _met(motion: MotionEquations, number: int, time: float, step: float) -> tupl
     return message, advice
 
 
-def _singular(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:
-    row = motion.system.rows[number]
-    healthy = motion.holds(time, y) and _far_from_singular(motion)
-    if healthy or _drifted(motion):
+def _singular(stop: Stop) -> Told | None:
+    row = stop.motion.system.rows[stop.number]
+    healthy = stop.motion.holds(stop.time, stop.y) and _far_from_singular(stop.motion)
+    if healthy or _drifted(stop.motion):
         message = (
-            f"a step of {step:.3g} s from here leads to a position that the machine does not have "
-            f"({row} depends on the other constraints there); {_worst(motion)}"
+            f"a step of {stop.step:.3g} s from here leads to a position that the machine does not have "
+            f"({row} depends on the other constraints there); {_worst(stop.motion)}"
         )
         advice = (
-            f"The step is too large for this motion, or a force too stiff for it: try --step {step / 10:.3g}. If it stops near this "
-            f"time again, the machine comes to a singular position there: look at {owner_of(row)}."
+            f"The step is too large for this motion, or a force too stiff for it: try --step {stop.step / 10:.3g}. If it stops near "
+            f"this time again, the machine comes to a singular position there: look at {owner_of(row)}."
         )
         return message, advice
     message = f"the constraint {row} depends on the others here, the machine is in a singular position"
@@ -171,38 +166,143 @@ def _singular(motion: MotionEquations, number: int, time: float, step: float, y:
     return message, advice
 
 
-def _open(motion: MotionEquations, number: int, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
+def _open(stop: Stop) -> Told | None:
     """Where joints cannot be put together, or are open beyond what drift can be, and positions do not tell why."""
-    motion.evaluate(time, y)
+    stop.evaluate()
     found = (
-        f"cannot be closed by changes of positions, {named_row(motion.system, number)} least of all"
-        if status == NOT_CLOSED
+        f"cannot be closed by changes of positions, {named_row(stop.motion.system, stop.number)} least of all"
+        if stop.status == Status.NOT_CLOSED
         else "are open by a tenth of the machine, or of their directions"
     )
-    message = f"after a step of {step:.3g} s from here joints {found}; {_worst(motion)}"
+    message = f"after a step of {stop.step:.3g} s from here joints {found}; {_worst(stop.motion)}"
     advice = (
-        f"The step is too long for this motion, or a driver pulls the machine to where it cannot follow: try --step {step / 10:.3g}. If it "
-        f"stops near this time again, the machine jams in a singular position: look at what the drivers prescribe."
+        f"The step is too long for this motion, or a driver pulls the machine to where it cannot follow: try --step "
+        f"{stop.step / 10:.3g}. If it stops near this time again, the machine jams in a singular position: look at what the drivers "
+        f"prescribe."
     )
     return message, advice
 
 
-def _contradiction(motion: MotionEquations, number: int) -> tuple[str, str]:
-    system, constraints = motion.system, motion.system.record.constraints
-    rows, J = _rows_in_use(motion)
-    its, others = J[rows == number][0], rows != number
+def _contradiction(stop: Stop) -> Told | None:
+    system, constraints = stop.motion.system, stop.motion.system.record.constraints
+    rows, J = _rows_in_use(stop.motion)
+    its, others = J[rows == stop.number][0], rows != stop.number
     # the rows that row `number` is a combination of
     share = np.linalg.lstsq(J[others].T, its, rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
     repeated = rows[others][np.abs(share) > 1e-6 * np.linalg.norm(its)]
     owners = dict.fromkeys(system.row_owner[row] for row in repeated[::-1])  # drivers stand last
     message = (
-        f"the constraint {system.rows[number]}, which repeated others at the start, contradicts them now "
-        f"(open by {constraints.C[number]:.3g}); it should follow from {', '.join(owners)}"
+        f"the constraint {system.rows[stop.number]}, which repeated others at the start, contradicts them now "
+        f"(open by {constraints.C[stop.number]:.3g}); it should follow from {', '.join(owners)}"
     )
     advice = (
         "Do two drivers, or a driver and the joints or couplings around it, prescribe the same motion differently? Remove one of "
         "them. Without them it is drift: take --stabilisation direct."
     )
+    return message, advice
+
+
+def _slow_multipliers(stop: Stop) -> Told | None:
+    saddle = stop.motion.system.record.saddle
+    diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    slow, fast = (
+        stop.motion.system.rows[saddle.row[saddle.order[int(pick(diagonal))]]] for pick in (np.argmin, np.argmax)
+    )
+    iterations = int(stop.motion.system.record.control.iterations[0])
+    message = (
+        f"the augmented Lagrangian finds no multipliers within {iterations} iterations: what {slow} and {fast} move, or what they depend "
+        f"on, differs too much in mass"
+    )
+    advice = (
+        "Try a greater `penalty: {factor: 1e8}` or more `iterations`; `formulation: newton-euler` needs neither. Constraints that "
+        "contradict each other look the same."
+    )
+    return message, advice
+
+
+def _fast_bristles(stop: Stop) -> Told | None:
+    record, name = stop.motion.system.record, stop.motion.system.frictions[stop.number]
+    numbers = record.friction.number[stop.number]
+    rate = record.coordinates.rate[int(record.friction.columns[stop.number, columns.COORDINATE])]
+    speed = abs(float(rate * numbers[columns.ARM]))
+    relaxation = numbers[columns.STIFFNESS] * speed / numbers[columns.KINETIC]
+    message = (
+        f"the bristles of {name} relax with the rate bristle_stiffness v/coefficient = {relaxation:.3g}/s at the speed "
+        f"{speed:.3g} m/s, faster than a step of {stop.step:.3g} s can follow; the friction would be wrong from here on"
+    )
+    advice = (
+        f"The step has to be below 2.7 coefficient/(bristle_stiffness v): try --step {1.5 / relaxation:.2g} or, for higher speeds to "
+        f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`."
+    )
+    return message, advice
+
+
+def _off_rail(stop: Stop) -> Told | None:
+    """Of a slider whose place along a beam, as last found, is at an end of it, or nowhere."""
+    system, coordinates = stop.motion.system, stop.motion.system.record.coordinates
+    place = system.record.joints.coordinate.tolist().index(stop.number)
+    name = system.layout.coordinates["joint_coordinate"][place]
+    length = float(coordinates.station[coordinates.start[stop.number + 1] - 1])
+    at = float(coordinates.reference[stop.number])
+    if min(at, length - at) > 0.1 * length:
+        return (
+            f"{name} has no nearest place on its beam: the slider is farther from the line than its radius of curvature",
+            "Look whether the beam bends too sharply there, or the joint is torn open; a smaller step may help.",
+        )
+    end = "end" if at > 0.5 * length else "start"
+    return (
+        f"{name} leaves its beam at the {end}: it was at {at:.6g} m, the beam is {length:.6g} m long",
+        f"Hold it before the end with a force of the type `stop` on `{name}`, end the run there with an event, or make the beam longer.",
+    )
+
+
+def _no_solution(stop: Stop) -> Told | None:
+    """Where Newton's iteration for accelerations and multipliers finds nothing."""
+    if not len(stop.motion.system.record.residual.vdot):
+        return None
+    stalled = unknown_name(stop.motion.system, stop.number)
+    stop.evaluate()
+    message = f"Newton's iteration finds no solution within a step of {stop.step:.3g} s: it stalls at {stalled}; {_worst(stop.motion)}"
+    record = stop.motion.system.record
+    iterated = len(record.newton.compliance) > 0 and record.control.iterations[0] > 1
+    settle = (
+        "Multipliers of bodies that differ much in mass settle with a greater `penalty: {factor: 1e8}`. "
+        if iterated
+        else ""
+    )
+    or_direct = "" if len(record.residual.interval.start) else ", or direct"
+    return message, settle + (
+        f"Try --step {stop.step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with "
+        f"--step-control error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: "
+        f"1e-8}}`{or_direct}. If it stops here again, the machine comes to a position that it cannot pass, or a force jumps: look "
+        f"at {stalled}."
+    )
+
+
+def _not_converged(stop: Stop) -> Told | None:
+    stop.evaluate()
+    message = (
+        f"the iteration of the corrector does not converge within a step of {stop.step:.3g} s: the motion changes too much in it, or a "
+        f"force is too stiff; {_worst(stop.motion)}"
+    )
+    advice = (
+        f"Try --step {stop.step / 10:.3g}; or, where `iteration: functional`, `corrector: {{iteration: newton}}`, which stiff forces do "
+        f"not limit. With a tolerance near round-off (1e-13) no iteration may come to an end: then a larger `tolerance` of `corrector`."
+    )
+    return message, advice
+
+
+def _not_a_number(stop: Stop) -> Told | None:
+    stop.evaluate()
+    broken = _broken_signals(stop.motion)
+    if broken:
+        message = f"{', '.join(broken)} {'is' if len(broken) == 1 else 'are'} no longer a number"
+        return (
+            message,
+            "Look at what the block is given: a root or logarithm of a negative number, a division by zero.",
+        )
+    message = f"the state after a step of {stop.step:.3g} s is no longer a number; {_worst(stop.motion)}"
+    advice = f"Try a smaller step, for instance --step {stop.step / 10:.3g}; if it stops at the same time, look at the forces near it."
     return message, advice
 
 
@@ -219,129 +319,6 @@ def _rows_in_use(motion: MotionEquations) -> tuple[NDArray[np.int64], Array]:
     return saddle.row.astype(np.int64), W.reshape(len(W), -1)
 
 
-def _jammed(name: str) -> tuple[str, str]:
-    message = (
-        f"no friction {name} is consistent with the reactions that it causes: the joint jams, or its "
-        f"normal load would grow without bounds"
-    )
-    advice = (
-        f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
-        f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé). Within a step that is far too long for a "
-        f"stiff spring it looks the same: then try a shorter --step."
-    )
-    return message, advice
-
-
-def _slow_multipliers(motion: MotionEquations) -> tuple[str, str]:
-    saddle = motion.system.record.saddle
-    diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
-    slow, fast = (motion.system.rows[saddle.row[saddle.order[int(pick(diagonal))]]] for pick in (np.argmin, np.argmax))
-    message = (
-        f"the augmented Lagrangian finds no multipliers within {int(motion.system.record.control.iterations[0])} iterations: what {slow} "
-        f"and {fast} move, or what they depend on, differs too much in mass"
-    )
-    advice = (
-        "Try a greater `penalty: {factor: 1e8}` or more `iterations`; `formulation: newton-euler` needs neither. Constraints that "
-        "contradict each other look the same."
-    )
-    return message, advice
-
-
-def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[str, str]:
-    record, name = motion.system.record, motion.system.frictions[number]
-    numbers = record.friction.number[number]
-    rate = record.coordinates.rate[int(record.friction.columns[number, columns.COORDINATE])]
-    speed = abs(float(rate * numbers[columns.ARM]))
-    relaxation = numbers[columns.STIFFNESS] * speed / numbers[columns.KINETIC]
-    message = (
-        f"the bristles of {name} relax with the rate bristle_stiffness v/coefficient = {relaxation:.3g}/s at the speed "
-        f"{speed:.3g} m/s, faster than a step of {step:.3g} s can follow; the friction would be wrong from here on"
-    )
-    advice = (
-        f"The step has to be below 2.7 coefficient/(bristle_stiffness v): try --step {1.5 / relaxation:.2g} or, for higher speeds to "
-        f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`."
-    )
-    return message, advice
-
-
-def _broken_event(name: str) -> tuple[str, str]:
-    return (
-        f"the value of the event {name} is no longer a number",
-        f"Look at `when` of {name}: a division by zero, or a root or logarithm of a negative number?",
-    )
-
-
-def _no_mass_left(body: str) -> tuple[str, str]:
-    return (
-        f"the modes of {body} take up all the mass and inertia of its frame, and more with its bending",
-        f"Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {body}; in mean axes it is "
-        f"geometric stiffness that takes mass while the body bends: `stiffening: false`, or a beam in place of {body}.",
-    )
-
-
-def _singular_rotation(body: str) -> tuple[str, str]:
-    message = f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
-    advice = (
-        "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "
-        "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are."
-    )
-    return message, advice
-
-
-def _off_rail(motion: MotionEquations, coordinate: int) -> tuple[str, str]:
-    """Of a slider whose place along a beam, as last found, is at an end of it, or nowhere."""
-    system, coordinates = motion.system, motion.system.record.coordinates
-    place = system.record.joints.coordinate.tolist().index(coordinate)
-    name = system.layout.coordinates["joint_coordinate"][place]
-    length = float(coordinates.station[coordinates.start[coordinate + 1] - 1])
-    at = float(coordinates.reference[coordinate])
-    if min(at, length - at) > 0.1 * length:
-        return (
-            f"{name} has no nearest place on its beam: the slider is farther from the line than its radius of curvature",
-            "Look whether the beam bends too sharply there, or the joint is torn open; a smaller step may help.",
-        )
-    end = "end" if at > 0.5 * length else "start"
-    return (
-        f"{name} leaves its beam at the {end}: it was at {at:.6g} m, the beam is {length:.6g} m long",
-        f"Hold it before the end with a force of the type `stop` on `{name}`, end the run there with an event, or make the beam longer.",
-    )
-
-
-def _no_solution(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:
-    """Where Newton's iteration for accelerations and multipliers finds nothing."""
-    stalled = unknown_name(motion.system, number)
-    motion.evaluate(time, y)
-    message = (
-        f"Newton's iteration finds no solution within a step of {step:.3g} s: it stalls at {stalled}; {_worst(motion)}"
-    )
-    record = motion.system.record
-    iterated = len(record.newton.compliance) > 0 and record.control.iterations[0] > 1
-    settle = (
-        "Multipliers of bodies that differ much in mass settle with a greater `penalty: {factor: 1e8}`. "
-        if iterated
-        else ""
-    )
-    or_direct = "" if len(record.residual.interval.start) else ", or direct"
-    return message, settle + (
-        f"Try --step {step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with --step-control "
-        f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`{or_direct}. If "
-        f"it stops here again, the machine comes to a position that it cannot pass, or a force jumps: look at {stalled}."
-    )
-
-
-def _not_converged(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:
-    motion.evaluate(time, y)
-    message = (
-        f"the iteration of the corrector does not converge within a step of {step:.3g} s: the motion changes too much in it, or a force "
-        f"is too stiff; {_worst(motion)}"
-    )
-    advice = (
-        f"Try --step {step / 10:.3g}; or, where `iteration: functional`, `corrector: {{iteration: newton}}`, which stiff forces do not "
-        f"limit. With a tolerance near round-off (1e-13) no iteration may come to an end: then a larger `tolerance` of `corrector`."
-    )
-    return message, advice
-
-
 def _broken_signals(motion: MotionEquations) -> list[str]:
     """Signals of the control that are no numbers in the state last evaluated."""
     values = motion.system.record.outputs.value
@@ -351,17 +328,6 @@ def _broken_signals(motion: MotionEquations) -> list[str]:
         for name, value in zip(names, values, strict=True)
         if name.startswith("control.") and not np.isfinite(value)
     ][:3]
-
-
-def _not_a_number(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:
-    motion.evaluate(time, y)
-    broken = _broken_signals(motion)
-    if broken:
-        message = f"{', '.join(broken)} {'is' if len(broken) == 1 else 'are'} no longer a number"
-        return message, "Look at what the block is given: a root or logarithm of a negative number, a division by zero."
-    message = f"the state after a step of {step:.3g} s is no longer a number; {_worst(motion)}"
-    advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
-    return message, advice
 
 
 def _drifted(motion: MotionEquations) -> bool:
@@ -391,3 +357,65 @@ def _worst(motion: MotionEquations) -> str:
     accelerations = np.nan_to_num(np.linalg.norm(record.bodies.Rddot[: system.body_count], axis=1), nan=np.inf)
     body = int(np.argmax(accelerations))
     return f"the body with the largest acceleration before it is {system.bodies[body]}"
+
+
+# what is not a number spoils pivots as well, so it is looked for first
+_FIRST: Final = (_broken, _fast_beam)
+FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
+    Status.CRAWLS: (_crawling,),
+    Status.SINGULAR: (*_FIRST, _met, _no_step, _singular),
+    Status.NOT_FINITE: (*_FIRST, _no_step, _not_a_number),
+    Status.FRICTION_DIVERGES: (
+        _named(
+            lambda system: system.frictions,
+            "no friction {name} is consistent with the reactions that it causes: the joint jams, or its normal load would grow without "
+            "bounds",
+            "Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
+            "With Coulomb friction and rigid bodies some positions have no solution (Painlevé). Within a step that is far too long for a "
+            "stiff spring it looks the same: then try a shorter --step.",
+        ),
+    ),
+    Status.BRISTLE_TOO_FAST: (_fast_bristles,),
+    Status.CONTRADICTION: (_contradiction,),
+    Status.ROTATION_SINGULAR: (
+        _named(
+            lambda system: system.bodies,
+            "the rotation coordinates of {name} come to a singular position, where they cannot follow its motion",
+            "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "
+            "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are.",
+        ),
+    ),
+    Status.NOT_CONVERGED: (*_FIRST, _no_step, _no_solution, _not_converged),
+    Status.STEP_TOO_SMALL: (*_FIRST, _no_step, _not_a_number),
+    Status.EVENT_NOT_FINITE: (
+        _named(
+            lambda system: system.events,
+            "the value of the event {name} is no longer a number",
+            "Look at `when` of {name}: a division by zero, or a root or logarithm of a negative number?",
+        ),
+        *(*_FIRST, _no_step, _not_a_number),
+    ),
+    Status.MULTIPLIERS_NOT_FOUND: (_slow_multipliers,),
+    Status.NO_MASS_LEFT: (
+        _broken,
+        _named(
+            lambda system: system.bodies,
+            "the modes of {name} take up all the mass and inertia of its frame, and more with its bending",
+            "Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {name}; in mean axes it "
+            "is geometric stiffness that takes mass while the body bends: `stiffening: false`, or a beam in place of {name}.",
+        ),
+    ),
+    Status.NOT_ON_RAIL: (_off_rail,),
+    Status.NOT_CLOSED: (*_FIRST, _no_step, _open),
+    Status.OPEN: (*_FIRST, _no_step, _open),
+    Status.NO_VOLUME: (
+        _broken,
+        _named(
+            lambda system: [node.name for node in system.nodes],
+            "the volume {name} has no fluid left in it, or no room for it",
+            "A step too long for the flows there empties it: try a shorter one, or `integrator: radau`. If it stops here again, look at "
+            "the size of the volume, and whether a cylinder is pushed beyond its stroke.",
+        ),
+        *(*_FIRST, _no_step, _not_a_number),
+    ),
+}

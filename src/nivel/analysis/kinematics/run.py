@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.failures.lockup import find_jam
-from nivel.analysis.failures.outcome import failure
+from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
 from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.analysis.kinematics.singular import singular_positions
@@ -147,7 +147,9 @@ def _failure(prepared: Prepared, settings: RunSettings, run: Run, status: int) -
     jam = find_jam(prepared, t, float(run.clock[STEP]), settings.step, settings.duration, run.previous)
     if jam is not None:
         return jam.message, jam.advice, t
-    message, advice = failure(prepared.motion, status, t, float(run.clock[STEP]), run.previous, chosen_by="kinematics")
+    message, advice = failure(
+        Stop(prepared.motion, status, t, float(run.clock[STEP]), run.previous, chosen_by="kinematics")
+    )
     return message, advice, t
 
 

@@ -14,11 +14,12 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback
-from nivel.analysis.failures.crawling import CRAWLS, Crawl, crawling, jump_advice
+from nivel.analysis.failures.crawling import Crawl
 from nivel.analysis.failures.divergence import GROWN, UNBOUND
 from nivel.analysis.failures.fastest import fastest_beyond, held_step
 from nivel.analysis.failures.lockup import Jam, can_be_asked, find_jam
-from nivel.analysis.failures.outcome import failure
+from nivel.analysis.failures.outcome import Stop, failure
+from nivel.analysis.failures.status import Status
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared
@@ -72,8 +73,6 @@ CHUNK = 0.05
 GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
 # What a method may end with near a position that its machine cannot pass.
 BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
-# What a method ends with where a force jumps.
-NO_STEP = (NOT_CONVERGED, STEP_TOO_SMALL)
 
 
 @dataclass
@@ -211,7 +210,7 @@ def march_in_chunks(
             if pacing is not None:
                 pacing.after(run)
             if crawl is not None and status in GOES_ON and crawl.seen(run):
-                status = CRAWLS
+                status = Status.CRAWLS
             if chunk_steps is None and status == BUDGET_SPENT:
                 budget = _next_budget(budget, spent)
             if status in GOES_ON and interrupted():
@@ -250,10 +249,8 @@ def failure_of(
     facts, time = prepared.integrator, float(run.clock[ACCEPTED])
     if jam is not None:
         return f"stopped at t = {time:.6g} s: {jam.message}", jam.advice, time
-    if status == CRAWLS:
-        return *crawling(time, float(run.clock[STEP]), prepared.jumping), time
     explicit = settings.steps > 0 and facts.kind == "explicit"
-    message, advice = failure(
+    stop = Stop(
         prepared.motion,
         status,
         time,
@@ -261,9 +258,9 @@ def failure_of(
         run.previous,
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
+        jumping=prepared.jumping,
     )
-    if status in NO_STEP and prepared.jumping:
-        advice = f"{jump_advice(prepared.jumping)} {advice}"
+    message, advice = failure(stop)
     return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
 
 

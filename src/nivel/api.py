@@ -48,7 +48,15 @@ from nivel.machine import (
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.settings.compare import COMMON, Axes
 from nivel.model import Model
-from nivel.settings import CompareSettingsDict, RunSettingsDict, StepSettingsDict
+from nivel.settings import (
+    CompareSettingsDict,
+    InverseSettingsDict,
+    KinematicsSettingsDict,
+    LineariseSettingsDict,
+    RunSettingsDict,
+    StaticsSettingsDict,
+    StepSettingsDict,
+)
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import shown
 
@@ -291,47 +299,27 @@ class Machine(Model):
     def statics(
         self,
         *,
-        duration: float | str | None = None,
-        step: float | str | None = None,
-        arc_length: bool = False,
-        tolerance: float | str | None = None,
-        most_iterations: int | str | None = None,
-        line_search: bool = True,
-        modes: int | str | None = None,
-        buckling: int | str | None = None,
-        coordinates: StaticCoordinates | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         listener: Listener | None = None,
+        **settings: Unpack[StaticsSettingsDict],
     ) -> Result:
         """Static equilibrium: the states in which the machine rests under its loads, as time, on which loads and drivers depend, goes on.
 
-        duration : to which time [s], or a text with units; default that of the machine, 0 where nothing depends on time: the equilibrium
-        at t = 0 alone. step : of time between states [s], default a twentieth; halved where Newton's method fails.
-        arc_length : follow the path through limit points, where time turns back. tolerance : of the last change, in lengths of the machine
-        and radians. most_iterations : of Newton's method a state. line_search : shorten steps that come no nearer.
-        modes : so many vibrations about every state. buckling : so many linearised buckling loads, from the tangents of the first and
-        the last state. coordinates : auto, absolute or relative. out : result file (NetCDF); in memory if None. force : replace it.
+        settings : as the options of `nivel statics`; times [s], or texts with units. Without a duration it is that of the machine, 0 where
+        nothing depends on time: the equilibrium at t = 0 alone. out : result file (NetCDF); in memory if None. force : replace it.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds the states until then).
         """
-        from nivel.analysis.statics.settings import statics_settings
+        from nivel.machine.settings.statics import StaticsSettings
+        from nivel.machine.settings.values import settings_of, static_coordinates
 
         simulation = self.record.simulation
-        given = {
-            "duration": simulation.duration if duration is None else duration,
-            "step": step,
-            "arc_length": arc_length,
-            "tolerance": tolerance,
-            "most_iterations": most_iterations,
-            "line_search": line_search,
-            "modes": modes,
-            "buckling": buckling,
-            "coordinates": coordinates,
-        }
-        settings = statics_settings(given, simulation.coordinates)
+        own = {"duration": simulation.duration, "coordinates": static_coordinates(simulation.coordinates)}
+        chosen_duration = settings.get("duration") is not None
+        asked = settings_of(StaticsSettings, "statics", own | _given(settings))
         from nivel.analysis.statics.refusals import for_statics
 
-        neutral, chosen = for_statics(self.record, settings)
+        neutral, chosen = for_statics(self.record, asked)
         with self._faults_in_file():
             methods = methods_of(neutral, "newton-euler", chosen)
         self._refuse_target(out, force)
@@ -342,8 +330,8 @@ class Machine(Model):
         with self._faults_in_file():
             return statics(
                 self.record,
-                settings,
-                chosen_duration=duration is not None,
+                asked,
+                chosen_duration=chosen_duration,
                 source=self.origin.source,
                 out=out,
                 force=force,
@@ -355,38 +343,30 @@ class Machine(Model):
     def kinematics(
         self,
         *,
-        drive: str | None = None,
-        start: float | str | None = None,
-        end: float | str | None = None,
-        duration: float | str | None = None,
-        positions: int | str | None = None,
-        coordinates: StaticCoordinates | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         listener: Listener | None = None,
+        **settings: Unpack[KinematicsSettingsDict],
     ) -> Result:
         """Positions, velocities, accelerations and reactions of a machine whose motions are all driven, without integration.
 
-        drive : a joint coordinate to be driven evenly besides what the machine's own drivers prescribe, from `start` (default: where it is)
-        to `end` (default: one turn further) [rad or m, or texts with units]. duration : of the motion [s], default that of the machine, 1 s
-        with `drive`. positions : so many, both ends included, default 361. coordinates : auto, absolute or relative. out : result file
-        (NetCDF); in memory if None. force : replace it.
+        settings : as the options of `nivel kinematics`, with `start` and `end` for `--from` and `--to` [rad or m, or texts with units].
+        out : result file (NetCDF); in memory if None. force : replace it.
         Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
         the positions until then, its message says what holds which driver.
         """
         from nivel.analysis.kinematics.refusals import refuse_what_bends
-        from nivel.analysis.kinematics.settings import kinematics_settings
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.machine.settings.kinematics import kinematics_settings
 
-        given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
-        settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
+        asked = kinematics_settings(self.record, settings)
         with self._faults_in_file():
             refuse_what_bends(self.record)
             build(assembly_entries(self.record), listener)
             from nivel.analysis.kinematics.drive import driven
 
-            machine, settings = driven(self.record, settings)
-            plain, chosen = neutral(machine, settings.coordinates)
+            machine, asked = driven(self.record, asked)
+            plain, chosen = neutral(machine, asked.coordinates)
             methods = methods_of(plain, "newton-euler", chosen)
         self._refuse_target(out, force)
         compile_seconds = build(kinematics_entries(methods), listener)
@@ -397,7 +377,7 @@ class Machine(Model):
             return kinematics(
                 machine,
                 methods,
-                settings,
+                asked,
                 source=self.origin.source,
                 out=out,
                 force=force,
@@ -421,7 +401,7 @@ class Machine(Model):
         from math import pi
 
         from nivel.analysis.kinematics.ranges import range_of_motion
-        from nivel.analysis.kinematics.settings import kinematics_settings
+        from nivel.machine.settings.kinematics import kinematics_settings
 
         settings = kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
@@ -448,7 +428,7 @@ class Machine(Model):
 
         Raises ModelError where more motions are free, or none; SolveError where the positions cannot be followed.
         """
-        from nivel.analysis.kinematics.settings import kinematics_settings
+        from nivel.machine.settings.kinematics import kinematics_settings
 
         name = kinematics_settings(self.record, {"drive": coordinate, "end": 0.0}).drive
         build(assembly_entries(self.record), listener)
@@ -461,45 +441,39 @@ class Machine(Model):
     def inverse(
         self,
         *,
-        actuators: Sequence[str] | str | None = None,
-        motion: Any = None,
-        trajectory: str | PathLike[str] | None = None,
-        limits: Mapping[str, Any] | None = None,
-        weights: Mapping[str, Any] | None = None,
-        hold: Sequence[str] | str | None = None,
-        positions: int | str | None = None,
         listener: Listener | None = None,
+        **settings: Unpack[InverseSettingsDict],
     ) -> Efforts:
         """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
 
-        actuators : joint coordinates, or motors, which then do not act themselves; default: the motors, or without any what the drivers
-        prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
-        coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
-        within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
-        positions : of the motion of the drivers or the trajectory, default 361. Of machines with friction drivers or the trajectory
-        prescribe the coordinates of the actuators.
+        settings : as the options of `nivel inverse`, with `limits` and `weights` by actuator; motion : a result, or its file. Of more
+        actuators than needed the least Σ (weight · effort)² is taken within the limits, weights being one over the limit where there is
+        one. Of machines with friction drivers or the trajectory prescribe the coordinates of the actuators.
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be reached.
         """
+        from nivel.analysis.inverse.actuators import actuation
         from nivel.analysis.inverse.friction_efforts import acting_drivers, driven_alone, efforts_of_drivers, rubs
         from nivel.analysis.inverse.refusals import refuse_for_inverse
-        from nivel.analysis.inverse.settings import inverse_settings
         from nivel.analysis.inverse.trajectory import along_trajectory
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.machine.settings.inverse import InverseSettings
+        from nivel.machine.settings.values import settings_of
 
-        given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
+        asked = settings_of(InverseSettings, "inverse", settings)
+        motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
         if motion is not None and trajectory is not None:
             raise ModelError(Fault("", 0, 0, "inverse.trajectory", "stands in place of `motion`; give one of them"))
         with self._faults_in_file():
             refuse_for_inverse(self.record)
             record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
-            settings = inverse_settings(record, given)
+            wanted = actuation(record, asked)
             if rubs(record):
-                drivers = acting_drivers(record, settings, recorded=motion is not None)
-                driven = Machine.from_record(driven_alone(record, settings), self.origin)
-                return efforts_of_drivers(settings, drivers, driven.kinematics(positions=positions, listener=listener))
+                drivers = acting_drivers(record, wanted, recorded=motion is not None)
+                driven = Machine.from_record(driven_alone(record, wanted), self.origin)
+                return efforts_of_drivers(wanted, drivers, driven.kinematics(positions=positions, listener=listener))
             from nivel.analysis.inverse.run import inverse, without_actuators
 
-            plain, _ = neutral(without_actuators(record, settings), "absolute")
+            plain, _ = neutral(without_actuators(record, wanted), "absolute")
             methods = methods_of(plain, "newton-euler", "absolute")
         build(linear_entries(methods), listener)
         if motion is None:
@@ -512,7 +486,7 @@ class Machine(Model):
                 message = f"a result or the name of its file was expected, got {type(motion).__name__}"
                 raise ModelError(Fault("", 0, 0, "inverse.motion", message))
         with self._faults_in_file():
-            return inverse(methods, settings, followed, listener=listener)
+            return inverse(methods, wanted, followed, listener=listener)
 
     @checked_arguments
     def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
@@ -589,48 +563,40 @@ class Machine(Model):
     def linearise(
         self,
         *,
-        about: float | str | None = None,
-        inputs: Sequence[str] | str | None = None,
-        outputs: Sequence[str] | str | None = None,
-        coordinates: StaticCoordinates | None = None,
         listener: Listener | None = None,
+        **settings: Unpack[LineariseSettingsDict],
     ) -> LinearModel:
         """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
 
-        about : `start` (the machine as it starts), `equilibrium` (at t = 0), or a time [s] to which it is run first.
+        settings : as the options of `nivel linearise`. about : `start`, `equilibrium` (at t = 0), or a time [s] to which it is run first.
         inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
         `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
         `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
-        all joint coordinates. coordinates : auto, absolute or relative.
+        all joint coordinates.
         Raises ModelError (nothing was computed) or SolveError.
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
-        from nivel.analysis.linearise.settings import linearise_settings
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.machine.settings.linearise import EQUILIBRIUM, LineariseSettings
+        from nivel.machine.settings.values import settings_of, static_coordinates
 
         simulation = self.record.simulation
-        wanted = simulation.coordinates if coordinates is None else coordinates
-        settings = linearise_settings(
-            about,
-            inputs,
-            outputs,
-            "auto" if coordinates is None and wanted == "independent" else wanted,
-            simulation.start,
-        )
+        own = {"coordinates": static_coordinates(simulation.coordinates)}
+        own |= {"about": EQUILIBRIUM} if simulation.start == EQUILIBRIUM else {}
+        asked = settings_of(LineariseSettings, "linearise", own | _given(settings))
+        at_rest = asked.about == EQUILIBRIUM
         with self._faults_in_file():
             refuse_jumps(self.record)
-            plain, chosen = neutral(
-                self.record, settings.coordinates, "equilibrium" if settings.about == "equilibrium" else "as-given"
-            )
+            plain, chosen = neutral(self.record, asked.coordinates, EQUILIBRIUM if at_rest else "as-given")
             methods = methods_of(plain, "newton-euler", chosen)
         entries = linear_entries(methods)
-        if settings.about == "equilibrium":
+        if at_rest:
             from nivel.analysis.statics.start import methods_at_rest
 
             entries += statics_entries(methods_at_rest(plain))
         run = None
-        if settings.time > 0.0:
-            run = self.with_settings({"duration": settings.time})._plan(())
+        if asked.time > 0.0:
+            run = self.with_settings({"duration": asked.time})._plan(())
             entries += run_entries(run)
         build(entries, listener)
         # what follows takes longer to import
@@ -639,7 +605,7 @@ class Machine(Model):
 
         with self._faults_in_file():
             posture = None if run is None else run_until(run, listener or Listener())
-            return linearise(plain, methods, settings, posture=posture, source=self.origin.source, listener=listener)
+            return linearise(plain, methods, asked, posture=posture, source=self.origin.source, listener=listener)
 
     @checked_arguments
     def compare(

@@ -6,9 +6,10 @@ Written by `python -m nivel.machine.settings` from the records in `nivel/machine
 # fmt: off
 # ruff: noqa: E501
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from typing import Annotated, Any, TypedDict
 
-from nivel.methods import Coordinates, Formulation, Integrator, Rotations, Stabilisation, Start, StepControl
+from nivel.methods import Coordinates, Formulation, Integrator, Rotations, Stabilisation, Start, StaticCoordinates, StepControl
 
 
 class RunSettingsDict(TypedDict, total=False):
@@ -74,3 +75,49 @@ class CompareSettingsDict(TypedDict, total=False):
     output_interval: Annotated[float | str | None, "--output-interval TIME", "Time between frames; with a fixed step a multiple of it; default: up to 1000 intervals."]
     largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
     cut: Annotated[Sequence[str] | str | None, "--cut JOINTS", "Joints that close loops: they stay constraints in relative coordinates; default: chosen automatically."]
+
+
+class StaticsSettingsDict(TypedDict, total=False):
+    """Settings of statics."""
+
+    duration: Annotated[float | str | None, "--duration TIME", "Last time of the loads and drivers; 0: only t = 0; default: that of the machine."]
+    step: Annotated[float | str | None, "--step TIME", "Time between two states; default: a twentieth of the duration."]
+    arc_length: Annotated[bool | None, "--arc-length", "Path of equilibria through limit points, where time turns back."]
+    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Largest last correction of Newton's method, in lengths of the machine and in radians; default: 1e-10."]
+    most_iterations: Annotated[int | str | None, "--most-iterations NUMBER", "Limit of Newton iterations for a state; default: 25."]
+    line_search: Annotated[bool | None, "--no-line-search", "No shortening of Newton steps that come no nearer."]
+    modes: Annotated[int | str | None, "--modes NUMBER", "Number of natural frequencies and modes about every state."]
+    buckling: Annotated[int | str | None, "--buckling NUMBER", "Number of linearised buckling loads, from the first and the last state."]
+    coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
+
+
+class KinematicsSettingsDict(TypedDict, total=False):
+    """Settings of kinematics."""
+
+    drive: Annotated[str | None, "--drive COORDINATE", "Joint coordinate that is driven at constant speed, e.g. hinge.angle."]
+    start: Annotated[float | str | None, "--from VALUE", "First value of this coordinate, e.g. '10 deg'; default: its value in the assembled machine."]
+    end: Annotated[float | str | None, "--to VALUE", "Last value of this coordinate; default: one turn more."]
+    duration: Annotated[float | str | None, "--duration TIME", "Duration of the motion; default: that of the machine, 1 s with --drive."]
+    positions: Annotated[int | str | None, "--positions NUMBER", "Number of positions, both ends included; default: 361."]
+    coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
+
+
+class InverseSettingsDict(TypedDict, total=False):
+    """Settings of inverse dynamics."""
+
+    actuators: Annotated[Sequence[str] | str | None, "--actuators NAMES", "Joint coordinates, or motors, which then do not act themselves; default: the motors, or the coordinates that the drivers prescribe."]
+    motion: Annotated[Any, "--motion RESULT.nc", "Result of a run or of kinematics; default: the motion that the drivers prescribe."]
+    trajectory: Annotated[str | PathLike[str] | None, "--trajectory FILE.csv", "Table of joint coordinates over time, in place of a motion."]
+    limits: Annotated[Mapping[str, Any] | None, "--limit NAME=VALUE", "Greatest effort of an actuator; default: those of the motors."]
+    weights: Annotated[Mapping[str, Any] | None, "--weight NAME=NUMBER", "Weight of an effort, if there are more actuators than needed; default: one over the limit, or 1."]
+    hold: Annotated[Sequence[str] | str | None, "--hold DRIVERS", "Drivers that keep what they prescribe."]
+    positions: Annotated[int | str | None, "--positions NUMBER", "Number of positions of the drivers' motion or of a trajectory; default: 361."]
+
+
+class LineariseSettingsDict(TypedDict, total=False):
+    """Settings of a linear model."""
+
+    about: Annotated[float | str | None, "--about STATE", "State to linearise about: start, equilibrium, or a time up to which the machine is simulated, e.g. '2 s'; default: the start of the machine."]
+    inputs: Annotated[Sequence[str] | str | None, "--inputs NAMES", "Inputs, e.g. hinge.angle; default: motors and drivers."]
+    outputs: Annotated[Sequence[str] | str | None, "--outputs NAMES", "Outputs; default: sensors, or all joint coordinates."]
+    coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]

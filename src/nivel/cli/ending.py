@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nivel.words.wording import seconds
@@ -47,3 +48,8 @@ def say_checks(out: Console, trust: Trust) -> None:
         out.print(f"All {passed} numerical checks passed; `nivel explain` shows them.")
     elif passed:
         out.print(f"  The other {passed} checks passed; `nivel explain` shows them.", soft_wrap=True)
+
+
+def say_files(out: Console, target: Path, report: Path | None) -> None:
+    """Names of the result file and of the report, if one was written."""
+    out.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

@@ -81,7 +81,10 @@ class SettingOption(click.Option):
         option, _, metavar = declaration.partition(" ")
         kinds = {get_origin(each) or each for each in get_args(takes)}
         if bool in kinds:
-            more |= {"is_flag": True, "default": None}
+            more |= {
+                "is_flag": True,
+                "callback": lambda _context, _option, given: not option.startswith("--no-") if given else None,
+            }
         elif Sequence in kinds:
             more |= {"multiple": True, "callback": separated}
         elif Mapping in kinds:

@@ -5,25 +5,15 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks
-from nivel.cli.failures import say_faults
-from nivel.cli.options import (
-    allow_code_option,
-    file_argument,
-    force_option,
-    input_option,
-    json_option,
-    no_report_option,
-    override_option,
-    quiet_option,
-    setting_options,
-)
-from nivel.cli.progress import progress_listener
+from nivel.cli.analysis_command import Order, analysis_command
+from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks, say_files
+from nivel.cli.options import input_option
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
 
@@ -35,39 +25,15 @@ if TYPE_CHECKING:
     from nivel.results.trust import Trust
 
 
-@click.command(short_help="Simulate a machine: result file, report, summary.")
-@file_argument("machine")
-@setting_options(RunSettingsDict)
-@override_option
+@analysis_command(RunSettingsDict, "NAME.nc", "Simulate a machine: result file, report, summary.")
 @input_option
-@allow_code_option
-@click.option(
-    "-o", "--out", type=click.Path(dir_okay=False), help="Result file; default: NAME.nc in the working directory."
-)
-@force_option
 @click.option("--no-verify", is_flag=True, help="Make no second run, so the error is not estimated.")
 @click.option(
     "--verify-limit",
     metavar="TIME",
     help="How long the second run may continue after the first, e.g. '1 min'; default: the duration of the first, and at least 10 s.",
 )
-@no_report_option
-@quiet_option
-@json_option
-def command(
-    machine: str,
-    overrides: dict[str, str],
-    inputs: dict[str, str],
-    allow_code: bool,
-    out: str | None,
-    force: bool,
-    no_verify: bool,
-    verify_limit: str | None,
-    no_report: bool,
-    quiet: bool,
-    as_json: bool,
-    settings: dict[str, Any],
-) -> None:
+def command(order: Order, inputs: dict[str, str], no_verify: bool, verify_limit: str | None) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
 
     A second run with other step sizes runs at the same time and estimates the error of every number in the result.
@@ -76,72 +42,11 @@ def command(
 
     Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted. The results computed so far are always kept.
     """
-    if out is not None:  # before all that takes time
-        refuse_to_replace(None if no_report else beside(Path(out)), Path(out), force, Path(machine))
-    from nivel.api import load
-    from nivel.errors import ModelError, SolveError
-
-    loaded = load(machine, overrides, allow_code=allow_code)
-    target = Path(out) if out is not None else Path(f"{loaded.name}.nc")
-    report = None if no_report else beside(target)
-    refuse_to_replace(report, target, force, Path(machine))
-    failure: SolveError | None = None
-    unwritten: ModelError | None = None
-    with progress_listener(quiet) as listener:
-        try:
-            result = loaded.simulate(
-                **settings,
-                inputs=inputs,
-                out=target,
-                force=force,
-                verify=not no_verify,
-                verify_limit=verify_limit,
-                listener=listener,
-            )
-        except SolveError as error:
-            failure = error
-            result: Any = error.result
-        if report is not None and result is not None:
-            listener.say("writing the report")
-            try:
-                result.report(report)
-            except ModelError as error:
-                if failure is None:
-                    raise
-                unwritten = error  # the failure counts: it decides about the exit code
-    if as_json and result is not None:
-        click.echo(json.dumps(result.summary(), indent=2))
-    if not quiet and result is not None:
-        _say(result, target, None if unwritten else report, loaded.name_notes)
-    if unwritten is not None:
-        say_faults(unwritten)
-    if failure is not None:
-        raise failure
-    if result is not None and result.outcome == "interrupted":
-        raise KeyboardInterrupt
-
-
-def beside(target: Path) -> Path:
-    """The report of the result file `target`."""
-    from nivel.errors import ModelError
-
-    if target.name in ("", ".."):
-        raise ModelError(f"'{target}' is a folder; the name of a result file was expected, for instance result.nc")
-    return target.with_suffix(".html")
-
-
-def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
-    """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-
-    if report is not None and report == target:
-        raise ModelError(
-            f"{target}: the result is a NetCDF file and the report would be written over it; use a name ending in .nc"
-        )
-    check_target(target, "result file", force=force, sources=[machine])
-    if report is not None:
-        check_target(report, "report", force=force, sources=[machine])
+    if order.out is not None:  # before all that takes time
+        order.files(order.out)
+    machine = order.load()
+    simulate = partial(machine.simulate, inputs=inputs, verify=not no_verify, verify_limit=verify_limit)
+    order.run(f"{machine.name}.nc", simulate, partial(_say, notes=machine.name_notes))
 
 
 def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:
@@ -162,7 +67,7 @@ def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]
         out.print(f"event: {line}", markup=False)
     out.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
     say_checks(out, trust)
-    out.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+    say_files(out, target, report)
 
 
 def said_in_colour(trust: Trust) -> str:

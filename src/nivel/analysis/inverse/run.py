@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.inverse.actuators import Actuation
 from nivel.analysis.inverse.least import Least, least_efforts
-from nivel.analysis.inverse.settings import InverseSettings
 from nivel.analysis.kinematics.states import MovingState, moving_states
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.progress.listener import Listener
@@ -37,19 +37,17 @@ MISSING = 1e-6
 ALIKE = 0.999
 
 
-def without_actuators(machine: MachineRecord, settings: InverseSettings) -> MachineRecord:
+def without_actuators(machine: MachineRecord, actuation: Actuation) -> MachineRecord:
     """The machine without the motors that stand for actuators, and without the drivers that do not hold."""
-    taken = {each.motor for each in settings.actuators}
+    taken = {each.motor for each in actuation.actuators}
     return machine.replace(
         forces=tuple(force for force in machine.forces if force.name not in taken),
-        drivers=tuple(driver for driver in machine.drivers if driver.name in settings.hold),
+        drivers=tuple(driver for driver in machine.drivers if driver.name in actuation.hold),
         sensors=tuple(each for each in machine.sensors if each.force not in taken),
     )
 
 
-def inverse(
-    methods: Methods, settings: InverseSettings, motion: Result, *, listener: Listener | None = None
-) -> Efforts:
+def inverse(methods: Methods, actuation: Actuation, motion: Result, *, listener: Listener | None = None) -> Efforts:
     """Efforts at every frame of the motion. methods : of the machine `without_actuators`, in absolute coordinates.
 
     Raises ModelError where the motion is not one of the machine.
@@ -60,12 +58,12 @@ def inverse(
     instant = Instant(moment.motion, 0.0, moment.y)
     names = list(instant.system.layout.coordinates["joint_coordinate"])
     index = instant.record.joints.coordinate.astype(np.int64)
-    places = [int(index[names.index(each.coordinate)]) for each in settings.actuators]
+    places = [int(index[names.index(each.coordinate)]) for each in actuation.actuators]
     times, efforts, rates, missing, shares, worst = [], [], [], [], [], Counter[str]()
     limited, rank, freedoms, open_by = False, 0, 0, 0.0
     for state in moving_states(instant.system, motion):
         _count_turns(instant, state, index)
-        found, b, speed, named = _at(instant, state, settings, places, index, names)
+        found, b, speed, named = _at(instant, state, actuation, places, index, names)
         limited |= found.limited
         open_by = max(open_by, _violation(instant))
         rank, freedoms = max(rank, found.rank), max(freedoms, len(b))
@@ -82,15 +80,15 @@ def inverse(
     return Efforts(
         name=motion.name,
         time=np.array(times),
-        actuators=tuple(each.name for each in settings.actuators),
-        coordinates=tuple(each.coordinate for each in settings.actuators),
-        units=tuple(each.unit for each in settings.actuators),
+        actuators=tuple(each.name for each in actuation.actuators),
+        coordinates=tuple(each.coordinate for each in actuation.actuators),
+        units=tuple(each.unit for each in actuation.actuators),
         effort=np.array(efforts).reshape(len(times), -1),
         rate=np.array(rates).reshape(len(times), -1),
         missing=np.array(missing),
         missing_share=np.array(shares),
         missing_at=of,
-        limits=settings.limits,
+        limits=actuation.limits,
         limited=limited,
         violation=open_by,
         freedoms=freedoms,
@@ -106,7 +104,7 @@ def inverse(
 def _at(
     instant: Instant,
     state: MovingState,
-    settings: InverseSettings,
+    actuation: Actuation,
     places: list[int],
     index: NDArray[np.int64],
     names: list[str],
@@ -124,9 +122,9 @@ def _at(
     every_coordinate = Z.T @ by_coordinate[:, free].T
     column = [int(np.flatnonzero(index == place)[0]) for place in places]
     b = Z.T @ r0
-    limit = settings.limits
+    limit = actuation.limits
     reach = np.linalg.norm(by_coordinate[:, free] * length, axis=1)[column]
-    found = least_efforts(every_coordinate[:, column], b, settings.weights, -limit, limit, reach)
+    found = least_efforts(every_coordinate[:, column], b, actuation.weights, -limit, limit, reach)
     named = ("", 0.0)
     if names and np.abs(found.missing).max(initial=0.0) > MISSING * max(float(np.abs(b).max(initial=0.0)), 1e-300):
         named = _where(every_coordinate, found.missing, column, names)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 from math import pi
 from typing import Any
 
@@ -11,12 +10,12 @@ import numpy as np
 
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
-from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.output.observe import observe
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.system.beams.nodes import with_nodes
 
 
@@ -33,7 +32,7 @@ def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[Machin
                 raise ModelError(Fault("", 0, 0, "kinematics.drive", message))
         start = present_value(machine, settings.drive)[0] if settings.start is None else settings.start
         end = start + 2.0 * pi if settings.end is None else settings.end
-        settings = replace(settings, start=start, end=end)
+        settings = settings.replace(start=start, end=end)
         taken = {driver.name for driver in machine.drivers}
         name = next(each for each in ("drive", *(f"drive_{k}" for k in range(2, len(taken) + 3))) if each not in taken)
         value: Any = f"{start!r} + ({(end - start) / settings.duration!r})*time"

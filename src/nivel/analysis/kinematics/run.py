@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from nivel.analysis.failures.lockup import find_jam
 from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
-from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
@@ -36,6 +35,7 @@ from nivel.integrate.stabilise import direct
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store

@@ -16,7 +16,6 @@ from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
-from nivel.analysis.linearise.settings import LineariseSettings
 from nivel.analysis.linearise.steady import is_at_rest
 from nivel.analysis.linearise.validity import judged, nothing
 from nivel.analysis.plan.plan import Methods
@@ -26,6 +25,7 @@ from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_st
 from nivel.analysis.statics.linear import symmetric, symmetric_modes
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.linearise import LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_motion import Posed
 from nivel.system.system import Array

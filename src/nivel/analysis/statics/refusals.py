@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.statics.free_coordinates import holding_free
-from nivel.analysis.statics.settings import StaticsSettings
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.statics import StaticsSettings
 
 
 def refuse_friction(machine: MachineRecord) -> None:
@@ -88,7 +88,7 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
         baumgarte=None,
         start="as-given",
         duration=duration,
-        step=min(settings.step, duration),
+        step=min(settings.interval, duration),
         output_interval=None,
         step_control="own",
     )

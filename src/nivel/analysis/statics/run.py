@@ -30,7 +30,6 @@ from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction, refuse_with_states
 from nivel.analysis.statics.search import settle
-from nivel.analysis.statics.settings import StaticsSettings
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
@@ -40,6 +39,7 @@ from nivel.errors import SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.statics import StaticsSettings
 from nivel.results.frames.occurrence import Occurrence, to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
@@ -127,7 +127,7 @@ def statics(
     prepared, equations = prepare_statics(machine, settings)
     start = _start(equations, prepared)
     if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
-        settings = replace(settings, duration=0.0, arc_length=False)
+        settings = settings.replace(duration=0.0, arc_length=False)
     writer = FrameWriter(equations, settings.modes)
     sink.begin(Header(writer.layout, statics_attributes(machine, source, prepared, settings)))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
@@ -192,7 +192,7 @@ def _follow(
     if not settings.duration:
         return
     listener.say("following the equilibria", settings.duration)
-    steps = Steps(settings.duration, settings.step, iteration)
+    steps = Steps(settings.duration, settings.interval, iteration)
     try:
         yield from (by_arc_length if settings.arc_length else by_loads)(equations, first, steps)
     except EquilibriumError as error:

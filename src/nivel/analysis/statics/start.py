@@ -17,10 +17,10 @@ from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.refusals import for_statics
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
-from nivel.analysis.statics.settings import StaticsSettings
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.statics import StaticsSettings
 from nivel.system.system import Array
 
 # A constraint that changes by more than this share of its scale in a second moves at the start.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from json import dumps
+from os import PathLike
 from types import NoneType, UnionType
 from typing import Annotated, Any, Final, Literal, NamedTuple, Union, get_args, get_origin
 
@@ -13,7 +14,11 @@ from nivel import methods
 from nivel.machine.core.record import Record
 from nivel.machine.given import Shown
 from nivel.machine.settings.compare import COMMON, Axes
+from nivel.machine.settings.inverse import InverseSettings
+from nivel.machine.settings.kinematics import KinematicsSettings
+from nivel.machine.settings.linearise import LineariseSettings
 from nivel.machine.settings.run import ENDLESS, SimulationSettings
+from nivel.machine.settings.statics import StaticsSettings
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 
@@ -25,6 +30,7 @@ Written by `python -m nivel.machine.settings` from the records in `nivel/machine
 # fmt: off
 # ruff: noqa: E501
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from typing import Annotated, Any, TypedDict
 
 from nivel.methods import {aliases}
@@ -54,6 +60,7 @@ PLAIN: Final = {
     float: Kind("float | str", "NUMBER"),
     int: Kind("int | str", "NUMBER"),
     bool: Kind("bool"),
+    PathLike[str]: Kind("str | PathLike[str]", "FILE"),
     str: Kind("str", "TEXT"),
 }
 
@@ -70,6 +77,10 @@ def all_keywords() -> tuple[Keywords, ...]:
             Axes.model_fields | {name: run[name] for name in COMMON},
             True,
         ),
+        Keywords("StaticsSettingsDict", "Settings of statics.", StaticsSettings.model_fields),
+        Keywords("KinematicsSettingsDict", "Settings of kinematics.", KinematicsSettings.model_fields),
+        Keywords("InverseSettingsDict", "Settings of inverse dynamics.", InverseSettings.model_fields),
+        Keywords("LineariseSettingsDict", "Settings of a linear model.", LineariseSettings.model_fields),
     )
 
 
@@ -100,10 +111,17 @@ def _annotation(name: str, field: FieldInfo, of_file: bool) -> str:
 
 def _help(field: FieldInfo, of_file: bool) -> str:
     """The meaning as a sentence; of one of some words without its end, where they will be listed."""
-    text, kind = field.description or "", kind_of(field)
-    if not of_file and type(field.default) in (int, float):
-        text += f"; default {field.default:g}".replace("e-0", "e-")
-    return f"{text[:1].upper()}{text[1:]}{':' if kind.words else '.'}"
+    text, kind, absent = meaning_of(field), kind_of(field), absent_of(field)
+    if not of_file and not absent and type(field.default) in (int, float) and field.default:
+        absent = f"{field.default:g}".replace("e-0", "e-")
+    end = ":" if kind.words else f"; default: {absent}." if absent else "."
+    return f"{text[:1].upper()}{text[1:]}{end}"
+
+
+def meaning_of(field: FieldInfo) -> str:
+    """What a setting or its option is for, without its default; an option that takes something away says so."""
+    its, text = field.json_schema_extra, (field.description or "").removesuffix(f"; default: {absent_of(field)}")
+    return f"no {text}" if isinstance(its, Shown) and its.option.startswith("--no-") else text
 
 
 def option_of(name: str, field: FieldInfo) -> str:
@@ -142,7 +160,7 @@ def _kind(annotation: Any, marks: Sequence[Any] = ()) -> Kind:
             return Kind(f"Sequence[{one.type}] | {one.type}", metavar, one.unit, one.words)
         if isinstance(origin, type) and issubclass(origin, (Record, Mapping)):
             return Kind("Mapping[str, Any]")
-    return next((PLAIN[each] for each in found if each in PLAIN), Kind("Any"))
+    return next((kind for plain, kind in PLAIN.items() if plain in found), Kind("Any"))
 
 
 def _parts(annotation: Any) -> Iterator[Any]:

@@ -9,7 +9,7 @@ from typing import Any, Final
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from nivel.machine.settings.keywords import Keywords, absent_of, all_keywords, kind_of, option_of
+from nivel.machine.settings.keywords import Keywords, absent_of, all_keywords, kind_of, meaning_of, option_of
 
 TABLE: Final = re.compile(r"(<!-- table of (\w+): (\w+) -->\n\n).*?(\n\n<!-- end of table -->)", re.DOTALL)
 MOST_WORDS: Final = 6  # longer lists stand elsewhere
@@ -29,7 +29,7 @@ def _keys(fields: Mapping[str, FieldInfo]) -> Iterator[str]:
     """Rows for the keys of a section of a machine file."""
     yield "| key | unit | default | allowed | meaning |\n|---|---|---|---|---|"
     for name, field in fields.items():
-        yield f"| `{name}` | {kind_of(field).unit} | {_default(field)} | {_allowed(field)} | {_meaning(field)} |"
+        yield f"| `{name}` | {kind_of(field).unit} | {_default(field)} | {_allowed(field)} | {meaning_of(field)} |"
 
 
 def _options(keywords: Keywords) -> Iterator[str]:
@@ -39,17 +39,13 @@ def _options(keywords: Keywords) -> Iterator[str]:
         if option := option_of(name, field):
             words = f": {_allowed(field)}" if kind_of(field).words else ""
             default = "of the file" if keywords.of_file else _default(field)
-            yield f"| `{option.split()[0]}` | {default} | {_meaning(field)}{words} |"
-
-
-def _meaning(field: FieldInfo) -> str:
-    return (field.description or "").removesuffix(f"; default: {absent_of(field)}")
+            yield f"| `{option.split()[0]}` | {default} | {meaning_of(field)}{words} |"
 
 
 def _default(field: FieldInfo) -> str:
-    value = field.default
-    if isinstance(value, bool) or value in (None, (), ""):
-        return absent_of(field)
+    value, absent = field.default, absent_of(field)
+    if absent or isinstance(value, bool) or value in (None, (), "", {}):
+        return absent
     if isinstance(value, BaseModel):
         return "see below"
     return f"`{value}`" if isinstance(value, str) else f"{value:g}".replace("e-0", "e-")

@@ -1,4 +1,4 @@
-"""Settings of `nivel inverse`, checked."""
+"""Actuators of inverse dynamics in a machine, with limits and weights of their efforts."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Motor
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.inverse import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, UnknownCoordinateError, resolve, unknown_name
@@ -28,7 +29,7 @@ class Actuator:
 
 
 @dataclass(frozen=True)
-class InverseSettings:
+class Actuation:
     """actuators; weights (m,) : of their efforts in the norm that is made least; limits (m,) : greatest magnitudes, infinite for none.
     hold : drivers that go on holding what they prescribe, with efforts of their own."""
 
@@ -38,17 +39,16 @@ class InverseSettings:
     hold: tuple[str, ...]
 
 
-def inverse_settings(machine: MachineRecord, given: Mapping[str, Any]) -> InverseSettings:
-    """Settings from options; None stands for what was not given. Raises ModelError with everything that is wrong."""
+def actuation(machine: MachineRecord, settings: InverseSettings) -> Actuation:
+    """What settings ask for. Raises ModelError with everything that is wrong."""
     faults: list[Fault] = []
-    names = _words(given.get("actuators"))
-    hold = tuple(_words(given.get("hold")) or ())
+    names, hold = settings.actuators, settings.hold
     drivers = {driver.name: driver for driver in machine.drivers}
     faults += [_fault("hold", unknown_name("driver", name, list(drivers))) for name in hold if name not in drivers]
     motors = {force.name: force for force in machine.forces if isinstance(force, Motor)}
     if names is None:
         free = [driver.coordinate for driver in machine.drivers if driver.name not in hold and driver.coordinate]
-        names = list(motors) or free
+        names = tuple(motors) or tuple(free)
     actuators = [each for each in (_actuator(machine, motors, name, faults) for name in names) if each is not None]
     if not names and not faults:
         faults.append(
@@ -58,13 +58,13 @@ def inverse_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Invers
                 "`--actuators hinge.angle`; efforts of drivers of markers are in the result of `kinematics`",
             )
         )
-    limits, weights = _numbers("limits", given, actuators, faults), _numbers("weights", given, actuators, faults)
+    limits, weights = (_numbers(field, getattr(settings, field), actuators, faults) for field in ("limits", "weights"))
     bounds = np.array([_limit(each, motors, limits) for each in actuators])
     default = np.where(np.isfinite(bounds), 1.0 / bounds, 1.0)
     chosen = np.array([weights.get(each.name, weight) for each, weight in zip(actuators, default, strict=True)])
     if faults:
         raise ModelError(faults)
-    return InverseSettings(tuple(actuators), chosen, bounds, hold)
+    return Actuation(tuple(actuators), chosen, bounds, hold)
 
 
 def _actuator(machine: MachineRecord, motors: Mapping[str, Motor], name: str, faults: list[Fault]) -> Actuator | None:
@@ -87,11 +87,10 @@ def _limit(actuator: Actuator, motors: Mapping[str, Motor], given: Mapping[str, 
 
 
 def _numbers(
-    field: str, given: Mapping[str, Any], actuators: Sequence[Actuator], faults: list[Fault]
+    field: str, wanted: Mapping[str, Any], actuators: Sequence[Actuator], faults: list[Fault]
 ) -> dict[str, float]:
     """Numbers by name of actuators, all greater than zero."""
     out: dict[str, float] = {}
-    wanted: Mapping[str, Any] = given.get(field) or {}
     known = {each.coordinate.partition(".")[0]: each for each in actuators}
     known |= {each.coordinate: each for each in actuators} | {each.name: each for each in actuators}
     for name, value in wanted.items():
@@ -112,12 +111,6 @@ def _numbers(
             faults.append(_fault(field, f"a number greater than zero was expected for {name}, got {shown(value)}"))
         out[each.name] = number
     return out
-
-
-def _words(given: Sequence[str] | str | None) -> list[str] | None:
-    if given is None:
-        return None
-    return [each.strip() for each in given.split(",")] if isinstance(given, str) else list(given)
 
 
 def _fault(field: str, message: str) -> Fault:

@@ -1,0 +1,48 @@
+"""Settings of inverse dynamics: the actuators, their limits, and the motion that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import Any
+
+from nivel.machine.core.record import Record
+from nivel.machine.given import Field
+from nivel.machine.settings.values import Names, Positions
+
+
+class InverseSettings(Record):
+    """Settings of inverse dynamics. Of more actuators than needed the least Σ (weight · effort)² is taken within the limits."""
+
+    actuators: Names | None = Field(
+        default=None,
+        description="joint coordinates, or motors, which then do not act themselves",
+        absent="the motors, or the coordinates that the drivers prescribe",
+    )
+    motion: Any = Field(
+        default=None,
+        description="result of a run or of kinematics",
+        option="--motion RESULT.nc",
+        absent="the motion that the drivers prescribe",
+    )
+    trajectory: str | PathLike[str] | None = Field(
+        default=None,
+        description="table of joint coordinates over time, in place of a motion",
+        option="--trajectory FILE.csv",
+    )
+    limits: Mapping[str, Any] = Field(
+        default={},
+        description="greatest effort of an actuator",
+        option="--limit NAME=VALUE",
+        absent="those of the motors",
+    )
+    weights: Mapping[str, Any] = Field(
+        default={},
+        description="weight of an effort, if there are more actuators than needed",
+        option="--weight NAME=NUMBER",
+        absent="one over the limit, or 1",
+    )
+    hold: Names = Field(default=(), description="drivers that keep what they prescribe", option="--hold DRIVERS")
+    positions: Positions = Field(
+        default=361, description="number of positions of the drivers' motion or of a trajectory"
+    )

@@ -1,0 +1,79 @@
+"""Values of settings of analyses: numbers between bounds, times from zero on, coordinates, lists of names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, TypeVar, get_args
+
+from pydantic import AfterValidator, BeforeValidator, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from nivel.errors import ModelError
+from nivel.machine.core.record import Record
+from nivel.machine.given import Given, OneNumber
+from nivel.machine.units.quantity import Quantity, fault, shown
+from nivel.methods import StaticCoordinates
+from nivel.words.arguments import plain
+
+Settings = TypeVar("Settings", bound=Record)
+
+
+def settings_of(record: type[Settings], analysis: str, given: Mapping[str, Any]) -> Settings:
+    """Settings of an analysis; None stands for what was not given. Raises ModelError with everything that is wrong."""
+    try:
+        return record(**{name: value for name, value in given.items() if value is not None})
+    except ModelError as error:
+        raise ModelError(replace(fault, path=f"{analysis}.{fault.path}") for fault in error.faults) from None
+
+
+@dataclass(frozen=True)
+class Between:
+    """Annotation of a number, or a whole one, from `low` to `high`, as messages write these. Texts are read as numbers."""
+
+    low: str
+    high: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        kind, name = (int, "a whole number") if source is int else (float, "a number")
+
+        def read(value: Any) -> float:
+            try:
+                number = kind(plain(value))
+            except (TypeError, ValueError, OverflowError):
+                number = None
+            if number is None or not float(self.low) <= number <= float(self.high):
+                raise fault(f"{name} from {self.low} to {self.high} was expected, got {shown(value)}")
+            return number
+
+        return core_schema.no_info_plain_validator_function(read)
+
+
+def static_coordinates(coordinates: str) -> str:
+    """Coordinates of a run for another analysis: `independent` are chosen anew."""
+    return coordinates if coordinates in get_args(StaticCoordinates) else "auto"
+
+
+def _not_negative(value: float) -> float:
+    if value < 0.0:
+        raise fault(f"a time greater than zero was expected, got `{value:g}`")
+    return value
+
+
+def _static(value: Any) -> Any:
+    known = get_args(StaticCoordinates)
+    if value not in known:
+        raise fault(f"'{value}' is not one of {', '.join(known)}")
+    return value
+
+
+def _listed(value: Any) -> Any:
+    return [each.strip() for each in value.split(",")] if isinstance(value, str) else value
+
+
+Time = Annotated[OneNumber, Quantity("time"), AfterValidator(_not_negative)]  # zero: the start alone
+Modes = Annotated[Given[int, int, int | str], Between("0", "1000")]
+Positions = Annotated[Given[int, int, int | str], Between("2", "10000000")]
+OfStatics = Annotated[StaticCoordinates, BeforeValidator(_static)]
+Way = Annotated[OneNumber, Quantity(("angle", "length"))]  # of a joint coordinate
+Names = Annotated[tuple[str, ...], BeforeValidator(_listed)]

@@ -21,7 +21,6 @@ from nivel.kernels.hydraulics import tangent
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
-from nivel.machine.settings.keywords import kind_of
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
@@ -31,6 +30,7 @@ from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.hydraulics.tangent import DERIVED, NUMBERS
 from nivel.system.joints.joints import JOINTS
+from settings_keywords import kind_of
 
 
 def words(setting):

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from nivel.analysis.compare.compare_grid import compile_grid, lay_out
 from nivel.analysis.plan.compilation import (
@@ -47,15 +47,18 @@ from nivel.machine import (
 )
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.settings.compare import COMMON, Axes
+from nivel.machine.settings.sweep import SweepSettings
 from nivel.model import Model
 from nivel.settings import (
     CompareSettingsDict,
     InverseSettingsDict,
     KinematicsSettingsDict,
     LineariseSettingsDict,
+    MachineSweepSettingsDict,
     RunSettingsDict,
     StaticsSettingsDict,
     StepSettingsDict,
+    SweepSettingsDict,
 )
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import shown
@@ -272,13 +275,8 @@ class Machine(Model):
         self,
         values: Mapping[str, Any],
         *,
-        combine: Literal["grid", "rows"] = "grid",
-        samples: int | None = None,
-        seed: int = 0,
-        save: Sequence[str] | str = (),
-        processes: int | None = None,
         listener: Listener | None = None,
-        **settings: Unpack[RunSettingsDict],
+        **settings: Unpack[MachineSweepSettingsDict],
     ) -> xarray.Dataset:
         """Run the machine with other values, on all processors, into one xarray dataset.
 
@@ -286,14 +284,15 @@ class Machine(Model):
         with every other, one dimension each; or `rows`, the first of all lists, the second of all, along the dimension `variant`.
         samples : so many variants of a Latin hypercube between two bounds, ``{"bodies.rod.mass": (1, 3)}``, or over distributions of
         `scipy.stats`; seed : of its random numbers. save : names of results; default all joint coordinates and sensors.
-        processes : as many as there are processors by default. settings : as of `simulate`, for all variants.
+        processes : as many as there are processors by default. All other settings are those of `simulate`, for all variants.
 
         A variant that fails or is refused has its `reason` in the dataset, and NaN where nothing was computed. `outcome`, `end_time` and
         `verdict` stand there for every variant. Ctrl-C ends the sweep; what was computed is returned.
         Raises ModelError where values or names are not known, or no variant can be run.
         """
-        machine = self.with_settings(_given(settings))
-        return _sweep([machine], values, (combine, samples, seed), (save, processes), listener)
+        given = _given(settings)
+        own = {name: given.pop(name) for name in SweepSettings.model_fields if name in given}
+        return _sweep([self.with_settings(given)], values, SweepSettings(**own), listener)
 
     @checked_arguments
     def statics(
@@ -461,8 +460,6 @@ class Machine(Model):
 
         asked = settings_of(InverseSettings, "inverse", settings)
         motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
-        if motion is not None and trajectory is not None:
-            raise ModelError(Fault("", 0, 0, "inverse.trajectory", "stands in place of `motion`; give one of them"))
         with self._faults_in_file():
             refuse_for_inverse(self.record)
             record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
@@ -676,31 +673,26 @@ def sweep(
     make: Callable[..., Any],
     values: Mapping[str, Any],
     *,
-    combine: Literal["grid", "rows"] = "grid",
-    samples: int | None = None,
-    seed: int = 0,
-    save: Sequence[str] | str = (),
-    processes: int | None = None,
     listener: Listener | None = None,
+    **settings: Unpack[SweepSettingsDict],
 ) -> xarray.Dataset:
     """As `Machine.sweep`, of machines that a function makes: ``nivel.sweep(make_crane, {"length": [4, 5, 6]})`` calls
     ``make_crane(length=4)`` and so on. Every machine runs by its own settings.
     """
-    return _sweep(make, values, (combine, samples, seed), (save, processes), listener)
+    return _sweep(make, values, SweepSettings(**_given(settings)), listener)
 
 
 def _sweep(
     machines: Sequence[Machine] | Callable[..., Any],
     values: Mapping[str, Any],
-    layout: tuple[str, int | None, int],
-    run: tuple[Sequence[str] | str, int | None],
+    settings: SweepSettings,
     listener: Listener | None,
 ) -> xarray.Dataset:
     from nivel.analysis.sweep.sweep import progress_bar, sweep
     from nivel.analysis.sweep.variants import lay_out
     from nivel.native.workers import processors
 
-    variants = lay_out(values, *layout)
+    variants = lay_out(values, settings.combine, settings.samples, settings.seed)
     made = [machines(**each) for each in variants.values] if callable(machines) else machines
     for machine in made:
         if not isinstance(machine, Machine):
@@ -709,10 +701,8 @@ def _sweep(
             )
     plan = made[0]._plan(made[0].origin.settings_outside)
     build(_entries_of(plan, made[0].record), listener)
-    save, processes = run
-    names = (save,) if isinstance(save, str) else tuple(save)
     with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
-        return sweep(made, variants, names, processes=processes or processors(), listener=hearer)
+        return sweep(made, variants, settings.save, processes=settings.processes or processors(), listener=hearer)
 
 
 def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -723,7 +713,7 @@ def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
 def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:
     """The machine code that a run needs, from the start that it has."""
     entries = [*run_entries(plan)]
-    if plan.settings.start == "equilibrium":
+    if plan.settings.asked.start == "equilibrium":
         from nivel.analysis.statics.start import methods_at_rest
 
         entries += statics_entries(methods_at_rest(record))

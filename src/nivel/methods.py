@@ -23,6 +23,7 @@ StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
 StaticCoordinates = Literal["auto", "absolute", "relative"]  # of analyses other than runs
+Combination = Literal["grid", "rows"]  # of the values of a sweep
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
 Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
 Start = Literal["as-given", "equilibrium"]

@@ -1,6 +1,6 @@
 """Settings of the analyses as keywords of Python, with the option of the command line and its help.
 
-Written by `python -m nivel.machine.settings` from the records in `nivel/machine/settings`. Do not edit.
+Written by `python packaging/write_settings.py` from the records in `nivel/machine/settings`. Do not edit.
 """
 
 # fmt: off
@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Annotated, Any, TypedDict
 
-from nivel.methods import Coordinates, Formulation, Integrator, Rotations, Stabilisation, Start, StaticCoordinates, StepControl
+from nivel.methods import Combination, Coordinates, Formulation, Integrator, Rotations, Stabilisation, Start, StaticCoordinates, StepControl
 
 
 class RunSettingsDict(TypedDict, total=False):
@@ -75,6 +75,20 @@ class CompareSettingsDict(TypedDict, total=False):
     output_interval: Annotated[float | str | None, "--output-interval TIME", "Time between frames; with a fixed step a multiple of it; default: up to 1000 intervals."]
     largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
     cut: Annotated[Sequence[str] | str | None, "--cut JOINTS", "Joints that close loops: they stay constraints in relative coordinates; default: chosen automatically."]
+
+
+class SweepSettingsDict(TypedDict, total=False):
+    """Settings of a sweep over machines."""
+
+    combine: Annotated[Combination | None, "--combine NAME", "Grid, every value with every other; or rows, the first of all lists, the second of all:"]
+    samples: Annotated[int | str | None, "--samples NUMBER", "Number of variants of a Latin hypercube between two bounds, or over distributions."]
+    seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
+    save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
+    processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
+
+
+class MachineSweepSettingsDict(RunSettingsDict, SweepSettingsDict, total=False):
+    """Settings of a sweep over values of a machine, and of all its runs."""
 
 
 class StaticsSettingsDict(TypedDict, total=False):

@@ -9,8 +9,8 @@ from nivel.analysis.statics import critical, linear
 from nivel.analysis.statics.newton import EquilibriumError, Iteration, equilibrate
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
-from nivel.analysis.statics.settings import statics_settings
 from nivel.errors import ModelError, SolveError
+from nivel.machine.settings.statics import StaticsSettings
 from simulating import G, hinge, machine, slide, solid
 from test_statics_beams import steel_column
 from test_statics_closed_forms import chain, column, discrete_euler, four_bar, torsion_pendulum, truss
@@ -20,7 +20,7 @@ DOWN = [0, -G, 0]
 
 def equations_of(sections, coordinates="absolute", duration=1.0):
     record = machine(sections).record
-    prepared, equations = prepare_statics(record, statics_settings({"duration": duration}, coordinates))
+    prepared, equations = prepare_statics(record, StaticsSettings(duration=duration, coordinates=coordinates))
     return equations, equations.start(prepared.start)
 
 

@@ -15,10 +15,10 @@ from nivel.analysis.run.simulate import simulate
 from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
-from nivel.analysis.statics.settings import StaticsSettings
 from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import read_body
 from nivel.machine import PointForce, SimulationSettings
+from nivel.machine.settings.statics import StaticsSettings
 from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare
 from running import reference_run, run

@@ -13,15 +13,17 @@ import nivel.settings
 from nivel.api import Machine
 from nivel.cli import COMMANDS, main
 from nivel.files.schema import schema
-from nivel.machine.settings.keywords import all_keywords, kind_of, meaning_of, module, option_of
-from nivel.machine.settings.tables import TABLE, with_tables
 from nivel.words.arguments import checked_arguments
+from settings_keywords import all_keywords, kind_of, meaning_of, module, option_of
+from settings_tables import TABLE, with_tables
 
 ROOT = Path(nivel.__file__).parent
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if TABLE.search(page.read_text(encoding="utf-8"))]
 USED_BY = {
-    "RunSettingsDict": (Machine.simulate, Machine.sweep),
+    "RunSettingsDict": (Machine.simulate,),
+    "SweepSettingsDict": (nivel.sweep,),
+    "MachineSweepSettingsDict": (Machine.sweep,),
     "StepSettingsDict": (Machine.start,),
     "CompareSettingsDict": (Machine.compare,),
     "StaticsSettingsDict": (Machine.statics,),
@@ -41,18 +43,18 @@ COMMAND_OF = {
 
 def test_the_keywords_are_those_of_the_records():
     written = (ROOT / "settings.py").read_text(encoding="utf-8")
-    assert written == module(), "python -m nivel.machine.settings, and the pages with tables"
+    assert written == module(), "python packaging/write_settings.py, and the pages with tables"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_the_tables_of_a_page_are_those_of_the_records(page):
     text = page.read_text(encoding="utf-8")
-    assert text == with_tables(text), f"python -m nivel.machine.settings {page.relative_to(DOCS.parent)}"
+    assert text == with_tables(text), f"python packaging/write_settings.py {page.relative_to(DOCS.parent)}"
 
 
 def test_every_analysis_has_its_table():
     tabled = {found[3] for page in PAGES for found in TABLE.finditer(page.read_text(encoding="utf-8"))}
-    assert tabled >= {each.name for each in all_keywords()} - {"StepSettingsDict"}
+    assert tabled >= {*COMMAND_OF}
 
 
 @pytest.mark.parametrize("keywords", all_keywords(), ids=lambda keywords: keywords.name)

@@ -29,12 +29,13 @@ LEAST_CHANGE = 1e-15
 
 @dataclass(frozen=True)
 class RunSettings:
-    """Everything that decides a run. Times in s; coordinates as chosen.
+    """Everything that decides a run. Times in s; coordinates as chosen. What is not completed stands in `asked`, as it was asked for.
 
     steps : in all, `every` of them between frames; both 0 where the integrator chooses its steps. tolerance, corrector, penalty : None
     where the methods have none. constants : of the integrator, as its module wants them.
     """
 
+    asked: SimulationSettings
     duration: float
     step: float
     output_interval: float
@@ -44,14 +45,12 @@ class RunSettings:
     formulation: str
     coordinates: str
     stabilisation: str
-    rotations: str
     tolerance: float | None
     largest_step: float
     corrector: Corrector | None
     penalty: Penalty | None
     baumgarte: tuple[float, float] | None
     constants: tuple[float, ...] = ()
-    start: str = "as-given"
 
     @property
     def frames(self) -> float:
@@ -62,10 +61,10 @@ class RunSettings:
         """For the result's `settings`."""
         names = ("duration", "step", "output_interval", "integrator", "formulation", "coordinates", "stabilisation")
         out: dict[str, object] = {name: getattr(self, name) for name in names}
-        if self.start != "as-given":
-            out["start"] = self.start
+        if self.asked.start != "as-given":
+            out["start"] = self.asked.start
         if self.formulation == "lagrange":
-            out["rotations"] = self.rotations
+            out["rotations"] = self.asked.rotations
         if self.tolerance is not None:
             out["tolerance"], out["largest_step"] = self.tolerance, self.largest_step
         for name in ("corrector", "penalty"):
@@ -129,6 +128,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         raise ModelError(faults)
     own = settings.baumgarte
     return RunSettings(
+        asked=settings,
         duration=settings.duration,
         step=settings.step,
         output_interval=interval,
@@ -138,14 +138,12 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         formulation=settings.formulation,
         coordinates=chosen,
         stabilisation=settings.stabilisation,
-        rotations=settings.rotations,
         tolerance=settings.tolerance if chosen_steps else None,
         largest_step=settings.largest_step or settings.duration,
         corrector=_corrector(settings.corrector, facts) if facts is not None and facts.kind == "corrector" else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
         constants=_constants(settings),
-        start=settings.start,
     )
 
 

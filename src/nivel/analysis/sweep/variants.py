@@ -88,8 +88,6 @@ def _sampled(values: Mapping[str, Any], samples: int, seed: int) -> dict[str, li
     """A Latin hypercube (McKay, Beckman & Conover 1979) between two bounds, or over distributions that have `ppf`, as those of SciPy."""
     from scipy.stats import qmc
 
-    if samples < 1:
-        raise ModelError(Fault("", 0, 0, "samples", f"a whole number of at least 1 was expected, got `{samples}`"))
     shares = qmc.LatinHypercube(len(values), rng=np.random.default_rng(seed)).random(samples)
     return {path: _at(path, given, shares[:, k]) for k, (path, given) in enumerate(values.items())}
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from os import PathLike
 from typing import Any
 
-from nivel.machine.core.record import Record
+from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.given import Field
 from nivel.machine.settings.values import Names, Positions
 
 
-class InverseSettings(Record):
+class InverseSettings(Checked):
     """Settings of inverse dynamics. Of more actuators than needed the least Σ (weight · effort)² is taken within the limits."""
 
     actuators: Names | None = Field(
@@ -46,3 +46,8 @@ class InverseSettings(Record):
     positions: Positions = Field(
         default=361, description="number of positions of the drivers' motion or of a trajectory"
     )
+
+    def problems(self) -> Iterator[Problem]:
+        """Two motions."""
+        if self.motion is not None and self.trajectory is not None:
+            yield Problem(("trajectory",), "stands in place of `motion`; give one of them")

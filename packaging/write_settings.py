@@ -1,11 +1,14 @@
-"""Command `python -m nivel.machine.settings [PAGE …]`: writes the keywords of all settings, and the tables of pages."""
+"""Keywords of settings in `nivel/settings.py`, and tables of pages, written from the records.
+
+python packaging/write_settings.py [PAGE …]
+"""
 
 import sys
 from pathlib import Path
 
 import nivel
-from nivel.machine.settings.keywords import module
-from nivel.machine.settings.tables import with_tables
+from settings_keywords import module
+from settings_tables import with_tables
 
 if __name__ == "__main__":
     (Path(nivel.__file__).parent / "settings.py").write_text(module(), encoding="utf-8")

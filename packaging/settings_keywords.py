@@ -19,12 +19,13 @@ from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.machine.settings.linearise import LineariseSettings
 from nivel.machine.settings.run import ENDLESS, SimulationSettings
 from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.sweep import SweepSettings
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 
 HEAD: Final = '''"""Settings of the analyses as keywords of Python, with the option of the command line and its help.
 
-Written by `python -m nivel.machine.settings` from the records in `nivel/machine/settings`. Do not edit.
+Written by `python packaging/write_settings.py` from the records in `nivel/machine/settings`. Do not edit.
 """
 
 # fmt: off
@@ -48,12 +49,14 @@ class Kind(NamedTuple):
 
 
 class Keywords(NamedTuple):
-    """A mapping of keywords: name, meaning, fields by name, and whether a default is that of the machine file."""
+    """A mapping of keywords: name, meaning, fields by name, whether a default is that of the machine file, and mappings of which it has all
+    keywords."""
 
     name: str
     meaning: str
     fields: Mapping[str, FieldInfo]
     of_file: bool = False
+    bases: tuple[str, ...] = ()
 
 
 PLAIN: Final = {
@@ -67,7 +70,7 @@ PLAIN: Final = {
 
 def all_keywords() -> tuple[Keywords, ...]:
     """The mappings of all analyses."""
-    run = SimulationSettings.model_fields
+    run, sweep = SimulationSettings.model_fields, SweepSettings.model_fields
     return (
         Keywords("RunSettingsDict", "Settings of a run.", run, of_file=True),
         Keywords("StepSettingsDict", "Settings of a machine that is moved step by step.", _without(run, ENDLESS), True),
@@ -76,6 +79,13 @@ def all_keywords() -> tuple[Keywords, ...]:
             "Settings of a comparison: axes of its grid, and settings of all runs.",
             Axes.model_fields | {name: run[name] for name in COMMON},
             True,
+        ),
+        Keywords("SweepSettingsDict", "Settings of a sweep over machines.", sweep),
+        Keywords(
+            "MachineSweepSettingsDict",
+            "Settings of a sweep over values of a machine, and of all its runs.",
+            run | sweep,
+            bases=("RunSettingsDict", "SweepSettingsDict"),
         ),
         Keywords("StaticsSettingsDict", "Settings of statics.", StaticsSettings.model_fields),
         Keywords("KinematicsSettingsDict", "Settings of kinematics.", KinematicsSettings.model_fields),
@@ -95,9 +105,11 @@ def module() -> str:
     }
     lines = [HEAD.format(aliases=", ".join(sorted(aliases)))]
     for each in found:
-        lines += ["", f"class {each.name}(TypedDict, total=False):", f'    """{each.meaning}"""', ""]
-        lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in each.fields.items()]
-        lines += [""]
+        lines += ["", f"class {each.name}({', '.join(each.bases or ('TypedDict',))}, total=False):"]
+        lines += [f'    """{each.meaning}"""', ""]
+        if not each.bases:
+            lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in each.fields.items()]
+            lines += [""]
     return "\n".join(lines)
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from nivel.machine.settings.keywords import Keywords, absent_of, all_keywords, kind_of, meaning_of, option_of
+from settings_keywords import Keywords, absent_of, all_keywords, kind_of, meaning_of, option_of
 
 TABLE: Final = re.compile(r"(<!-- table of (\w+): (\w+) -->\n\n).*?(\n\n<!-- end of table -->)", re.DOTALL)
 MOST_WORDS: Final = 6  # longer lists stand elsewhere

@@ -12,5 +12,6 @@ from settings_tables import with_tables
 
 if __name__ == "__main__":
     (Path(nivel.__file__).parent / "settings.py").write_text(module(), encoding="utf-8")
-    for page in map(Path, sys.argv[1:]):
+    docs = Path(__file__).parent.parent / "docs"
+    for page in map(Path, sys.argv[1:] or docs.rglob("*.md")):
         page.write_text(with_tables(page.read_text(encoding="utf-8")), encoding="utf-8")

@@ -43,13 +43,13 @@ COMMAND_OF = {
 
 def test_the_keywords_are_those_of_the_records():
     written = (ROOT / "settings.py").read_text(encoding="utf-8")
-    assert written == module(), "python packaging/write_settings.py, and the pages with tables"
+    assert written == module(), "python packaging/write_settings.py"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_the_tables_of_a_page_are_those_of_the_records(page):
     text = page.read_text(encoding="utf-8")
-    assert text == with_tables(text), f"python packaging/write_settings.py {page.relative_to(DOCS.parent)}"
+    assert text == with_tables(text), "python packaging/write_settings.py"
 
 
 def test_every_analysis_has_its_table():

@@ -29,7 +29,7 @@ Written by `python packaging/write_settings.py` from the records in `nivel/machi
 """
 
 # fmt: off
-# ruff: noqa: E501
+# ruff: noqa: E501, I001
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Annotated, Any, TypedDict

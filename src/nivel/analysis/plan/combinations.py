@@ -50,8 +50,8 @@ def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
 
 def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fault]:
     """What does not go with an integrator that needs the equations of motion as a residual, with exact tangents."""
-    facts, faults = INTEGRATORS.get(settings.integrator), []
-    if facts is None or not facts.residual:
+    facts, faults = INTEGRATORS[settings.integrator], []
+    if not facts.residual:
         return faults
     name = f"`integrator: {settings.integrator}`"
     if facts.needs == "whole steps":
@@ -105,8 +105,8 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
 
 def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
     """Newton's matrix made anew for every iteration, where the method has another use for it, or none."""
-    facts = INTEGRATORS.get(settings.integrator)
-    if settings.corrector.matrix != "full" or facts is None or (facts.residual and not facts.first_order):
+    facts = INTEGRATORS[settings.integrator]
+    if settings.corrector.matrix != "full" or (facts.residual and not facts.first_order):
         return []
     if facts.kind == "explicit":
         return []  # no corrector at all
@@ -124,8 +124,8 @@ def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
 
 def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:
     """Steps that the integrator cannot choose, or cannot but choose."""
-    facts, wanted = INTEGRATORS.get(settings.integrator), settings.step_control
-    if facts is None or wanted == "own" or facts.optional_control or facts.chooses_steps == (wanted == "error"):
+    facts, wanted = INTEGRATORS[settings.integrator], settings.step_control
+    if wanted == "own" or facts.optional_control or facts.chooses_steps == (wanted == "error"):
         return []
     name = f"`integrator: {settings.integrator}`"
     if wanted == "fixed":

@@ -37,7 +37,7 @@ CONSTANTS = {"newmark": "newmark", "hht": "hht", "generalised_alpha": "generalis
 def unused_settings(given: Collection[str], settings: SimulationSettings, coordinates: str) -> list[Fault]:
     """Faults for those of the settings `given` that the methods of `settings` have no use for.
 
-    coordinates : of the run, `auto` resolved. Methods that are not known are left to others.
+    coordinates : of the run, `auto` resolved.
     """
     return [
         Fault("", 0, 0, f"simulation.{name}", f"`{name}` has no effect here: {reason}")
@@ -48,17 +48,17 @@ def unused_settings(given: Collection[str], settings: SimulationSettings, coordi
 
 def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
     """Why the setting `name` has no effect; empty where it has one."""
-    integrator, formulation = INTEGRATORS.get(settings.integrator), FORMULATIONS.get(settings.formulation)
-    if name in ("tolerance", "largest_step") and integrator and not chooses(settings.integrator, settings.step_control):
+    integrator, formulation = INTEGRATORS[settings.integrator], FORMULATIONS[settings.formulation]
+    if name in ("tolerance", "largest_step") and not chooses(settings.integrator, settings.step_control):
         fitting = [each for each, facts in INTEGRATORS.items() if facts.chooses_steps]
         more = "; `step_control: error` lets it choose its steps" if integrator.optional_control else ""
         return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}{more}"
-    if name == "corrector" and integrator and integrator.kind != "corrector":
+    if name == "corrector" and integrator.kind != "corrector":
         fitting = [each for each, facts in INTEGRATORS.items() if facts.kind == "corrector"]
         return f"`integrator: {settings.integrator}` solves no equations; {_choice('it', fitting)}"
     if name in CONSTANTS and settings.integrator != CONSTANTS[name]:
         return f"it is for `integrator: {CONSTANTS[name]}`, and this run has `integrator: {settings.integrator}`"
-    if name == "penalty" and formulation and formulation.factor == 0.0:
+    if name == "penalty" and formulation.factor == 0.0:
         fitting = [each for each, facts in FORMULATIONS.items() if facts.factor > 0.0]
         return f"`formulation: {settings.formulation}` has multipliers of its own; {_choice('it', fitting)}"
     if name == "cut" and settings.cut and coordinates != "relative":

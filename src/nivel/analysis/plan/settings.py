@@ -10,7 +10,6 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.settings.run import Corrector, Penalty, SimulationSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
@@ -81,25 +80,17 @@ class RunSettings:
 def complete(settings: SimulationSettings, coordinates: str = "absolute") -> RunSettings:
     """Complete settings; `coordinates` are what `auto` means for the machine.
 
-    Raises ModelError where words are not known or do not go together, or the output interval is not a multiple of the step.
+    Raises ModelError where words do not go together, or the output interval is not a multiple of the step.
     """
     faults: list[Fault] = []
-    for field, known in (
-        ("integrator", INTEGRATORS),
-        ("formulation", FORMULATIONS),
-        ("stabilisation", STABILISATIONS),
-    ):
-        word = getattr(settings, field)
-        if word not in known:
-            faults.append(_fault(field, f"'{word}' is not known; known are {', '.join(known)}"))
-    facts = INTEGRATORS.get(settings.integrator)
+    facts = INTEGRATORS[settings.integrator]
     chosen_steps = chooses(settings.integrator, settings.step_control)
     countable = settings.duration <= MOST_STEPS * settings.step
     if not chosen_steps and not countable:
         wanted = f"a `duration` of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         message = f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step, or a shorter duration"
         faults.append(_fault("step", message))
-    if facts is not None and facts.kind == "corrector" and settings.corrector.tolerance < LEAST_CHANGE:
+    if facts.kind == "corrector" and settings.corrector.tolerance < LEAST_CHANGE:
         message = f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off dominates; use a larger value"
         faults.append(_fault("corrector.tolerance", message))
     steps, every, interval = 0, 0, settings.duration
@@ -140,7 +131,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         stabilisation=settings.stabilisation,
         tolerance=settings.tolerance if chosen_steps else None,
         largest_step=settings.largest_step or settings.duration,
-        corrector=_corrector(settings.corrector, facts) if facts is not None and facts.kind == "corrector" else None,
+        corrector=_corrector(settings.corrector, facts) if facts.kind == "corrector" else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
         constants=_constants(settings),

@@ -126,10 +126,14 @@ def test_every_status_of_kernels_is_one_of_runs_in_order_and_what_is_said_of_a_f
     assert list(FAILURES) == sorted(FAILURES)
 
 
+def _kinds(check):
+    return set(check.of) if isinstance(check.of, tuple) else {check.of}
+
+
 def test_checks_of_a_subject_have_names_and_places_of_their_own():
     checks = every_check()
     for one in checks:
-        others = [each for each in checks if each is not one and set(each.of) & set(one.of)]
+        others = [each for each in checks if each is not one and _kinds(each) & _kinds(one)]
         assert one.name not in {each.name for each in others}
         assert one.place not in {each.place for each in others} or one.place == 0
         assert not (one.quiet and not one.threshold) or one.line in {each.line or each.name for each in others}

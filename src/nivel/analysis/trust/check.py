@@ -42,7 +42,7 @@ class Check(Generic[S, F]):
     """
 
     name: str
-    of: tuple[type[S], ...]
+    of: type[S] | tuple[type[S], ...]
     look: Callable[[S], F | list[F] | None]
     say: Callable[[F], Item | None]
     place: int

@@ -130,6 +130,6 @@ def round_off(motion: Motion) -> float:
 
 
 CHECKS = (
-    Check("accuracy", (Run,), look, say, 80, (VERIFIED, FRAMES), "Accuracy", THRESHOLD, last=True),
-    Check("verified", (Run,), look_at_end, say_end, 90, (VERIFIED,), "Verified"),
+    Check("accuracy", Run, look, say, 80, (VERIFIED, FRAMES), "Accuracy", THRESHOLD, last=True),
+    Check("verified", Run, look_at_end, say_end, 90, (VERIFIED,), "Verified"),
 )

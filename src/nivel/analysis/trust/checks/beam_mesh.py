@@ -135,4 +135,4 @@ def turns(theta: Array) -> Array:
     return v * np.where(sine > 1e-12, 2.0 * np.arctan2(sine, np.abs(s)) / np.maximum(sine, 1e-300), 2.0)
 
 
-CHECKS = (Check("beam_mesh", (Run,), look, say, 280, (STEPS,), "Mesh", THRESHOLD, line="mesh", quiet=True),)
+CHECKS = (Check("beam_mesh", Run, look, say, 280, (STEPS,), "Mesh", THRESHOLD, line="mesh", quiet=True),)

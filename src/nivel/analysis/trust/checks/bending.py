@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.trust.check import STEPS, Check
-from nivel.analysis.trust.flexible_bodies import Bent, ModalBody, modal_bodies
+from nivel.analysis.trust.flexible_bodies import Bent, modal_bodies
 from nivel.analysis.trust.subject import Run
-from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number
 
 Array = NDArray[np.float64]
@@ -29,7 +26,7 @@ BENDING = Threshold(
 )
 
 
-def say_unstiffened(found: Bent) -> Item:
+def say_stiffening(found: Bent) -> Item:
     """How fast a body turns that has no geometric stiffness."""
     said = (
         f"Stiffening: {found.body} has no geometric stiffness; at t = {found.time:.6g} s the square of its rotational speed is "
@@ -38,7 +35,7 @@ def say_unstiffened(found: Bent) -> Item:
     return STIFFENING.item("stiffening", said, found.value, found.time, found.body)
 
 
-def say_bent(found: Bent) -> Item:
+def say_bending(found: Bent) -> Item:
     """How far a body bends."""
     said = (
         f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s, but modes describe small "
@@ -47,16 +44,15 @@ def say_bent(found: Bent) -> Item:
     return BENDING.item("bending", said, found.value, found.time, found.body)
 
 
-@np.errstate(over="ignore", invalid="ignore")
-def fastest_unstiffened(result: Readable, bodies: Sequence[ModalBody]) -> Bent | None:
+def look_for_stiffening(run: Run) -> Bent | None:
     """The largest (Ω/ω₁)² of bodies without geometric stiffness: Ω is the angular velocity across the body's length, ω₁ its lowest
     frequency.
 
     Centrifugal forces stiffen a body that is long across its spin by about that share (Southwell, Gough 1921).
     """
-    found = None
+    found, result = None, run.result
     names = result.coordinates.get("body", ())
-    for each in bodies:
+    for each in modal_bodies(run.machine):
         elastic = each.eigenvalues[each.eigenvalues > 1e-9 * max(float(each.eigenvalues.max()), 1e-300)]
         if each.stiffened or not len(elastic):
             continue
@@ -71,12 +67,11 @@ def fastest_unstiffened(result: Readable, bodies: Sequence[ModalBody]) -> Bent |
     return found
 
 
-@np.errstate(over="ignore", invalid="ignore")
-def most_bent(result: Readable, bodies: Sequence[ModalBody]) -> Bent | None:
+def look_for_bending(run: Run) -> Bent | None:
     """The largest displacement of a node against the extent of its body."""
-    found = None
+    found, result = None, run.result
     stride = max(1, len(result.time) // FRAMES)
-    for each in bodies:
+    for each in modal_bodies(run.machine):
         q = result.array("modal_coordinate")[::stride, each.first : each.last]
         moved = np.linalg.norm(np.einsum("aij,tj->tai", each.modes, q, optimize=True), axis=2).max(axis=1)
         frame = int(np.argmax(np.nan_to_num(moved)))
@@ -94,26 +89,6 @@ def _turned(theta: Array, axis: Array) -> Array:
 
 
 CHECKS = (
-    Check(
-        "stiffening",
-        (Run,),
-        lambda run: fastest_unstiffened(run.result, modal_bodies(run.machine)),
-        say_unstiffened,
-        260,
-        (STEPS,),
-        "Stiffening",
-        STIFFENING,
-        quiet=True,
-    ),
-    Check(
-        "bending",
-        (Run,),
-        lambda run: most_bent(run.result, modal_bodies(run.machine)),
-        say_bent,
-        270,
-        (STEPS,),
-        "Bending",
-        BENDING,
-        quiet=True,
-    ),
+    Check("stiffening", Run, look_for_stiffening, say_stiffening, 260, (STEPS,), "Stiffening", STIFFENING, quiet=True),
+    Check("bending", Run, look_for_bending, say_bending, 270, (STEPS,), "Bending", BENDING, quiet=True),
 )

@@ -195,9 +195,9 @@ def _saturated(result: Readable) -> Iterator[Saturation]:
 
 
 CHECKS = (
-    Check("hydraulics", (Motion,), look_at_energy, say_energy, 430, (FRAMES, CIRCUITS), "Hydraulics"),
-    Check("fluid mass", (Motion,), look_at_mass, say_mass, 440, (FRAMES, CIRCUITS), "Fluid"),
-    Check("cavitation", (Motion,), look_for_cavitation, say_cavitation, 450, (FRAMES, CIRCUITS), "Cavitation"),
-    Check("saturation", (Motion,), look_at_valves, say_saturation, 460, (FRAMES, CIRCUITS), "Saturation"),
-    Check("pressure steps", (Run,), look_at_steps, say_steps, 470, (), "Pressure steps"),
+    Check("hydraulics", Motion, look_at_energy, say_energy, 430, (FRAMES, CIRCUITS), "Hydraulics"),
+    Check("fluid mass", Motion, look_at_mass, say_mass, 440, (FRAMES, CIRCUITS), "Fluid"),
+    Check("cavitation", Motion, look_for_cavitation, say_cavitation, 450, (FRAMES, CIRCUITS), "Cavitation"),
+    Check("saturation", Motion, look_at_valves, say_saturation, 460, (FRAMES, CIRCUITS), "Saturation"),
+    Check("pressure steps", Run, look_at_steps, say_steps, 470, (), "Pressure steps"),
 )

@@ -43,4 +43,4 @@ def say(found: Saturated) -> Item:
     return Item("control", "amber", text, row=found.name)
 
 
-CHECKS = (Check("control", (Run,), look, say, 410, (FRAMES,), "Control"),)
+CHECKS = (Check("control", Run, look, say, 410, (FRAMES,), "Control"),)

@@ -9,7 +9,7 @@ import numpy as np
 from nivel.analysis.trust.check import SECOND_RUN, Check, Need
 from nivel.analysis.trust.subject import Run
 from nivel.results.motion import common_frames
-from nivel.results.scales import Readable, largest_energy, machine_size
+from nivel.results.scales import largest_energy
 from nivel.results.trust import Item, quantity
 
 # A loss of energy counts above this share of the largest energy; it does not get less where this share of it is left.
@@ -27,8 +27,20 @@ class Damped:
 
 
 def look(run: Run) -> Damped | None:
-    """What the method takes whatever the step."""
-    return damped(run.result, run.finer.result, run.plan.settings.integrator)
+    """Energy that the method takes from the motion whatever the step: None where it takes none that counts, or less with finer steps."""
+    result, finer = run.result, run.finer.result
+    if "energy_error" not in result.variables:
+        return None
+    first, second = common_frames(result.time, finer.time)
+    if not len(first):
+        return None
+    coarse, fine = result.array("energy_error")[first], finer.array("energy_error")[second]
+    k = int(np.argmin(coarse))
+    lost, lost_finer = -float(coarse[k]), -float(fine[k])
+    scale = largest_energy(result, run.scales.size)[0]
+    if not (lost > LOSS * scale and lost_finer > STAYS * lost):
+        return None
+    return Damped(lost, lost_finer, run.plan.settings.integrator)
 
 
 def say(found: Damped) -> Item:
@@ -42,21 +54,6 @@ def say(found: Damped) -> Item:
     return Item("damped", "amber", text, found.lost)
 
 
-@np.errstate(over="ignore", invalid="ignore")
-def damped(result: Readable, finer: Readable, method: str) -> Damped | None:
-    """Energy that the method takes from the motion whatever the step: None where it takes none that counts, or less with finer steps."""
-    if "energy_error" not in result.variables:
-        return None
-    first, second = common_frames(result.time, finer.time)
-    if not len(first):
-        return None
-    coarse, fine = result.array("energy_error")[first], finer.array("energy_error")[second]
-    k = int(np.argmin(coarse))
-    lost, lost_finer = -float(coarse[k]), -float(fine[k])
-    scale = largest_energy(result, machine_size(result)[0])[0]
-    return Damped(lost, lost_finer, method) if lost > LOSS * scale and lost_finer > STAYS * lost else None
-
-
 CHECKS = (
-    Check("damped", (Run,), look, say, 330, (SECOND_RUN, IMPLICIT), "Damped", blind="their method damps vibrations"),
+    Check("damped", Run, look, say, 330, (SECOND_RUN, IMPLICIT), "Damped", blind="their method damps vibrations"),
 )

@@ -143,4 +143,4 @@ def _works(result: Readable, step: float) -> list[tuple[str, float, float]]:
     return out
 
 
-CHECKS = (Check("energy", (Motion,), look, say, 10, (), "Energy", THRESHOLD),)
+CHECKS = (Check("energy", Motion, look, say, 10, (), "Energy", THRESHOLD),)

@@ -128,11 +128,11 @@ def look_at_vibrations(subject: Equilibria) -> Sentence | None:
 
 
 CHECKS = (
-    Check("residual", (Equilibria,), look_at_residual, say_residual, 10, (FRAMES,), "Equilibrium", RESIDUAL),
-    Check("stability", (Equilibria,), look_at_stability, say_stability, 40, (FRAMES,), "Stability"),
+    Check("residual", Equilibria, look_at_residual, say_residual, 10, (FRAMES,), "Equilibrium", RESIDUAL),
+    Check("stability", Equilibria, look_at_stability, say_stability, 40, (FRAMES,), "Stability"),
     Check(
         "critical",
-        (Equilibria,),
+        Equilibria,
         lambda subject: CriticalPoints(subject.critical) if subject.critical else None,
         say_critical,
         42,
@@ -141,7 +141,7 @@ CHECKS = (
     ),
     Check(
         "potential",
-        (Equilibria,),
+        Equilibria,
         look_at_potential,
         lambda found: Item("potential", "amber", f"Potential: {found.said} (green if all loads have one)"),
         44,
@@ -150,7 +150,7 @@ CHECKS = (
     ),
     Check(
         "vibrations",
-        (Equilibria,),
+        Equilibria,
         look_at_vibrations,
         lambda found: Item("vibrations", "amber", f"Vibrations: {found.said} (green if none)"),
         46,
@@ -159,7 +159,7 @@ CHECKS = (
     ),
     Check(
         "at_rest",
-        (Equilibria,),
+        Equilibria,
         lambda subject: Sentence("; ".join(subject.at_rest)) if subject.at_rest else None,
         lambda found: Item("at_rest", "green", f"At rest: {found.said} (said, always green)"),
         48,

@@ -52,7 +52,7 @@ CHECKS = (
     Check("degrees_of_freedom", (Run, Equilibria), look, say, 50, (), "Freedom"),
     Check(
         "degrees_of_freedom",
-        (Positions,),
+        Positions,
         lambda subject: Freedom(0, drivers=subject.prepared.drivers),
         lambda _: None,
         50,

@@ -190,7 +190,6 @@ def _listed(names: Sequence[str]) -> str:
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of a run that grew beyond all bounds
 def loads_held_together(result: Readable, frictions: Sequence[Sticking]) -> tuple[Shared, ...]:
     """Frictions that hold one motion at rest together, over two frames or more.
 
@@ -264,4 +263,4 @@ def _basis(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     return every[size > LEFT]
 
 
-CHECKS = (Check("shared_friction", (Run,), look, say, 70, (FRAMES,), "Friction"),)
+CHECKS = (Check("shared_friction", Run, look, say, 70, (FRAMES,), "Friction"),)

@@ -94,11 +94,11 @@ def say_velocities(found: Violation) -> Item:
 
 
 CHECKS = (
-    Check("violation", (Recorded,), look, say, 20, (), "Joints closed", THRESHOLD),
-    Check("rate_violation", (Motion,), look_at_rates, say_rates, 30, (), "Joint rates", RATES),
+    Check("violation", Recorded, look, say, 20, (), "Joints closed", THRESHOLD),
+    Check("rate_violation", Motion, look_at_rates, say_rates, 30, (), "Joint rates", RATES),
     Check(
         "rate_violation",
-        (Positions,),
+        Positions,
         look_at_rates,
         say_velocities,
         30,

@@ -95,8 +95,6 @@ def _is_missed(each: Unseen, agreed: float | None) -> bool:
 
 
 CHECKS = (
-    Check("loads", (Run,), look, say, 200, (STEPS,), "Loads", LOADS, blind="their steps miss {row}", quiet=True),
-    Check(
-        "sampling", (Run,), look_between_samples, say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True
-    ),
+    Check("loads", Run, look, say, 200, (STEPS,), "Loads", LOADS, blind="their steps miss {row}", quiet=True),
+    Check("sampling", Run, look_between_samples, say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True),
 )

@@ -7,7 +7,7 @@ body itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -105,7 +105,7 @@ def say(found: Lacking) -> Item:
     return THRESHOLD.item("modes", said, found.share, found.time, found.body)
 
 
-def say_coarse(found: Bent) -> Item:
+def say_mesh(found: Bent) -> Item:
     """What the mesh of a body makes wrong."""
     said = (
         f"Mesh: the finite elements of {found.body} have an error of {number(found.value)} of its strain energy at t = {found.time:.6g} s; "
@@ -161,23 +161,17 @@ def _held(whole: MachineRecord, body: ModalBody, interfaces: list[Interface]) ->
                 yield Held(joint.name, at, 1.0 if k == 0 else -1.0)
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def most_lacking(result: Readable, bases: Sequence[Basis]) -> Lacking | None:
+def look(run: Run) -> Lacking | None:
     """The body that lacks most."""
-    found = None
-    for each in bases:
-        lacking = _lacking(result, each)
-        if lacking is not None and (found is None or lacking.share > found.share):
-            found = lacking
-    return found
+    found = [_lacking(run.result, each) for each in modal_bases(run.machine, run.prepared)]
+    return max((each for each in found if each is not None), key=lambda each: each.share, default=None)
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def most_coarse(result: Readable, bases: Sequence[Basis]) -> Bent | None:
+def look_at_mesh(run: Run) -> Bent | None:
     """The largest energy that meshes of bodies make wrong, as a share of their own."""
-    found = None
+    found, result = None, run.result
     frames = slice(None, None, max(1, len(result.time) // FRAMES))
-    for each in bases:
+    for each in modal_bases(run.machine, run.prepared):
         motion, mesh = _motion(result, each, frames), each.mesh
         scale = _own_energy(each, motion)
         if mesh is None or not scale > 0.0:
@@ -315,25 +309,6 @@ def response(time: Array, load: Array, omega: Array, ratio: float) -> Array:
 
 
 CHECKS = (
-    Check(
-        "body_mesh",
-        (Run,),
-        lambda run: most_coarse(run.result, modal_bases(run.machine, run.prepared)),
-        say_coarse,
-        290,
-        (STEPS,),
-        line="mesh",
-        quiet=True,
-    ),
-    Check(
-        "modes",
-        (Run,),
-        lambda run: most_lacking(run.result, modal_bases(run.machine, run.prepared)),
-        say,
-        300,
-        (STEPS,),
-        "Modes",
-        THRESHOLD,
-        quiet=True,
-    ),
+    Check("body_mesh", Run, look_at_mesh, say_mesh, 290, (STEPS,), line="mesh", quiet=True),
+    Check("modes", Run, look, say, 300, (STEPS,), "Modes", THRESHOLD, quiet=True),
 )

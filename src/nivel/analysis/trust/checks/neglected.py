@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.subject import Run
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.scales import Readable, blocks
+from nivel.results.scales import blocks
 from nivel.results.trust import Item, Threshold, number
 from nivel.system.flexible import bending_bodies
 
@@ -67,8 +66,18 @@ class Cost:
 
 
 def look(run: Run) -> Cost | None:
-    """The largest cost; None where nothing is neglected."""
-    return cost(run.result, neglected(run.machine))
+    """The largest cost of a run; None where nothing is neglected."""
+    result = run.result
+    found: Cost | None = None
+    for each in neglected(run.machine):
+        for frames in blocks(result):
+            errors = each.errors(result.array("modal_coordinate", frames)[:, each.first : each.last])
+            if not len(errors):
+                continue
+            k = int(np.argmax(errors))
+            if found is None or not errors[k] <= found.share:
+                found = Cost(float(errors[k]), each.body, each.names, float(result.time[frames.start + k]))
+    return found
 
 
 def say(found: Cost) -> Item:
@@ -91,18 +100,4 @@ def neglected(machine: MachineRecord) -> tuple[Neglected, ...]:
     return tuple(out)
 
 
-def cost(result: Readable, bodies: Sequence[Neglected]) -> Cost | None:
-    """The largest one of a run; None where nothing is neglected."""
-    found: Cost | None = None
-    for each in bodies:
-        for frames in blocks(result):
-            errors = each.errors(result.array("modal_coordinate", frames)[:, each.first : each.last])
-            if not len(errors):
-                continue
-            k = int(np.argmax(errors))
-            if found is None or not errors[k] <= found.share:
-                found = Cost(float(errors[k]), each.body, each.names, float(result.time[frames.start + k]))
-    return found
-
-
-CHECKS = (Check("neglected", (Run,), look, say, 100, (), "Neglected", THRESHOLD),)
+CHECKS = (Check("neglected", Run, look, say, 100, (), "Neglected", THRESHOLD),)

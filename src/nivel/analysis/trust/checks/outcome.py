@@ -51,4 +51,4 @@ def say(found: Outcome) -> Item:
     return Item("outcome", VERDICTS.get(found.outcome, "red"), f"Outcome: {found.said}")
 
 
-CHECKS = (Check("outcome", (Subject,), look, say, 0, (), "Outcome"),)
+CHECKS = (Check("outcome", Subject, look, say, 0, (), "Outcome"),)

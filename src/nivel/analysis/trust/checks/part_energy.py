@@ -6,7 +6,7 @@ Parts are judged on which weight alone acts. Of others frames do not tell the wo
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -57,8 +57,11 @@ class PartError:
 
 
 def look(run: Run) -> PartError | None:
-    """The separate part with the worst balance of energy."""
-    return worst_part(run.result, separate_parts(run.machine), speed_of_rest(run.result, run.scales.size))
+    """The separate part with the largest share; parts with most of the energy are judged by that of the whole machine."""
+    result, slowest = run.result, speed_of_rest(run.result, run.scales.size)
+    whole = largest_mechanical_energy(result)
+    found = [_error(result, part, slowest, whole) for part in separate_parts(run.machine)]
+    return max((each for each in found if each is not None), key=lambda each: each.share, default=None)
 
 
 def say(found: PartError) -> Item:
@@ -134,17 +137,6 @@ def _words(element: Any) -> set[str]:
     return found
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def worst_part(result: Readable, parts: Sequence[Part], slowest: float) -> PartError | None:
-    """The part with the largest share; those slower than `slowest` [m/s] are at rest. Parts with most of the energy are judged by that of
-    the whole machine."""
-    if not len(result.time):
-        return None
-    whole = largest_mechanical_energy(result)
-    found = [_error(result, part, slowest, whole) for part in parts]
-    return max((each for each in found if each is not None), key=lambda each: each.share, default=None)
-
-
 def _error(result: Readable, part: Part, slowest: float, whole: float) -> PartError | None:
     frames = slice(None, None, max(1, len(result.time) // FRAMES))
     kinetic, potential = _energies(result, part, frames)
@@ -171,4 +163,4 @@ def _energies(result: Readable, part: Part, frames: slice) -> tuple[Array, Array
     )
 
 
-CHECKS = (Check("part_energy", (Run,), look, say, 310, (STEPS,), line="parts", quiet=True),)
+CHECKS = (Check("part_energy", Run, look, say, 310, (STEPS,), line="parts", quiet=True),)

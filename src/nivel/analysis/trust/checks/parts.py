@@ -8,8 +8,6 @@ import numpy as np
 
 from nivel.analysis.trust.check import ESTIMATE, Check
 from nivel.analysis.trust.subject import Run
-from nivel.results.estimate import Estimate
-from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, Threshold, number
 
 # Of the size of the machine, or of a radian: motions below it are at rest and have no error of their own.
@@ -37,21 +35,11 @@ class OwnError:
 
 
 def look(run: Run) -> OwnError | None:
-    """The part with the largest share."""
-    return own_error(run.result, run.estimate) if run.estimate is not None else None
-
-
-def say(found: OwnError) -> Item:
-    """Its error against its motion."""
-    its = f"{number(found.share)} of its own motion over {number(found.extent)} {found.units}"
-    said = f"Parts: {found.name} is off by {number(found.error)} {found.units}, {its}"
-    return THRESHOLD.item("parts", said, found.share, row=found.name)
-
-
-@np.errstate(over="ignore", invalid="ignore")
-def own_error(result: Readable, estimate: Estimate) -> OwnError | None:
     """Errors of bodies against the extent of their paths, of joint coordinates against their ranges; the largest share."""
-    size = machine_size(result)[0]
+    result, estimate = run.result, run.estimate
+    if estimate is None:
+        return None
+    size = run.scales.size
     time = np.array([estimate.time[-1]])
     found: list[OwnError] = []
     if "position" in estimate.values:
@@ -72,4 +60,11 @@ def own_error(result: Readable, estimate: Estimate) -> OwnError | None:
     return max(finite, key=lambda each: each.share, default=None)
 
 
-CHECKS = (Check("parts", (Run,), look, say, 320, (ESTIMATE,), "Parts", THRESHOLD, quiet=True),)
+def say(found: OwnError) -> Item:
+    """Its error against its motion."""
+    its = f"{number(found.share)} of its own motion over {number(found.extent)} {found.units}"
+    said = f"Parts: {found.name} is off by {number(found.error)} {found.units}, {its}"
+    return THRESHOLD.item("parts", said, found.share, row=found.name)
+
+
+CHECKS = (Check("parts", Run, look, say, 320, (ESTIMATE,), "Parts", THRESHOLD, quiet=True),)

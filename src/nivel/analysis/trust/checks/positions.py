@@ -85,12 +85,12 @@ def say_histories(found: Histories) -> Item:
 CHECKS = (
     Check(
         "shortened_steps",
-        (Positions,),
+        Positions,
         lambda subject: Shortened(subject.halved) if subject.halved else None,
         say_steps,
         34,
         line="steps",
     ),
-    Check("branches", (Positions,), look_at_branches, say_branches, 36, (), "Branches of positions"),
-    Check("histories", (Positions,), look_at_histories, say_histories, 38, line="states"),
+    Check("branches", Positions, look_at_branches, say_branches, 36, (), "Branches of positions"),
+    Check("histories", Positions, look_at_histories, say_histories, 38, line="states"),
 )

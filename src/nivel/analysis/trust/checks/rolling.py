@@ -65,4 +65,4 @@ def _wheel(result: Readable, wheel: str) -> Wheel:
     )
 
 
-CHECKS = (Check("rolling", (Motion,), look, say, 420, (FRAMES,), "Rolling"),)
+CHECKS = (Check("rolling", Motion, look, say, 420, (FRAMES,), "Rolling"),)

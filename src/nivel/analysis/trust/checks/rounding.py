@@ -8,7 +8,6 @@ import numpy as np
 
 from nivel.analysis.trust.check import STEPS, Check
 from nivel.analysis.trust.subject import Run
-from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, Threshold, number
 
 THRESHOLD = Threshold(
@@ -31,8 +30,17 @@ class Rounding:
 
 
 def look(run: Run) -> Rounding | None:
-    """The body farthest from the origin."""
-    return rounding(run.result, int(run.finished.timing["steps"]))
+    """What the places of bodies are rounded to, against what all steps can lose by it: half a unit in the last place each."""
+    result, steps = run.result, int(run.finished.timing["steps"])
+    if "position" not in result.variables:
+        return None
+    position = np.abs(result.array("position"))
+    position[~np.isfinite(position)] = 0.0
+    largest = position.max(axis=(0, 2))
+    body = int(np.argmax(largest))
+    unit = float(np.spacing(largest[body]))
+    share = 0.5 * unit * steps / run.scales.size
+    return Rounding(result.coordinates["body"][body], float(largest[body]), unit, share)
 
 
 def say(found: Rounding) -> Item:
@@ -43,23 +51,10 @@ def say(found: Rounding) -> Item:
     return THRESHOLD.item("rounding", said, found.share, row=found.body)
 
 
-def rounding(result: Readable, steps: int) -> Rounding | None:
-    """What the places of bodies are rounded to, against what all steps can lose by it: half a unit in the last place each."""
-    if "position" not in result.variables or not len(result.time):
-        return None
-    position = np.abs(result.array("position"))
-    position[~np.isfinite(position)] = 0.0
-    largest = position.max(axis=(0, 2))
-    body = int(np.argmax(largest))
-    unit = float(np.spacing(largest[body]))
-    share = 0.5 * unit * steps / machine_size(result)[0]
-    return Rounding(result.coordinates["body"][body], float(largest[body]), unit, share)
-
-
 CHECKS = (
     Check(
         "rounding",
-        (Run,),
+        Run,
         look,
         say,
         240,

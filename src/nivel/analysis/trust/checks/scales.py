@@ -3,4 +3,4 @@
 from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.subject import Recorded
 
-CHECKS = (Check("scales", (Recorded,), lambda subject: subject.scales, lambda _: None, 0),)
+CHECKS = (Check("scales", Recorded, lambda subject: subject.scales, lambda _: None, 0),)

@@ -11,7 +11,6 @@ from nivel.analysis.trust.check import SECOND_RUN, Check
 from nivel.analysis.trust.checks.accuracy import factor, round_off
 from nivel.analysis.trust.subject import Run
 from nivel.results.motion import Motion, distances
-from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, number
 
 Array = NDArray[np.float64]
@@ -30,24 +29,9 @@ class Growth:
 
 
 def look(run: Run) -> Growth | None:
-    """How the two runs part."""
-    return growth(run.result, run.finer.result, run.finer.refinement.left)
-
-
-def say(found: Growth) -> Item:
-    """How fast neighbouring motions part, and what is left to say then."""
-    text = (
-        f"Sensitivity: neighbouring motions separate by a factor e every {number(found.time_constant)} s, and have separated at t = "
-        f"{found.parted:.6g} s: the motion is chaotic; after that time only means and extremes are meaningful "
-        f"(green if they stay together, amber otherwise)"
-    )
-    return Item("sensitivity", "amber", text, time=found.parted)
-
-
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def growth(result: Readable, finer: Readable, left: float) -> Growth | None:
     """How neighbouring motions part: None where they do not, or no faster than with a power of time, or stay near to the end."""
-    size, motion = machine_size(result)[0], Motion.of(result)
+    result, finer, left = run.result, run.finer.result, run.finer.refinement.left
+    size, motion = run.scales.size, Motion.of(result)
     time, apart = distances(motion, Motion.of(finer), size)
     if not apart.size:
         return None
@@ -63,9 +47,19 @@ def growth(result: Readable, finer: Readable, left: float) -> Growth | None:
     return Growth(1.0 / float(rate), float(time[np.argmax(running >= PARTED)]))
 
 
+def say(found: Growth) -> Item:
+    """How fast neighbouring motions part, and what is left to say then."""
+    text = (
+        f"Sensitivity: neighbouring motions separate by a factor e every {number(found.time_constant)} s, and have separated at t = "
+        f"{found.parted:.6g} s: the motion is chaotic; after that time only means and extremes are meaningful "
+        f"(green if they stay together, amber otherwise)"
+    )
+    return Item("sensitivity", "amber", text, time=found.parted)
+
+
 def _misfit(x: Array, y: Array) -> float:
     """Mean square distance of y from a straight line over x."""
     return float(np.mean((np.polyval(np.polyfit(x, y, 1), x) - y) ** 2))
 
 
-CHECKS = (Check("sensitivity", (Run,), look, say, 340, (SECOND_RUN,), "Sensitivity"),)
+CHECKS = (Check("sensitivity", Run, look, say, 340, (SECOND_RUN,), "Sensitivity"),)

@@ -136,7 +136,7 @@ def _continuous(theta: Array) -> Array:
 CHECKS = (
     Check(
         "singular",
-        (Run,),
+        Run,
         look,
         say,
         250,

@@ -52,4 +52,4 @@ def say(found: SmallState) -> Item:
     return Item("states", "amber", f"States: {said} it; {advice}", row=found.name)
 
 
-CHECKS = (Check("states", (Run,), look, say, 400, (TOLERANCE,), "States"),)
+CHECKS = (Check("states", Run, look, say, 400, (TOLERANCE,), "States"),)

@@ -54,4 +54,4 @@ def say(found: Fast) -> Item:
     return THRESHOLD.item("steps", text, found.step * found.rate, row=found.part)
 
 
-CHECKS = (Check("steps", (Run,), look, say, 350, (FIXED_STEPS, EXPLICIT), "Steps", THRESHOLD, quiet=True, last=True),)
+CHECKS = (Check("steps", Run, look, say, 350, (FIXED_STEPS, EXPLICIT), "Steps", THRESHOLD, quiet=True, last=True),)

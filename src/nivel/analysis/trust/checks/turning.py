@@ -6,15 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.trust.check import FIXED_STEPS, Check
 from nivel.analysis.trust.subject import Run
 from nivel.integrate.loop.run import TURNED
-from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number
 
-Array = NDArray[np.float64]
 THRESHOLD = Threshold(
     0.5,
     3.0,
@@ -35,9 +32,16 @@ class Turn:
 
 
 def look(run: Run) -> Turn | None:
-    """The largest turn in a step; where steps are chosen no body turns too far."""
-    settings = run.plan.settings
-    return largest_turn(run.result, run.pace[TURNED], settings.duration, counted=settings.coordinates == "relative")
+    """The largest turn in a step; the body is the fastest one then. Where steps are chosen no body turns too far."""
+    result, settings, turned = run.result, run.plan.settings, run.pace[TURNED]
+    counted = settings.coordinates == "relative"
+    if "angular_velocity" not in result.variables or not turned.size:
+        return None
+    part = int(np.argmax(turned))
+    time = float((part + 0.5) / len(turned) * settings.duration)
+    frame = min(int(np.searchsorted(result.time, time)), len(result.time) - 1)
+    speed = np.linalg.norm(result.array("angular_velocity", slice(frame, frame + 1))[0], axis=-1)
+    return Turn(result.coordinates["body"][int(np.nan_to_num(speed).argmax())], float(turned[part]), time, counted)
 
 
 def say(found: Turn) -> Item:
@@ -50,21 +54,10 @@ def say(found: Turn) -> Item:
     return threshold.item("turn", said, found.angle, found.time, found.body)
 
 
-def largest_turn(result: Readable, turned: Array, end: float, *, counted: bool) -> Turn | None:
-    """turned : (parts,) [rad] largest angle in a step of each part of the duration `end` [s]. The body is the fastest one then."""
-    if "angular_velocity" not in result.variables or not len(result.time) or not turned.size:
-        return None
-    part = int(np.argmax(turned))
-    time = float((part + 0.5) / len(turned) * end)
-    frame = min(int(np.searchsorted(result.time, time)), len(result.time) - 1)
-    speed = np.linalg.norm(result.array("angular_velocity", slice(frame, frame + 1))[0], axis=-1)
-    return Turn(result.coordinates["body"][int(np.nan_to_num(speed).argmax())], float(turned[part]), time, counted)
-
-
 CHECKS = (
     Check(
         "turn",
-        (Run,),
+        Run,
         look,
         say,
         230,

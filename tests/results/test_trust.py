@@ -206,6 +206,64 @@ def test_json_has_the_agreed_keys():
     assert set(agreed.split()) <= set(data)
 
 
+# keys of version 0.2.0, and of those before
+EARLIER = [
+    "verdict",
+    "outcome",
+    "energy_error_max",
+    "energy_error_time",
+    "energy_scale",
+    "energy_scale_kind",
+    "size",
+    "speed",
+    "constraint_violation_max",
+    "constraint_violation_row",
+    "constraint_violation_time",
+    "constraint_violation_units",
+    "constraint_rate_violation_max",
+    "constraint_rate_violation_row",
+    "constraint_rate_violation_time",
+    "constraint_rate_violation_units",
+    "degrees_of_freedom",
+    "position_freedoms",
+    "drivers",
+    "redundant_rows",
+    "non_unique_joints",
+    "accuracy_estimate",
+    "accuracy_body",
+    "accuracy_time",
+    "accuracy_refinement",
+    "verified_until",
+    "verification_ended",
+    "size_kind",
+    "at_rest",
+    "modes",
+    "neglected_share",
+    "neglected_body",
+    "neglected_names",
+    "neglected_time",
+    "undetermined_efforts",
+    "unresolved_force",
+    "unresolved_work",
+    "unresolved_time",
+    "items",
+]
+
+
+@pytest.mark.parametrize("blind", ["", "their steps miss push.vector.x"])
+@pytest.mark.parametrize("worst", [1e-9, np.nan, np.inf])
+def test_the_report_of_an_earlier_version_is_read(worst, blind):
+    given = {"accuracy": estimated(1e-5, "arm", 0.5, blind=blind), "redundancy": Redundancy(("a.s.x",), ("a",))}
+    trust = pendulum.judged(run(energy_error=spike(1, 0, 4, worst)), **given)
+    data = json.loads(trust.to_json())
+    earlier = Trust.from_json(json.dumps({key: data[key] for key in EARLIER}))
+    assert str(earlier) == str(trust)
+    assert earlier.headline == trust.headline
+    assert blind in earlier.headline
+    kept = [key for key in EARLIER if key not in ("items", "verdict", "outcome")]
+    assert repr([getattr(earlier, key) for key in kept]) == repr([getattr(trust, key) for key in kept])
+
+
 def test_a_finer_run_finds_the_worst_body_and_time():
     moved = pendulum.histories(TIME)["position"].copy()
     moved[77, 0, 1] += 15e-6

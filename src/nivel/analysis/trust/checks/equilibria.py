@@ -9,7 +9,7 @@ import numpy as np
 from nivel.analysis.trust.check import FRAMES, Check
 from nivel.analysis.trust.subject import Equilibria
 from nivel.results.peaks import peak
-from nivel.results.trust import Item, Threshold, number
+from nivel.results.trust import Item, Threshold, Verdict, number
 
 SHOWN = 6
 RESIDUAL = Threshold(
@@ -43,16 +43,11 @@ class Stability:
 
 
 @dataclass(frozen=True)
-class CriticalPoints:
-    """(kind, t [s], None or the times [s] between which it is where it was not found) of limit and bifurcation points."""
+class Remark:
+    """What is said of all states: name of the line, verdict, and text."""
 
-    points: tuple[tuple[str, float, tuple[float, float] | None], ...]
-
-
-@dataclass(frozen=True)
-class Sentence:
-    """What is said, in words."""
-
+    line: str
+    verdict: Verdict
     said: str
 
 
@@ -102,68 +97,48 @@ def say_stability(found: Stability) -> Item:
     return Item("stability", "amber", text, time=found.time)
 
 
-def say_critical(found: CriticalPoints) -> Item:
+def look_at_critical(subject: Equilibria) -> Remark | None:
     """Limit and bifurcation points on the path."""
     named = [
         f"{kind} at t = {t:.9g} s"
         if between is None
         else f"{kind} between the states of t = {between[0]:.9g} s and {between[1]:.9g} s"
-        for kind, t, between in found.points
+        for kind, t, between in subject.critical
     ]
     more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
-    return Item("critical", "amber", f"Critical points: {', '.join(named[:SHOWN])}{more} (amber if there are any)")
+    text = f"Critical points: {', '.join(named[:SHOWN])}{more} (amber if there are any)"
+    return Remark("critical", "amber", text) if named else None
 
 
-def look_at_potential(subject: Equilibria) -> Sentence | None:
+def look_at_potential(subject: Equilibria) -> Remark | None:
     """Whether some force has none, as one that follows a body."""
     loads = "some loads have no potential (follower forces, or torques about a fixed axis)"
-    return Sentence(f"{loads}: flutter is not examined") if subject.without_potential else None
+    text = f"Potential: {loads}: flutter is not examined (green if all loads have one)"
+    return Remark("potential", "amber", text) if subject.without_potential else None
 
 
-def look_at_vibrations(subject: Equilibria) -> Sentence | None:
+def look_at_vibrations(subject: Equilibria) -> Remark | None:
     """Vibrations of no frequency."""
-    return (
-        Sentence(f"{subject.rigid} with frequency zero: rigid-body motions of the machine") if subject.rigid else None
-    )
+    said = f"{subject.rigid} with frequency zero: rigid-body motions of the machine"
+    return Remark("vibrations", "amber", f"Vibrations: {said} (green if none)") if subject.rigid else None
+
+
+def look_at_rest(subject: Equilibria) -> Remark | None:
+    """What makes no force at rest."""
+    text = f"At rest: {'; '.join(subject.at_rest)} (said, always green)"
+    return Remark("at_rest", "green", text) if subject.at_rest else None
+
+
+def say_remark(found: Remark) -> Item:
+    """The same."""
+    return Item(found.line, found.verdict, found.said)
 
 
 CHECKS = (
     Check("residual", Equilibria, look_at_residual, say_residual, 10, (FRAMES,), "Equilibrium", RESIDUAL),
     Check("stability", Equilibria, look_at_stability, say_stability, 40, (FRAMES,), "Stability"),
-    Check(
-        "critical",
-        Equilibria,
-        lambda subject: CriticalPoints(subject.critical) if subject.critical else None,
-        say_critical,
-        42,
-        (),
-        "Critical points",
-    ),
-    Check(
-        "potential",
-        Equilibria,
-        look_at_potential,
-        lambda found: Item("potential", "amber", f"Potential: {found.said} (green if all loads have one)"),
-        44,
-        (),
-        "Potential",
-    ),
-    Check(
-        "vibrations",
-        Equilibria,
-        look_at_vibrations,
-        lambda found: Item("vibrations", "amber", f"Vibrations: {found.said} (green if none)"),
-        46,
-        (),
-        "Vibrations",
-    ),
-    Check(
-        "at_rest",
-        Equilibria,
-        lambda subject: Sentence("; ".join(subject.at_rest)) if subject.at_rest else None,
-        lambda found: Item("at_rest", "green", f"At rest: {found.said} (said, always green)"),
-        48,
-        (),
-        "At rest",
-    ),
+    Check("critical", Equilibria, look_at_critical, say_remark, 42, (), "Critical points"),
+    Check("potential", Equilibria, look_at_potential, say_remark, 44, (), "Potential"),
+    Check("vibrations", Equilibria, look_at_vibrations, say_remark, 46, (), "Vibrations"),
+    Check("at_rest", Equilibria, look_at_rest, say_remark, 48, (), "At rest"),
 )

@@ -24,6 +24,7 @@ RATES = Threshold(
 )
 # shares of the largest speed by which rates of constraints may be violated in kinematics
 GREEN, AMBER = 1e-9, 1e-6
+VELOCITIES = "Velocities fit the joints"
 
 
 @dataclass(frozen=True)
@@ -96,14 +97,5 @@ def say_velocities(found: Violation) -> Item:
 CHECKS = (
     Check("violation", Recorded, look, say, 20, (), "Joints closed", THRESHOLD),
     Check("rate_violation", Motion, look_at_rates, say_rates, 30, (), "Joint rates", RATES),
-    Check(
-        "rate_violation",
-        Positions,
-        look_at_rates,
-        say_velocities,
-        30,
-        (),
-        "Velocities fit the joints",
-        line="velocities",
-    ),
+    Check("rate_violation", Positions, look_at_rates, say_velocities, 30, (), VELOCITIES, line="velocities"),
 )

@@ -43,6 +43,11 @@ def look_at_branches(subject: Positions) -> Branches | None:
     return Branches(near.least, near.time, near.joints, subject.passed) if near is not None else None
 
 
+def look_at_steps(subject: Positions) -> Shortened | None:
+    """Steps that were shortened."""
+    return Shortened(subject.halved) if subject.halved else None
+
+
 def say_steps(found: Shortened) -> Item:
     """How many steps were shortened."""
     said = f"{found.count} were shortened, because the machine moves fast or comes near a singular position"
@@ -83,14 +88,7 @@ def say_histories(found: Histories) -> Item:
 
 
 CHECKS = (
-    Check(
-        "shortened_steps",
-        Positions,
-        lambda subject: Shortened(subject.halved) if subject.halved else None,
-        say_steps,
-        34,
-        line="steps",
-    ),
+    Check("shortened_steps", Positions, look_at_steps, say_steps, 34, line="steps"),
     Check("branches", Positions, look_at_branches, say_branches, 36, (), "Branches of positions"),
     Check("histories", Positions, look_at_histories, say_histories, 38, line="states"),
 )

@@ -16,6 +16,7 @@ THRESHOLD = Threshold(
     "Half a unit in the last place of a coordinate, added in every step with the same sign, as a share of the machine's size. The "
     "limit is that of the constraint violation.",
 )
+BLIND = "{row} is so far from the origin that the motion in a step is below round-off"
 
 
 @dataclass(frozen=True)
@@ -51,17 +52,4 @@ def say(found: Rounding) -> Item:
     return THRESHOLD.item("rounding", said, found.share, row=found.body)
 
 
-CHECKS = (
-    Check(
-        "rounding",
-        Run,
-        look,
-        say,
-        240,
-        (STEPS,),
-        "Round-off",
-        THRESHOLD,
-        blind="{row} is so far from the origin that the motion in a step is below round-off",
-        quiet=True,
-    ),
-)
+CHECKS = (Check("rounding", Run, look, say, 240, (STEPS,), "Round-off", THRESHOLD, blind=BLIND, quiet=True),)

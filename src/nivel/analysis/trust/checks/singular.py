@@ -28,6 +28,7 @@ LOW, SINGULAR = 0.3, 2e-4
 # Rows with this share of the largest part in what is lost name their joints.
 PART = 0.3
 SHOWN = 5  # times in a sentence
+BLIND = "at t = {time} s the motion may continue in more than one way"
 
 
 @dataclass(frozen=True)
@@ -133,15 +134,4 @@ def _continuous(theta: Array) -> Array:
     return out
 
 
-CHECKS = (
-    Check(
-        "singular",
-        Run,
-        look,
-        say,
-        250,
-        (SECOND_RUN,),
-        "Singular position",
-        blind="at t = {time} s the motion may continue in more than one way",
-    ),
-)
+CHECKS = (Check("singular", Run, look, say, 250, (SECOND_RUN,), "Singular position", blind=BLIND),)

@@ -18,6 +18,7 @@ THRESHOLD = Threshold(
     "Rotation in a step, in radians. At 0.5 the error of methods of order four is 2e-4 rad a turn. Near half a turn (3 rad) no method "
     "can determine the sense of the rotation.",
 )
+BLIND = "{row} rotates too far in a step"
 
 
 @dataclass(frozen=True)
@@ -54,17 +55,4 @@ def say(found: Turn) -> Item:
     return threshold.item("turn", said, found.angle, found.time, found.body)
 
 
-CHECKS = (
-    Check(
-        "turn",
-        Run,
-        look,
-        say,
-        230,
-        (FIXED_STEPS,),
-        "Turning",
-        THRESHOLD,
-        blind="{row} rotates too far in a step",
-        quiet=True,
-    ),
-)
+CHECKS = (Check("turn", Run, look, say, 230, (FIXED_STEPS,), "Turning", THRESHOLD, blind=BLIND, quiet=True),)

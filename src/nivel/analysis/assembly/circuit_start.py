@@ -1,6 +1,7 @@
 """Start of hydraulic circuits: the pressures that carry the loads of the machine as assembled, and a steady circuit around them.
 
-1. The effort of every actuator at rest follows from accelerations, which are linear in the pressures: those that vanish are asked for.
+1. The effort of every actuator at rest follows from accelerations, which are linear in the pressures: those that vanish are asked for,
+   of all actuators at once, with the pressures that are given.
    The chamber that cannot carry its load has the pressure of the lowest tank, the other one what the load asks for. A piston without load
    at the end of its stroke is held there by its stop.
 2. With these held, all other states of the circuits go to rest by steps of Euler's implicit method that become longer and longer
@@ -34,8 +35,10 @@ from nivel.system.system import Array, System
 
 # what a pressure is moved by to see what it does [Pa]
 PROBE = 1e5
-# Loads that ask for less pressure than this [Pa] are none.
+# Loads that ask for less pressure than this [Pa] are none; opposite a given pressure a chamber may be as empty as this.
 NO_LOAD = 1e3
+# Pressures with less than this share of the largest effect do nothing. The weight of equal shares against accelerations that vanish.
+IDLE, WEIGHT = 1e-12, 1e-6
 # steps of pseudo-time: the first one [s], the factor to the next, their number; at rest, states change by less than this share of their
 # scale in a second
 FIRST, FACTOR, MOST, AT_REST = 1e-6, 3.0, 200, 1e-9
@@ -186,80 +189,71 @@ class _Start:
         return list(out.values())
 
     def carry_loads(self) -> None:
-        """Pressures of chambers for which the machine stays where it is, as far as pressures can hold it."""
+        """Pressures of chambers for which the machine stays where it is, as far as pressures can hold it.
+
+        All are found at once: the least squares of the accelerations, with pressures of free chambers not below their least one. Where
+        several do, pistons carry equal shares.
+        """
         pairs = self._pairs()
-        if not pairs:
+        sides = [k for pair in pairs for k in (pair.a, pair.b) if k is not None]
+        free = [k for k in dict.fromkeys(sides) if k not in self.held]
+        if not free:
             self._put(self.pressure)
             return
         base = self.pressure.copy()
+        left = self._accelerations(base)
+        effect = {k: self._effect(base, left, k) for k in dict.fromkeys(sides)}
+        least = np.array([self._lowest(self.nodes[k].fluid) for k in free])
+        base[free] = least
         for pair in pairs:
-            for k in (pair.a, pair.b):
-                if k is not None and k not in self.held:
-                    base[k] = ATMOSPHERE
-        free = self._accelerations(base)
-        effect = {k: self._effect(base, free, k) for pair in pairs for k in (pair.a, pair.b) if k is not None}
-        open_pairs = [pair for pair in pairs if pair.a not in self.held and pair.b not in self.held]
-        columns = np.array([effect[pair.a] for pair in open_pairs]).reshape(len(open_pairs), len(free)).T
-        half_held = [pair for pair in pairs if pair not in open_pairs]
-        loads = self._solved(columns, -free)
-        for pair, load in zip(open_pairs, loads, strict=True):
-            self._share(pair, float(load), effect)
-        self._rest_of(half_held, effect)
+            if (given := self._opposite_a_given_one(pair)) is not None:
+                k, opposite = given
+                base[k] += self._ratio(effect[k], effect[opposite]) * (base[opposite] - ATMOSPHERE) - (
+                    least[free.index(k)] - ATMOSPHERE
+                )
+                least[free.index(k)] = NO_LOAD
+        left = self._accelerations(base)
+        columns = np.array([effect[k] for k in free]).T
+        found = base.copy()
+        found[free] += _held_by(columns, -left, least - base[free])
+        for pair in pairs:
+            self._take(pair, found, effect)
         self._put(self.pressure)
 
-    def _effect(self, base: Array, free: Array, k: int) -> Array:
+    def _opposite_a_given_one(self, pair: _Pair) -> tuple[int, int] | None:
+        """The free chamber of a pair of which the other one has a given pressure, and that one."""
+        if pair.b is None or (pair.a in self.held) == (pair.b in self.held):
+            return None
+        return (pair.b, pair.a) if pair.a in self.held else (pair.a, pair.b)
+
+    def _effect(self, base: Array, left: Array, k: int) -> Array:
         """(nv,) accelerations per pressure in node k."""
         changed = base.copy()
         changed[k] += PROBE
-        return (self._accelerations(changed) - free) / PROBE
+        return (self._accelerations(changed) - left) / PROBE
 
     @staticmethod
-    def _solved(columns: Array, right: Array) -> Array:
-        """The pressures that leave the least acceleration; those that do nothing are zero."""
-        if not columns.shape[1]:
-            return np.zeros(0)
-        size = np.linalg.norm(columns, axis=0)
-        working = size > 1e-12 * max(float(size.max()), 1e-300)
-        out = np.zeros(columns.shape[1])
-        if np.any(working):
-            scaled = columns[:, working] / size[working]
-            out[working] = np.linalg.lstsq(scaled, right, rcond=1e-9)[0] / size[working]
-        return out
-
-    def _share(self, pair: _Pair, load: float, effect: dict[int, Array]) -> None:
-        """Pressures for a load that A alone would carry with `load` above the air."""
-        back = self._lowest(self.nodes[pair.a].fluid)
-        if pair.b is None:
-            self.pressure[pair.a] = max(ATMOSPHERE + load, back) if load > NO_LOAD else back
-            self.held.add(pair.a)
-            return
-        a, b = effect[pair.a], effect[pair.b]
+    def _ratio(a: Array, b: Array) -> float:
+        """Area of chamber b over that of the opposite chamber a, from what their pressures do."""
         square = float(a @ a)
-        ratio = -float(b @ a) / square if square > 0.0 else 1.0  # area of B over that of A
-        if abs(load) <= NO_LOAD and (self._motor_between(pair) is not None or pair.at_end):
-            return
-        over = back - ATMOSPHERE
-        if load + over * ratio >= over:
-            self.pressure[pair.a], self.pressure[pair.b] = ATMOSPHERE + load + over * ratio, back
-        else:
-            self.pressure[pair.b], self.pressure[pair.a] = ATMOSPHERE + (over - load) / ratio, back
-        self.held |= {pair.a, pair.b}
+        return -float(b @ a) / square if square > 0.0 else 1.0
+
+    def _take(self, pair: _Pair, found: Array, effect: dict[int, Array]) -> None:
+        """Hold the pressures that were found for a pair; without load a motor, or a piston at the end of its stroke, needs none."""
+        own = [k for k in (pair.a, pair.b) if k is not None and k not in self.held]
+        if pair.b is not None and len(own) == 2 and (pair.at_end or self._motor_between(pair) is not None):
+            load = (
+                found[pair.a] - ATMOSPHERE - self._ratio(effect[pair.a], effect[pair.b]) * (found[pair.b] - ATMOSPHERE)
+            )
+            if abs(load) <= NO_LOAD:
+                return
+        self.pressure[own] = found[own]
+        self.held |= set(own)
 
     def _motor_between(self, pair: _Pair) -> HydraulicMotor | None:
         names = {self.nodes[k].name for k in (pair.a, pair.b) if k is not None}
         motors = (each for each in self.machine.hydraulics if isinstance(each, HydraulicMotor))
         return next((each for each in motors if set(each.ports.values()) == names), None)
-
-    def _rest_of(self, pairs: list[_Pair], effect: dict[int, Array]) -> None:
-        """Of chambers of which one has a given pressure, the other one."""
-        for pair in pairs:
-            free = [k for k in (pair.a, pair.b) if k is not None and k not in self.held]
-            if not free:
-                continue
-            left = self._accelerations(self.pressure)
-            change = self._solved(effect[free[0]][:, None], -left)
-            self.pressure[free[0]] = max(self.pressure[free[0]] + float(change[0]), 1e3)
-            self.held.add(free[0])
 
     # --- rest ---
 
@@ -320,6 +314,35 @@ class _Start:
                 return None
             matrix[:, j] = (moved - rate) / (DIFFERENCE * scale[j])
         return matrix
+
+
+def _held_by(columns: Array, right: Array, lowest: Array) -> Array:
+    """(n,) changes of pressures x ≥ lowest with the least |columns x - right|, and of those the least |x| in units of their effects.
+
+    Pressures that do nothing do not change. The least |x| is found with a small weight, which is left out again where the pressures at
+    their bounds are known.
+    """
+    from scipy.optimize import lsq_linear  # takes a fifth of a second to import
+
+    size = np.linalg.norm(columns, axis=0)
+    working = size > IDLE * max(float(size.max()), 1e-300)
+    out = np.zeros(columns.shape[1])
+    scaled = columns[:, working] / size[working]
+    count = scaled.shape[1]
+    if not count:
+        return out
+    unit = float(np.linalg.norm(right)) or 1.0
+    bound = lowest[working] * size[working] / unit
+    weighted = np.vstack([scaled, WEIGHT * np.eye(count)])
+    x = lsq_linear(weighted, np.concatenate([right / unit, np.zeros(count)]), (bound, np.inf), method="bvls").x
+    inside = x > bound
+    if np.any(inside):
+        at_bounds = scaled[:, ~inside] @ bound[~inside]
+        exact = np.linalg.lstsq(scaled[:, inside], right / unit - at_bounds, rcond=1e-9)[0]
+        if np.all(exact >= bound[inside]):
+            x[inside] = exact
+    out[working] = x * unit / size[working]
+    return out
 
 
 def _has_state(node: Node) -> bool:

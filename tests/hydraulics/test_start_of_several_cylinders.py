@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import nivel
-from circuits import BAR, history
+from circuits import BAR
 from simulating import machine
 
 FAULTS = Path(__file__).parents[1] / "faults"

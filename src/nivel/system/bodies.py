@@ -15,6 +15,8 @@ from nivel.system.tables import Array
 
 # [m] a tenth of a light year: squares and products of longer machines leave the range of numbers
 LARGEST = 1e15
+# A moment of inertia below this share of the largest one of a node that bends is round-off.
+ROUND_OFF = 1e-13
 
 
 def given_poses(machine: MachineRecord) -> Array:
@@ -48,6 +50,53 @@ def machine_size(poses: Array, markers: Markers) -> float:
     return size
 
 
+def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, inertia: Array) -> None:
+    """Refuse bodies whose smallest moment of inertia is nothing but round-off of the largest one, or of mass times the square of the way
+    from the frame to the centre of mass.
+
+    mass : (B,). centre : (B, 3) in the body frame. inertia : (B, 3, 3) about it. Raises ModelError with each body, or with the beam of
+    which it is a node.
+    """
+    if not len(inertia):
+        return
+    moments = np.linalg.eigvalsh(inertia)
+    owners = {name: beam for beam in machine.beams for name in beam.node_names}
+    faults: dict[str, Fault] = {}
+    for k, body in enumerate(machine.bodies):
+        beam, least = owners.get(body.name), float(moments[k, 0] / moments[k, 2])
+        if beam is not None and not least > ROUND_OFF:
+            message = (
+                f"the beam is {beam.line.length:.3g} m long, and too thin for that: of the moments of inertia of its nodes the smallest is "
+                f"{least:.1g} of the largest one, which is round-off. Look for a slip of a unit in `to` or in the section, or write "
+                f"`model: geometrically-exact`"
+            )
+            faults.setdefault(beam.name, Fault("", 0, 0, f"beams.{beam.name}", message))
+        elif beam is None and not least > 0.0:
+            message = f"its moments of inertia are {', '.join(f'{J:.3g}' for J in moments[k])} kg m²; all have to be greater than zero"
+            faults.setdefault(body.name, Fault("", 0, 0, f"bodies.{body.name}", message))
+        elif (about_frame := _about_frame(mass[k], centre[k])) * ROUND_OFF > _across(centre[k], inertia[k]):
+            owner = f"bodies.{body.name}" if beam is None else f"beams.{beam.name}"
+            message = (
+                f"its centre of mass is {np.linalg.norm(centre[k]):.3g} m from its frame: its moment of inertia {moments[k, 0]:.3g} kg m² "
+                f"is round-off beside the {about_frame:.3g} kg m² of its mass there. Look for a slip of a unit in the mass, the inertia or "
+                f"the centre of mass, or put the frame nearer to it"
+            )
+            faults.setdefault(body.name, Fault("", 0, 0, owner, message))
+    if faults:
+        raise ModelError(list(faults.values()))
+
+
+def _about_frame(mass: float, centre: Array) -> float:
+    """Moment of inertia of a point mass about the frame [kg m²]."""
+    return float(mass * (centre @ centre))
+
+
+def _across(centre: Array, inertia: Array) -> float:
+    """The smallest moment of inertia about an axis across the way to the centre of mass [kg m²]."""
+    away = np.linalg.svd(centre[None])[2][1:]
+    return float(np.linalg.eigvalsh(away @ inertia @ away.T)[0])
+
+
 def body_tables(machine: MachineRecord, size: float) -> Bodies:
     """Numbers of all bodies and, behind them, of the ground; the inertia of point masses is that of the machine's size [m]."""
     count = len(machine.bodies)
@@ -59,6 +108,7 @@ def body_tables(machine: MachineRecord, size: float) -> Bodies:
         if body.point_mass:
             # nothing turns a point mass and it turns nothing: any inertia will do
             inertia[k] = mass[k] * size**2 * np.eye(3)
+    _refuse_lost_inertia(machine, mass, centre, inertia)
     whitener = np.array([np.linalg.inv(np.linalg.cholesky(J)) for J in inertia], dtype=np.float64).reshape(count, 3, 3)
     square = np.einsum("bi,bi->b", centre, centre)
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)

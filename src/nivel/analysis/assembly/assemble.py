@@ -9,6 +9,7 @@ import numpy as np
 from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
 from nivel.analysis.assembly.driven_start import half_turns, turn_to_targets
 from nivel.analysis.assembly.equations import MotionEquations, change_between
+from nivel.analysis.assembly.lost_directions import refuse_lost_directions
 from nivel.analysis.assembly.velocities import ROUND_OFF, consistent_velocities, given_velocities, section_of
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
@@ -63,6 +64,7 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     turn_to_targets(machine, motion, t, y)
     close_positions(motion, t, y, wishes)
     _refuse_open_joints(machine, motion, wishes)
+    refuse_lost_directions(machine, motion)
     if faults := list(half_turns(machine, motion, t, y)):
         raise ModelError(faults)
     y, change = consistent_velocities(machine, motion, t, y, wishes)

@@ -90,9 +90,9 @@ def row_lengths(motion: MotionEquations) -> Array:
 
 
 def _in_lengths(motion: MotionEquations) -> Array:
-    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
+    J = motion.jacobian().reshape(motion.system.machine_rows, motion.system.body_count, 6).copy()
     J[:, :, :3] *= motion.system.size
-    return J.reshape(len(J), -1)
+    return J.reshape(len(J), 6 * motion.system.body_count)
 
 
 def dependent_rows(J: Array) -> tuple[list[int], Array]:

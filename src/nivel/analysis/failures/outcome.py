@@ -185,11 +185,9 @@ def _open(stop: Stop) -> Told | None:
 
 def _contradiction(stop: Stop) -> Told | None:
     system, constraints = stop.motion.system, stop.motion.system.record.constraints
-    rows, J = _rows_in_use(stop.motion)
-    its, others = J[rows == stop.number][0], rows != stop.number
-    # the rows that row `number` is a combination of
-    share = np.linalg.lstsq(J[others].T, its, rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
-    repeated = rows[others][np.abs(share) > 1e-6 * np.linalg.norm(its)]
+    repeated = _repeated_by(stop.motion, stop.number)
+    if not len(repeated):
+        return _drift(stop)
     owners = dict.fromkeys(system.row_owner[row] for row in repeated[::-1])  # drivers stand last
     message = (
         f"the constraint {system.rows[stop.number]}, which repeated others at the start, contradicts them now "
@@ -303,6 +301,30 @@ def _not_a_number(stop: Stop) -> Told | None:
         )
     message = f"the state after a step of {stop.step:.3g} s is no longer a number; {_worst(stop.motion)}"
     advice = f"Try a smaller step, for instance --step {stop.step / 10:.3g}; if it stops at the same time, look at the forces near it."
+    return message, advice
+
+
+def _repeated_by(motion: MotionEquations, number: int) -> NDArray[np.int64]:
+    """The rows that row `number` is a combination of; none where it is independent, or no row of a joint."""
+    rows, J = _rows_in_use(motion)
+    its, others = rows == number, rows != number
+    if not np.any(its) or not np.all(np.isfinite(J)):
+        return rows[:0]
+    row = J[its][0]
+    share, left = np.linalg.lstsq(J[others].T, row, rcond=1e-10)[0], 1e-6 * np.linalg.norm(row)
+    if np.linalg.norm(J[others].T @ share - row) > left:
+        return rows[:0]
+    return rows[others][np.abs(share * np.linalg.norm(J[others], axis=1)) > left]
+
+
+def _drift(stop: Stop) -> Told:
+    """Where a row of a redundant machine that repeats no other one opens."""
+    system = stop.motion.system
+    message = (
+        f"{named_row(system, stop.number)} is open by {system.record.constraints.C[stop.number]:.3g} {unit_of(system, stop.number)}: what "
+        f"steps of {stop.step:.3g} s miss of this motion has added up"
+    )
+    advice = f"Try --step {stop.step / 10:.3g}, an integrator of higher order, or --stabilisation direct, which closes all constraints."
     return message, advice
 
 

@@ -101,7 +101,8 @@ def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
     bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}
     rows = [(joint.name, len(composition_of(joint).rows), bodies[joint.name]) for joint in machine.joints]
     for coupling in machine.couplings:
-        named = [resolve(reference, machine.joints)[0] for reference, _ in coupling.terms]
+        terms = zip(coupling.terms, coupling.kinds, strict=True)
+        named = [resolve(reference, machine.joints, kind)[0] for (reference, _), kind in terms]
         rows.append((coupling.name, 1, set().union(*(bodies[name] for name in named))))
     for driver in machine.drivers:
         touched: set[str] = set()

@@ -16,7 +16,7 @@ from nivel.machine.units.quantity import Length, PositiveLength, Scalar
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind
 
 Terms = tuple[tuple[str, float], ...]
-_TWO = Field(description="two joint coordinates, or joints that have one of the kind")
+_TWO = Field(description="two joint coordinates, or joints that have only one")
 
 
 class Gear(Checked):

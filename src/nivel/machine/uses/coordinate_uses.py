@@ -7,7 +7,14 @@ from typing import Any, Final
 
 from nivel.machine.core.index import Index, Place, as_list, as_mapping, elements
 from nivel.machine.core.record import GROUND, Record, entry
-from nivel.machine.joints.joint import COORDINATE_OF, JOINT_KINDS, CoordinateRates, CoordinateValues, held_by
+from nivel.machine.joints.joint import (
+    COORDINATE_OF,
+    JOINT_COORDINATES,
+    JOINT_KINDS,
+    CoordinateRates,
+    CoordinateValues,
+    held_by,
+)
 from nivel.machine.uses.coordinate_reference import Kind, UnknownCoordinateError, find
 
 Faults = Iterator[tuple[Place, str]]
@@ -58,10 +65,16 @@ def _of_coupling(coupling: Any, index: Index, place: Place) -> Faults:
         return
     key, kinds = _COUPLED[type_]
     seen: set[tuple[str, str]] = set()
-    for at, reference in enumerate(as_list(entry(coupling, key))):
+    references = as_list(entry(coupling, key))
+    for at, reference in enumerate(references):
         where = (*place, key, at)
         found = yield from _find(reference, index, kinds[at] if at < len(kinds) else None, where)
         if found is None:
+            continue
+        if "." not in reference and len(JOINT_COORDINATES[index.joints[found[0]]]) > 1:
+            whole = [".".join(found) if k == at else str(each) for k, each in enumerate(references)]
+            count = len(JOINT_COORDINATES[index.joints[found[0]]])
+            yield where, f"joint `{reference}` has {count} coordinates; write `{key}: [{', '.join(whole)}]`"
             continue
         if found in seen:
             yield where, f"the coordinate `{'.'.join(found)}` is coupled with itself; another one was expected"

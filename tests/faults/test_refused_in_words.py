@@ -1,0 +1,243 @@
+"""Machines that are refused in words, with file, line and exit code 2: couplings of joints with several coordinates, points and axes
+without a direction, joints written twice, sizes that numbers cannot hold."""
+
+import itertools
+import shutil
+from contextlib import chdir, suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from nivel.cli import main
+from nivel.errors import ModelError, SolveError
+from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_KINDS
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
+from simulating import hinge, machine, solid
+
+HERE = Path(__file__).parent
+
+
+def command(*arguments, folder):
+    """Exit code and what the command says; a defect is an error of the test."""
+    with chdir(folder):
+        done = CliRunner().invoke(main, list(map(str, arguments)), prog_name="nivel", catch_exceptions=False)
+    return done.exit_code, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("file", "place", "words"),
+    [
+        ("gear-planar", "9:28  couplings.c.joints.0", "write `joints: [p.angle, q]`"),
+        ("squeezer-distance", "106:33  joints.P4.markers", "or write `type: spherical`"),
+        ("long-beam", "3:6  beams.b", "a slip of a unit in `to` or in the section"),
+    ],
+)
+def test_files_are_refused_at_their_line(file, place, words, tmp_path):
+    code, said = command("check", HERE / f"{file}.yaml", folder=tmp_path)
+    assert code == 2
+    assert f"{file}.yaml:{place}" in said
+    assert words in said
+
+
+def test_a_failure_of_a_joint_written_twice_is_explained(tmp_path):
+    shutil.copy(HERE / "twice.yaml", tmp_path)
+    code, said = command("run", "twice.yaml", folder=tmp_path)
+    assert code == 3
+    assert (
+        "top.euler_parameters is open by 0.001" in said
+    )  # unit length to which steps of Euler's method do not hold them
+    assert "--stabilisation direct" in said
+    code, said = command("run", "twice.yaml", "--stabilisation", "direct", "--force", folder=tmp_path)
+    assert code == 0
+
+
+def joint(kind):
+    """A joint of a kind between the ground and the body `a`."""
+    keys = {
+        "point": [0.1, 0.2, 0.3],
+        "points": [[0, 0, 0], [0.4, 0.1, 0.2]],
+        "axis": [0, 0, 1],
+        "axes": [[0, 0, 1], [0, 1, 0]] if kind == "rolling" else [[1, 0, 0], [0, 1, 0]],
+        "pitch": 0.01,
+        "locked": ["x", "y", "rx"],
+        "radius": 0.3,
+    }
+    facts = JOINT_KINDS[kind]
+    return {"type": kind, "bodies": ["ground", "a"], **{key: keys[key] for key in (*facts.place, *facts.size)}}
+
+
+PLACED = [kind for kind, facts in JOINT_KINDS.items() if not facts.rail]
+COUPLINGS = {
+    "gear": {"type": "gear", "ratio": 2},
+    "belt": {"type": "belt", "radii": [1, 2]},
+    "rack": {"type": "rack", "radius": 0.1},
+}
+
+
+def coupled(kind, coupling, reference):
+    joints = [reference, "q"]
+    return {
+        "bodies": {"a": solid(), "b": solid(position=[1, 0, 0])},
+        "joints": {"j": joint(kind), "q": hinge("ground", "b", (1, 0, 0))},
+        "couplings": {"c": {**COUPLINGS[coupling], "joints": joints[::-1] if coupling == "rack" else joints}},
+    }
+
+
+@pytest.mark.parametrize(("kind", "coupling"), list(itertools.product(PLACED, COUPLINGS)))
+def test_a_coupling_takes_a_joint_with_one_coordinate_of_its_kind(kind, coupling):
+    names = JOINT_COORDINATES[kind]
+    held = JOINT_KINDS[kind].held
+    right = [COORDINATE_KINDS[name] for name in names if name not in held] == [
+        "length" if coupling == "rack" else "angle"
+    ]
+    if right:
+        machine(coupled(kind, coupling, "j")).check()
+        return
+    with pytest.raises(ModelError) as caught:
+        machine(coupled(kind, coupling, "j")).check()
+    assert all(fault.path.startswith("couplings.c.joints") and fault.line for fault in caught.value.faults)
+
+
+@pytest.mark.parametrize(
+    ("kind", "coupling"), [("cylindrical", "gear"), ("planar", "belt"), ("screw", "gear"), ("planar", "gear")]
+)
+def test_the_line_that_a_refusal_proposes_is_right(kind, coupling):
+    with pytest.raises(ModelError, match=r"write `joints: \[j.angle, q\]`"):
+        machine(coupled(kind, coupling, "j"))
+    sections = coupled(kind, coupling, "j.angle")
+    sections["bodies"]["b"]["angular_velocity"] = [0, 0, 1]
+    result = machine(sections).simulate(duration=0.1, step=1e-3, verify=False)
+    first, second = (float(np.ravel(result.array(f"{name}.angular_velocity.z"))[-1]) for name in "ab")
+    # gear: angle + 2 angle is held; belt: angle - 2 angle
+    assert first == pytest.approx((2.0 if coupling == "belt" else -2.0) * second, rel=1e-9)
+    assert second
+
+
+WITH_LINE = ("distance", "spherical-spherical", "revolute-spherical")
+
+
+def two_markers(kind, apart, **more):
+    """A joint of a kind between two markers that are `apart` [m] along x, their axes z."""
+    return {
+        "bodies": {"a": solid(position=[1, 0, 0]), "b": solid(position=[2, 0, 0])},
+        "joints": {
+            "e": {
+                "type": kind,
+                "markers": [
+                    {"body": "a", "position": [0.3, 0.1, 0.2]},
+                    {"body": "b", "position": [-0.7 + apart, 0.1, 0.2]},
+                ],
+                **more,
+            }
+        },
+    }
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
+@pytest.mark.parametrize("apart", [0.0, 1e-16, 1e-10])
+@pytest.mark.parametrize("kind", WITH_LINE)
+def test_a_joint_along_a_line_needs_two_places(kind, apart, coordinates):
+    sections = {**two_markers(kind, apart), "simulation": {"coordinates": coordinates}}
+    with pytest.raises(ModelError, match="has no direction: move one of them, or write `type: spherical`") as caught:
+        machine(sections).check()
+    assert caught.value.faults[0].path == "joints.e.markers"
+    machine({**sections, **two_markers(kind, 1e-3)}).check()  # a millimetre is a line
+
+
+def test_points_that_coincide_are_opened_where_that_is_asked_for():
+    """A rod of 0.7 m whose ends are drawn at one place: closed from there, or refused in words."""
+    with pytest.raises(ModelError, match=r"largest_gap: 0\.77 m"):
+        machine(two_markers("distance", 0.0, distance=0.7)).check()
+    with pytest.raises(ModelError, match="cannot be closed: a gap of 0\\.7 m is left"):
+        machine({**two_markers("distance", 0.0, distance=0.7), "assembly": {"largest_gap": 1}}).check()
+
+
+def test_axes_of_a_skew_universal_joint_must_not_be_parallel():
+    with pytest.raises(
+        ModelError, match="are parallel here, and a skew-universal joint needs them at an angle"
+    ) as caught:
+        machine(two_markers("skew-universal", 0.0)).check()
+    assert caught.value.faults[0].path == "joints.e.markers"
+
+
+CYLINDER = {"type": "cylinder", "piston": 0.05, "rod": 0.03, "stroke": 1, "retracted_length": 0.5}
+TELESCOPE = {"type": "telescopic-cylinder", "stages": [0.1, 0.08], "strokes": [0.5, 0.5], "retracted_length": 0.5}
+
+
+@pytest.mark.parametrize("joints", [{}, {"pin": {"type": "spherical", "bodies": ["ground", "a"], "point": [1, 0, 0]}}])
+@pytest.mark.parametrize("component", [CYLINDER, TELESCOPE])
+def test_a_cylinder_between_markers_at_one_place_is_refused(component, joints):
+    ends = [{"body": "a", "position": [0.3, 0.1, 0.2]}, {"body": "b", "position": [-0.7, 0.1, 0.2]}]
+    bodies = two_markers("distance", 0.0)["bodies"]
+    with pytest.raises(ModelError, match="between its ends at the start") as caught:
+        machine({"bodies": bodies, "joints": joints, "hydraulics": {"e": {**component, "markers": ends}}}).check()
+    assert caught.value.faults[0].path == "hydraulics.e.retracted_length"
+
+
+METHODS = [
+    {"coordinates": "absolute"},
+    {"coordinates": "relative"},
+    {"coordinates": "independent"},
+    {"formulation": "lagrange"},
+    {"formulation": "augmented-lagrangian"},
+    {"integrator": "euler", "stabilisation": "none"},
+    {"formulation": "lagrange", "integrator": "euler", "stabilisation": "none"},
+]
+
+
+@pytest.mark.parametrize("kind", PLACED)
+def test_a_joint_written_twice_runs_or_says_why_not(kind):
+    """The same joint twice changes no motion; where fixed steps drift, the reason is told."""
+    spinning = {"a": solid(1.0, (1.0, 1.2, 1.4), angular_velocity_body=[0, 20, 150], velocity=[1, 2, 3])}
+    for settings in METHODS:
+        sections = {"bodies": spinning, "joints": {"j": joint(kind), "k": joint(kind)}}
+        with suppress(ModelError, SolveError):  # which are words
+            machine({**sections, "simulation": settings}).simulate(duration=0.01, step=1e-3, verify=False)
+
+
+SIZES = [1e9, 1e15, 1e30, 1e99, 1e-30, 1e-99]
+SECTION = {"type": "rectangle", "width": 0.01, "height": 0.01}
+STEEL = {"youngs_modulus": 2.07e11, "poisson_ratio": 0.3, "density": 7801}
+
+
+@pytest.mark.parametrize("model", ["geometrically-exact", "segments", "ancf-cable", "ancf-beam"])
+def test_a_beam_of_any_length_is_computed_or_refused_in_words(model):
+    for length in SIZES:
+        beam = {
+            "from": [0, 0, 0],
+            "to": [0, 0, length],
+            "section": SECTION,
+            "material": STEEL,
+            "elements": 4,
+            "model": model,
+        }
+        with suppress(ModelError):
+            machine({"beams": {"b": beam}}).check()
+
+
+@pytest.mark.parametrize("model", ["segments", "ancf-cable", "ancf-beam"])
+def test_a_slender_beam_of_a_kilometre_is_one(model):
+    beam = {"from": [0, 0, 0], "to": [0, 0, 1e3], "section": SECTION, "material": STEEL, "elements": 4, "model": model}
+    assert machine({"beams": {"b": beam}}).check().beams[0]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        {"mass": 1, "inertia": [1, 1, 1], "centre_of_mass": [0, 0, 1e30]},
+        {"mass": 1e30, "inertia": [0.03, 0.03, 0.05], "centre_of_mass": [0, 0.05, 0]},
+        {"mass": 1, "inertia": [1e-20, 1e-20, 1e-20], "centre_of_mass": [1, 0, 0]},
+    ],
+)
+def test_an_inertia_that_is_round_off_beside_the_mass_is_refused(body):
+    with pytest.raises(ModelError, match="is round-off beside") as caught:
+        machine({"bodies": {"a": body}}).check()
+    assert caught.value.faults[0].path == "bodies.a"
+
+
+def test_a_thin_rod_with_its_frame_at_its_end_is_a_body():
+    """Its small moment of inertia is about the way to its centre of mass, and nothing is lost."""
+    rod = {"mass": 1, "inertia": [1e-12, 1 / 12, 1 / 12], "centre_of_mass": [0.5, 0, 0]}
+    assert machine({"bodies": {"a": rod}}).check().bodies[0].principal_inertia[0] == pytest.approx(1e-12, rel=1e-3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from difflib import get_close_matches
 from importlib import import_module
@@ -43,6 +44,9 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
 }
 
 
+ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
 class LazyGroup(click.Group):
     """A group whose commands are the `command` of the modules in COMMANDS. What they raise is told in failures.py."""
 
@@ -51,7 +55,12 @@ class LazyGroup(click.Group):
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         place = COMMANDS.get(cmd_name)
-        return None if place is None else import_module(place.module).command
+        if place is None:
+            return None
+        # Matrices here are small: threads of linear algebra wait for each other, on a busy machine for minutes. Read as NumPy is loaded.
+        for variable in ONE_THREAD:
+            os.environ.setdefault(variable, "1")
+        return import_module(place.module).command
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

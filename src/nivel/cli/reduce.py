@@ -59,9 +59,6 @@ def command(
 
     Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
-    # more threads make the small dense products of sparse factors slower; this must be set before NumPy is loaded
-    for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ.setdefault(variable, "1")
     from nivel.errors import ModelError
     from nivel.files.sources import read_text
     from nivel.flexible.body.body_file import write_body

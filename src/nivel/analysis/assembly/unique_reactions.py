@@ -24,6 +24,9 @@ from nivel.system.system import Array
 UNCHANGED: Final = 1e-6
 # ways of leaving rows out that are looked at, and the least singular value of one that leaves the others well apart
 MOST_WAYS: Final = 2000
+# of more rows than this that are too many, fewer ways are looked at, so that the time does not grow
+MANY_ROWS: Final = 20
+FEWEST_WAYS: Final = 20
 APART: Final = 0.02
 COMPONENTS: Final = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 
@@ -97,7 +100,8 @@ def _multipliers_by_way(motion: MotionEquations, free: Array) -> Array | None:
         ways = np.array(list(combinations(loose.tolist(), count)))
     else:
         rng = np.random.default_rng(0)
-        ways = np.array([rng.choice(loose, count, replace=False) for _ in range(MOST_WAYS)])
+        tried = max(FEWEST_WAYS, int(MOST_WAYS * min(1.0, (MANY_ROWS / count) ** 3)))
+        ways = np.array([rng.choice(loose, count, replace=False) for _ in range(tried)])
     apart = np.linalg.svd(basis[ways], compute_uv=False)[:, -1]
     ways = ways[apart > APART]
     if not len(ways):

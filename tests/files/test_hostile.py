@@ -1,6 +1,7 @@
 """Files that are none, and words that would harm: a sentence, at once."""
 
 import os
+import time
 
 import pytest
 
@@ -83,3 +84,25 @@ def test_an_instance_that_moves_nothing_is_read(tmp_path):
         path.write_text(FLAT % lines)
         with pytest.raises((FormatError, ModelError), match=message):
             read_mesh(path)
+
+
+FREE = "format: 1\nbodies:\n  a: &a {mass: 1, inertia: [1, 1, 1]}\n"
+LONG = {
+    "a list of 100 MB": lambda: f"{FREE}sensors: [{'1,' * 50_000_000}1]\n",
+    "a million bodies": lambda: FREE + "".join(f"  b{k}: *a\n" for k in range(1_000_000)),
+    "a table of a million points": lambda: (
+        f"{FREE}functions: {{f: {{times: [{', '.join(map(str, range(1_000_000)))}]}}}}\n"
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", LONG)
+def test_endless_files_are_refused_before_all_of_them_is_read(kind):
+    text = LONG[kind]()
+    start = time.process_time()
+    with pytest.raises(
+        ModelError, match="the file has more than 200000 values; long tables belong in a CSV file"
+    ) as caught:
+        parse_machine(text, "machine.yaml")
+    assert time.process_time() - start < 8.0
+    assert caught.value.faults[0].line

@@ -42,6 +42,30 @@ def test_damage_is_found(home, damage):
     assert not path.exists()
 
 
+@pytest.mark.parametrize("thing", ["folder", "full folder", "pipe", "link to a device", "link to nothing"])
+def test_what_is_no_file_in_the_place_of_one_is_left_alone(home, thing):
+    """Reading /dev/zero or a pipe would never end, and a folder cannot be replaced: the file gets another name."""
+    path = store.path_of("entry", "text")
+    match thing:
+        case "folder":
+            path.mkdir()
+        case "full folder":
+            (path / "inside").mkdir(parents=True)
+        case "pipe":
+            os.mkfifo(path)
+        case "link to a device":
+            path.symlink_to("/dev/zero")
+        case "link to nothing":
+            path.symlink_to(home / "nothing")
+    found = store.path_of("entry", "text")
+    assert store.read(path) is None
+    assert store.read(found) is None
+    store.write(found, b"machine code")
+    assert store.path_of("entry", "text") == found
+    assert store.read(found) == b"machine code"
+    assert thing == "link to nothing" or path != found
+
+
 def test_folder_of_others_is_not_used(home):
     home.mkdir(parents=True)
     home.chmod(0o777)

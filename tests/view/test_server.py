@@ -68,6 +68,13 @@ def test_there_is_nothing_else(playing, path):
     assert get(playing, path)[0].status == 404
 
 
+@pytest.mark.parametrize("path", ["//[", "//[::1", "//]", "//[x]/stream", "///[/stream"])
+def test_an_address_that_is_none_is_refused_without_an_error(playing, path, caplog):
+    assert get(playing, path)[0].status in (400, 404)
+    assert not [record for record in caplog.records if record.exc_info]
+    assert get(playing)[0].status == 200
+
+
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "OPTIONS", "HEAD"])
 def test_nothing_but_get_is_answered(playing, method):
     answer, _ = get(playing, method=method)

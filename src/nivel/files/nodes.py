@@ -15,6 +15,11 @@ import yaml
 from yaml import events
 
 DEEPEST: Final = 60
+MOST: Final = 200_000  # values of a file
+TOO_MANY: Final = (
+    f"the file has more than {MOST} values; long tables belong in a CSV file, which a machine file names: "
+    "`{csv: cycle.csv, column: boom}`"
+)
 TOO_DEEP: Final = "this is nested too deeply for a machine file"
 
 
@@ -88,6 +93,7 @@ class _Composer:
     def __init__(self, stream: Iterator[Any]) -> None:
         self.stream = stream
         self.anchors: dict[str, Node] = {}
+        self.count = 0
 
     def document(self) -> Node | None:
         next(self.stream)  # the start of the stream
@@ -116,13 +122,20 @@ class _Composer:
             sequence = Sequence(place, event.tag, bool(event.flow_style))
             self.anchored(event, sequence)
             while not isinstance(entry := next(self.stream), events.SequenceEndEvent):
-                sequence.entries.append(self.node(entry, depth + 1))
+                sequence.entries.append(self.entry(entry, depth + 1))
             return sequence
         mapping = Mapping(place, event.tag, bool(event.flow_style))
         self.anchored(event, mapping)
         while not isinstance(key := next(self.stream), events.MappingEndEvent):
-            mapping.pairs.append((self.node(key, depth + 1), self.node(next(self.stream), depth + 1)))
+            mapping.pairs.append((self.node(key, depth + 1), self.entry(next(self.stream), depth + 1)))
         return mapping
+
+    def entry(self, event: Any, depth: int) -> Node:
+        """A value of a list or a mapping, of which there are not too many: a file is refused before all of it is read."""
+        self.count += 1
+        if self.count > MOST:
+            raise NotYamlError(TOO_MANY, _place(event))
+        return self.node(event, depth)
 
     def anchored(self, event: Any, node: Node) -> Node:
         if event.anchor is not None:

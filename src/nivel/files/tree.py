@@ -15,7 +15,7 @@ from typing import Any, Final
 from nivel.errors import Fault, ModelError
 from nivel.files import nodes
 from nivel.files.commas import cut_at_comma
-from nivel.files.nodes import DEEPEST, TOO_DEEP, Node, NotYamlError, Place, Scalar, Sequence, compose
+from nivel.files.nodes import DEEPEST, MOST, TOO_DEEP, TOO_MANY, Node, NotYamlError, Place, Scalar, Sequence, compose
 
 Path = tuple[str | int, ...]
 
@@ -25,7 +25,6 @@ INTEGER: Final = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 NUMBER: Final = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 NOT_FINITE: Final = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 
-_MOST_NODES = 200_000
 _PREFIX = "tag:yaml.org,2002:"
 
 
@@ -149,8 +148,8 @@ class _Reader:
 
     def read(self, node: Node, path: Path) -> Any:
         self.count += 1
-        if self.count > _MOST_NODES:
-            raise ModelError(self.tree.fault(path, f"the file has more than {_MOST_NODES} entries"))
+        if self.count > MOST:  # through aliases
+            raise ModelError(self.tree.fault(path, TOO_MANY))
         if len(path) > DEEPEST:  # through aliases of aliases
             raise ModelError(self.tree.fault(path[:3], TOO_DEEP))
         if node.tag is not None:

@@ -2,8 +2,8 @@
 
 A file is named by its entry and by a digest of everything the machine code depends on, so a changed source, compiler or processor
 finds no file and nothing is ever stale. It is written beside its place and moved there, so it is whole or absent; its first bytes are
-a digest of the rest, so a damaged file is found out and compiled again. Files stand in a folder that only the user can write; where
-there is none, in a new folder for this process.
+a digest of the rest, so a damaged file is found out and compiled again. Where a folder or a device has its name, it gets another one.
+Files stand in a folder that only the user can write; where there is none, in a new folder for this process.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 DIGEST = 32  # bytes
+MOST_BESIDE = 10  # names that are tried where folders or devices stand in the place of files
 
 
 @cache
@@ -51,11 +52,26 @@ def open_to_others(path: Path) -> bool:
 def path_of(symbol: str, *depends_on: str) -> Path:
     """Where the object file with this symbol is kept, for the text it is made of."""
     digest = hashlib.sha256("\0".join((symbol, *depends_on, *compiler())).encode()).hexdigest()
-    return folder() / f"{symbol[-80:]}-{digest[:24]}.o"
+    path = folder() / f"{symbol[-80:]}-{digest[:24]}.o"
+    for number in range(1, MOST_BESIDE):
+        if not _is_occupied(path):
+            break
+        path = path.with_name(f"{symbol[-80:]}-{digest[:24]}-{number}.o")
+    return path
+
+
+def _is_occupied(path: Path) -> bool:
+    """Whether something stands there that is no file and cannot be replaced by one, such as a folder, or must not be read, as a device."""
+    try:
+        return not stat.S_ISREG(path.stat().st_mode)
+    except OSError:  # nothing, or a link that leads nowhere, which is replaced
+        return False
 
 
 def read(path: Path) -> bytes | None:
     """The object file; None where there is none, or a damaged one, which is removed with a warning."""
+    if _is_occupied(path):
+        return None
     try:
         content = path.read_bytes()
     except OSError:

@@ -90,7 +90,10 @@ class Viewing:
 
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """The page, or a refusal; None lets a page in."""
-        parts = urlsplit(request.path)
+        try:
+            parts = urlsplit(request.path)
+        except ValueError:  # `//[` begins an address that is none
+            return _respond(connection, HTTPStatus.BAD_REQUEST, "This is no address.")
         # websockets before 16 refuses all but GET by itself, and does not say which it was
         if getattr(request, "method", "GET") != "GET":
             return _respond(connection, HTTPStatus.METHOD_NOT_ALLOWED, "Only GET is answered.")

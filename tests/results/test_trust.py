@@ -9,8 +9,8 @@ import synthetic_run as pendulum
 from nivel.analysis.trust.checks.accuracy import MARGIN, Accuracy, Verified, error_from_finer
 from nivel.analysis.trust.checks.neglected import Cost
 from nivel.analysis.trust.checks.redundancy import Redundancy
-from nivel.analysis.trust.report import blindness, thresholds_of
-from nivel.analysis.trust.subject import Scales
+from nivel.analysis.trust.report import assess, blindness, thresholds_of
+from nivel.analysis.trust.subject import Scales, Subject
 from nivel.results import Memory
 from nivel.results.trust import Item, Trust
 
@@ -204,6 +204,12 @@ def test_json_has_the_agreed_keys():
     agreed = "energy_error_max energy_scale constraint_violation_max constraint_violation_row constraint_violation_time"
     agreed += " constraint_rate_violation_max degrees_of_freedom redundant_rows non_unique_joints accuracy_estimate"
     assert set(agreed.split()) <= set(data)
+
+
+def test_an_analysis_without_frames_has_a_report_too():
+    trust = assess(Subject(outcome="failed", failure="nothing to look at"))
+    assert (trust.verdict, str(trust)) == ("red", "  red  Outcome: failed: nothing to look at")
+    assert Trust.from_json(trust.to_json()) == trust
 
 
 # keys of version 0.2.0, and of those before

@@ -62,7 +62,7 @@ def test_the_machine_of_these_tests_is_right():
     ("given", "fault"),
     [
         (
-            {"couplings": ({"name": "hinge", "type": "gear", "joints": ("hinge", "slide"), "ratio": 1},)},
+            {"couplings": ({"name": "hinge", "type": "gear", "joints": ("hinge", "slide.angle"), "ratio": 1},)},
             "couplings.hinge.name: the name `hinge` stands in joints; joints, couplings and drivers share their names",
         ),
         (
@@ -76,7 +76,7 @@ def test_the_machine_of_these_tests_is_right():
             "events.e.when: there is no joint, input, state, block, component, sensor, marker or body `hing`; did you mean `hinge.angle`?",
         ),
         (
-            {"couplings": ({"name": "g", "type": "gear", "joints": ("hing", "slide"), "ratio": 1},)},
+            {"couplings": ({"name": "g", "type": "gear", "joints": ("hing", "slide.angle"), "ratio": 1},)},
             "couplings.g.joints.0: there is no joint `hing`; did you mean `hinge`?",
         ),
         (

@@ -11,12 +11,27 @@ settings.register_profile("nivel", deadline=None, derandomize=True)
 settings.load_profile("nivel")
 
 
-def pytest_collection_modifyitems(items):
-    """Checks of the whole code come first: they take longest."""
+PLAIN = os.environ.get("NUMBA_DISABLE_JIT") == "1"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Checks of the whole code come first: they take longest. What is marked `plain` runs so, and compiled in the full tests."""
     items.sort(key=lambda item: item.get_closest_marker("house") is None)
+    if not PLAIN:
+        for item in filter(is_plain, items):
+            item.add_marker(pytest.mark.full)
+        return
+    others = [item for item in items if not is_plain(item) and "interpreted" not in item.path.parts]
+    config.hook.pytest_deselected(items=others)
+    items[:] = [item for item in items if item not in set(others)]
 
 
-if os.environ.get("NUMBA_DISABLE_JIT") != "1":  # kernels as plain Python are imported by `tests/interpreted/plain.py`
+def is_plain(item):
+    return item.get_closest_marker("plain") and not item.get_closest_marker("compiles")
+
+
+if not PLAIN:  # kernels as plain Python are imported by `tests/interpreted/plain.py`
     from nivel.api import Machine
 
     # a second run is made by tests of it alone, which say `verify=True`: all others would take twice their time
@@ -36,12 +51,15 @@ def rng():
 if os.environ.get("NIVEL_TESTS_ARE_COMPILED") == "1":
     from compiling import fail_where_it_compiles
 
+    def may_compile(item):
+        return item.get_closest_marker("compiles") or item.get_closest_marker("plain")
+
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_setup(item):
-        with fail_where_it_compiles(allowed=item.get_closest_marker("compiles")):
+        with fail_where_it_compiles(allowed=may_compile(item)):
             return (yield)
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_call(item):
-        with fail_where_it_compiles(allowed=item.get_closest_marker("compiles")):
+        with fail_where_it_compiles(allowed=may_compile(item)):
             return (yield)

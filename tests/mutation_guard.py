@@ -25,6 +25,7 @@ from pathlib import Path
 import mutations
 from nivel.native import store
 from spoilt_lines import NAMED
+from test_house import PLAIN
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "src" / "nivel"
@@ -179,7 +180,7 @@ def check(case):
         lane = BY_DEFAULT
         by = noticed(source, ["-m", "not full", *files])
         if not by:
-            by = noticed(source, [str(ROOT / "tests" / "interpreted")], NUMBA_DISABLE_JIT="1")
+            by = noticed(source, PLAIN, NUMBA_DISABLE_JIT="1")
         if not by:
             lane, by = BY_FULL, noticed(source, ["-m", "full", *files], NIVEL_TESTS_FULL="1")
     return lane if by else NOT_AT_ALL, by, time.perf_counter() - begin

@@ -10,14 +10,19 @@ from pathlib import Path
 
 import pytest
 
+from lanes import FULL
+
 ROOT = Path(__file__).parent.parent
 BIN = Path(sys.executable).parent
+# kernels as plain Python: their own tests, and those that are marked `plain`
+MARKED = sorted(
+    path for path in (ROOT / "tests").rglob("test_*.py") if "mark.plain" in path.read_text(encoding="utf-8")
+)
+PLAIN = ["tests/interpreted", *map(str, MARKED), *([] if FULL else ["-m", "not full"])]
+PYTEST = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "no:seconds"]
 # the longest first, so that it does not end alone; two processes of pytest share two processors with nothing else
 CHECKS = {
-    "kernels as plain Python": (
-        [sys.executable, "-m", "pytest", "-q", "tests/interpreted", "-p", "no:cacheprovider", "-p", "no:seconds"],
-        {"NUMBA_DISABLE_JIT": "1"},
-    ),
+    "kernels as plain Python": ([*PYTEST, *PLAIN], {"NUMBA_DISABLE_JIT": "1"}),
     "import layers": ([str(BIN / "lint-imports")], {}),
 }
 

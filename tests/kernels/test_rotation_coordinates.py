@@ -14,7 +14,7 @@ from nivel.kernels.algebra.rotation import product, rotation_matrix
 from nivel.kernels.algebra.rotation_vector import coefficients
 from nivel.kernels.algebra.spatial import solve
 
-pytestmark = pytest.mark.compiles
+pytestmark = pytest.mark.plain
 
 H = 1e-30
 SCIPY = {euler_angles: lambda phi: Rotation.from_euler("ZXZ", phi), rotation_vector: Rotation.from_rotvec}

@@ -8,7 +8,7 @@ from nivel.kernels.algebra.sparse import DEPENDENT, factorise, solve
 from nivel.kernels.record.record import Saddle
 from nivel.system.elimination.elimination import plan
 
-pytestmark = pytest.mark.compiles
+pytestmark = pytest.mark.plain
 
 
 def random_rows(rng, bodies, joints, rows_each):

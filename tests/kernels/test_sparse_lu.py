@@ -11,7 +11,7 @@ from nivel.native.with_numba.kinds import record_type
 from nivel.system.elimination.factor_plan import plan_factor
 from saddle_points import chain, entries, linkage, matrix, random_linkage, ring, solved, sparse, star
 
-pytestmark = pytest.mark.compiles
+pytestmark = pytest.mark.plain
 
 DTYPES = [float, complex]
 
@@ -127,6 +127,7 @@ def test_more_rows_than_motions_are_refused(rng):
     assert 6 <= failed < 13
 
 
+@pytest.mark.compiles
 @pytest.mark.parametrize("number", [types.float64, types.complex128], ids=str)
 def test_kernels_compile_for_part_of_a_record(number):
     array = types.Array(number, 1, "C")

@@ -55,7 +55,7 @@ def complex_rows(motion, q, velocity, angular_velocity_b):
         kernel = rolling if record.coordinates.what[k, 0] >= CONTACT else measure
         found = kernel(bodies, markers, record.coordinates, k)
         record.coordinates.value[k], record.coordinates.rate[k], record.coordinates.bias[k] = found
-    combine.py_func(None, rows, record.coordinates, record.friction, 0.0)
+    getattr(combine, "py_func", combine)(None, rows, record.coordinates, record.friction, 0.0)
     return rows.C, rows.Cdot
 
 
@@ -66,7 +66,7 @@ def aside(motion, state, rng):
     return q, rng.uniform(-2, 2, (count, 3)), rng.uniform(-3, 3, (count, 3))
 
 
-@pytest.mark.compiles
+@pytest.mark.plain
 @KINDS
 @GROUND
 def test_jacobian_is_the_complex_step_derivative(joint, rng):
@@ -85,6 +85,7 @@ def test_jacobian_is_the_complex_step_derivative(joint, rng):
         np.testing.assert_allclose(J @ direction, C.imag / H, atol=1e-11)
 
 
+@pytest.mark.plain
 @KINDS
 @GROUND
 def test_rates_and_acceleration_term_are_derivatives_along_a_motion(joint, rng):

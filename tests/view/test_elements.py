@@ -1,6 +1,7 @@
 """Everything that a machine has is in the list and in the picture: forces at joints, drivers, gears, belts, racks; and beams."""
 
 import json
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -181,8 +182,13 @@ def test_belts_run_along_tangents(browser, result, tmp_path):
 # --- one solid through the frames of bodies ---
 
 
-def shown(browser, smooth):
-    """Vertices (n, 3) and normals of the beam as the page draws it."""
+@pytest.fixture(scope="module")
+def shown(browser):
+    """Vertices (n, 3) and normals of the beam as the page draws it, smooth or not."""
+    return cache(lambda smooth: sweep_of_page(browser, smooth))
+
+
+def sweep_of_page(browser, smooth):
     block = Block()
     live = Live(beam(smooth=smooth), block)
     live.show(0.0, *arc())
@@ -206,8 +212,8 @@ def rings(vertices):
     return vertices[: len(vertices) - 2 * 8].reshape(-1, 16, 3)
 
 
-def test_a_swept_section_goes_through_its_frames_and_bends_between_them(browser):
-    vertices, normals = shown(browser, smooth=True)
+def test_a_swept_section_goes_through_its_frames_and_bends_between_them(shown):
+    vertices, normals = shown(True)
     shape = rings(vertices)
     steps = (len(shape) - 1) // (NODES - 1)
     assert steps >= 4
@@ -233,16 +239,16 @@ def test_a_swept_section_goes_through_its_frames_and_bends_between_them(browser)
     assert (away[:, 8:] < 0).all()
 
 
-def test_a_straight_sweep_has_its_corners_at_the_frames(browser):
-    shape = rings(shown(browser, smooth=False)[0])
+def test_a_straight_sweep_has_its_corners_at_the_frames(shown):
+    shape = rings(shown(False)[0])
     assert len(shape) == NODES
     np.testing.assert_allclose(shape[:, :8].mean(axis=1), arc()[0][:NODES], atol=1e-6)
 
 
 @pytest.mark.parametrize("smooth", [True, False])
-def test_the_report_draws_the_same_sweep_as_the_page(browser, smooth):
+def test_the_report_draws_the_same_sweep_as_the_page(shown, smooth):
     """Two programs in two languages; the page's rings are finer by a factor, or the same where nothing bends."""
-    shape = rings(shown(browser, smooth)[0])
+    shape = rings(shown(smooth)[0])
     (record,) = beam(smooth=smooth).sweeps
     names = [f"boom.{k + 1}" for k in range(NODES)]
     position, orientation = arc()

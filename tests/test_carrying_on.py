@@ -81,7 +81,7 @@ def test_options_of_the_commands_are_taken():
     for program, *options in (
         ("packaging/build_wheel.py", "folder", "--machine"),
         ("packaging/commit_message.py", "--range"),
-        ("tests/mutation_guard.py", "--first", "--count"),
+        ("tests/mutation_guard.py", "--seed", "--first", "--count", "--list", "--named"),
         ("tests/fuzz.py", "--full"),
     ):
         text = (ROOT / program).read_text(encoding="utf-8")

@@ -241,21 +241,23 @@ def test_keys_of_python_functions_are_described():
 def test_joint_table_is_that_of_the_program(kind):
     (row,) = [cells for cells in rows(section("Joints")) if cells[0] == f"`{kind}`" and len(cells) == 5]
     _, _, free, constraints, coordinates = row
-    assert int(free) == JOINTS[kind].free
-    assert tuple(code(constraints)) == JOINTS[kind].rows
-    assert code(coordinates) == [coordinate.name for coordinate in JOINTS[kind].coordinates]
+    assert int(free) == JOINTS[kind].composition.free
+    assert tuple(code(constraints)) == JOINTS[kind].composition.rows
+    assert code(coordinates) == [coordinate.name for coordinate in JOINTS[kind].composition.coordinates]
 
 
 def test_every_kind_of_row_is_described():
     described = first_column("Joints")
-    kinds = {re.sub(r"[xyz]+$", "", row) for kind in JOINTS.values() for row in kind.rows if "." in row}
+    kinds = {re.sub(r"[xyz]+$", "", row) for kind in JOINTS.values() for row in kind.composition.rows if "." in row}
     assert kinds <= {re.sub(r"[xyz]+$", "", word) for word in described}
-    assert {row for kind in JOINTS.values() for row in kind.rows if "." not in row} <= described
+    assert {row for kind in JOINTS.values() for row in kind.composition.rows if "." not in row} <= described
 
 
 def test_every_joint_coordinate_has_its_zero_and_direction():
     described = {row[0] for row in rows(section("Joint coordinates"))}
-    assert {f"`{each.name}` [{each.units}]" for kind in JOINTS.values() for each in kind.coordinates} <= described
+    assert {
+        f"`{each.name}` [{each.units}]" for kind in JOINTS.values() for each in kind.composition.coordinates
+    } <= described
 
 
 @pytest.mark.parametrize("key", SimulationSettings.model_fields)

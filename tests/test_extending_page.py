@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.special import ellipj
 
 import nivel
 from nivel.looks.circuit.drawing import circuit_diagram
@@ -22,10 +23,12 @@ from nivel.machine import MachineRecord
 from nivel.machine.forces import FORCES as WORDS
 from nivel.machine.hydraulics import COMPONENT_OF, Volume
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_WORDS
+from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS, Joint
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS, register_component
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import volume_nodes
+from nivel.system.joints.joints import JOINTS, register_joint
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
@@ -57,6 +60,13 @@ def cart(folder):
     # other tests speak of the package's own forces
     WORDS.remove(FORCES.pop("maxwell").words)
     MachineRecord.model_rebuild(force=True)
+
+
+def withdraw_words(word):
+    """Let no machine have a type of joint any longer."""
+    del JOINT_WORDS[word], JOINT_COORDINATES[word]
+    Joint.model_fields["type"].annotation = Literal[*JOINT_WORDS]
+    Joint.model_rebuild(force=True)
 
 
 def withdraw_component(word):
@@ -109,6 +119,82 @@ def test_a_word_is_taken_once(cart):
         importlib.import_module("maxwell").register_force(
             sys.modules["maxwell"].ForceKind(sys.modules["maxwell"].Maxwell, None, ())
         )
+
+
+@pytest.fixture(scope="module")
+def seat(folder):
+    """The same with the joint of the page."""
+    importlib.import_module("parallel_cranks")
+    yield nivel.load(folder / "swing_seat.yaml")
+    del sys.modules["parallel_cranks"], JOINTS["parallel-cranks"]
+    withdraw_words("parallel-cranks")
+    MachineRecord.model_rebuild(force=True)
+
+
+def test_the_joint_of_the_page_is_a_pendulum_in_all_coordinates(seat):
+    # from rest at the amplitude θ₀: θ = 2 asin(k cd(ω t, k)), k = sin(θ₀/2), ω² = g/r; the angle is 0 where θ₀ = π/2
+    k = np.sin(np.pi / 4)
+    for coordinates, integrator, error in (
+        *((coordinates, "rk4", 1e-9) for coordinates in COORDINATES),
+        ("relative", "generalised-alpha", 2e-5),
+        ("relative", "radau", 1e-6),
+    ):
+        result = seat.simulate(integrator=integrator, coordinates=coordinates)
+        _, cn, dn, _ = ellipj(np.sqrt(9.81) * result.time, k**2)
+        np.testing.assert_allclose(
+            np.ravel(result["cranks.angle"]), 2.0 * np.arcsin(k * cn / dn) - np.pi / 2, atol=error, err_msg=integrator
+        )
+        np.testing.assert_allclose(result.array("orientation")[:, 0], np.tile([1.0, 0, 0, 0], (len(cn), 1)), atol=1e-9)
+
+
+CARRIED = """
+format: 1
+name: carried
+gravity: [0, -9.81, 0]
+bodies:
+  arm: {mass: 1, inertia: [0.1, 0.1, 0.1], position: [0.5, 0, 0], angular_velocity: [0, 3, 0]}
+  seat: {mass: 2, inertia: [1, 2, 3], centre_of_mass: [0.1, 0, 0.2], position: [1, 0.5, 0]}
+joints:
+  pin: {type: universal, bodies: [ground, arm], point: [0, 0, 0], axes: [[0, 1, 0], [0, 0, 1]]}
+  cranks: {type: parallel-cranks, bodies: BODIES, points: POINTS, axis: [0.1, 0, 1]}
+simulation: {duration: 1, step: 1 ms, integrator: rk4}
+"""
+
+
+@pytest.mark.parametrize("forwards", [True, False], ids=["carries-its-second", "carries-its-first"])
+def test_the_joint_of_the_page_moves_on_what_moves_as_its_constraints_say(seat, folder, forwards):
+    bodies, points = ["arm", "seat"], ["[1, 0, 0]", "[1, 0.5, 0]"]
+    order = 1 if forwards else -1
+    text = CARRIED.replace("BODIES", f"[{', '.join(bodies[::order])}]").replace(
+        "POINTS", f"[{', '.join(points[::order])}]"
+    )
+    (folder / "carried.yaml").write_text(text, encoding="utf-8")
+    machine = nivel.load(folder / "carried.yaml")
+    ours, theirs = (machine.simulate(coordinates=each) for each in ("relative", "absolute"))
+    for name, error in (
+        ("position", 1e-7),
+        ("orientation", 1e-7),
+        ("velocity", 1e-6),
+        ("cranks.angle", 1e-7),
+        ("joint_force", 1e-5),
+    ):
+        np.testing.assert_allclose(ours.array(name), theirs.array(name), atol=error, err_msg=name)
+    reactions = [name for name in map(str, ours.dataset.data_vars) if name.startswith("reaction")]
+
+
+def test_the_joint_of_the_page_has_its_sign_and_convention(seat, tmp_path):
+    assert "parallel-cranks: angle: of the cranks about" in str(seat.check())
+    report = seat.simulate(duration=0.01).report(tmp_path / "report.html").read_text(encoding="utf-8")
+    assert 'd="M-11 7V-7H11V7"' in report
+
+
+def test_a_joint_outside_the_package_is_checked(seat):
+    with pytest.raises(ValueError, match="already"):
+        register_joint(JOINTS["parallel-cranks"], JOINT_WORDS["parallel-cranks"])
+    with pytest.raises(ValueError, match="coordinates"):
+        register_joint(replace(JOINTS["parallel-cranks"], type="other"), JOINT_WORDS["spherical"])
+    with pytest.raises(nivel.ModelError, match=r"needs two, one on each body|`points`"):
+        nivel.Joint(name="j", type="parallel-cranks", bodies=("ground", "seat"), point=(0, 0, 0))
 
 
 # 870 kg/m³ · 46 mm²/s, but for the air; the time constant is V/(K G), G = π d⁴/(128 μ L)

@@ -49,7 +49,7 @@ def test_help_lists_the_words_that_a_file_may_name(setting):
 def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
     assert set(get_args(JointType)) == set(JOINTS)
     for name, joint in JOINTS.items():
-        assert tuple(coordinate.name for coordinate in joint.coordinates) == JOINT_COORDINATES[name]
+        assert tuple(coordinate.name for coordinate in joint.composition.coordinates) == JOINT_COORDINATES[name]
 
 
 def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():

@@ -56,10 +56,10 @@ def _block(section: str, records: list[type]) -> str:
 
 def _joints(record: Any) -> str:
     """Joints by type: what places them, what size they need, and their coordinates."""
-    from nivel.machine.joints.joint import JOINT_KINDS
+    from nivel.machine.joints.joint import JOINT_WORDS
 
     lines = []
-    for name, kind in JOINT_KINDS.items():
+    for name, kind in JOINT_WORDS.items():
         given = " ".join(f"<b>{key}</b>" for key in (*kind.place, *kind.size))
         more = " ".join(kind.may_size)
         found = f" → {' '.join(kind.coordinates)}" if kind.coordinates else ""

@@ -10,7 +10,8 @@ from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import ModelError
 from nivel.machine import AssemblySettings, Body, Joint, MachineRecord, Marker
-from nivel.system.joints.joints import JOINTS, Combination
+from nivel.system.joints.composition import Combination
+from nivel.system.joints.joints import JOINTS
 
 
 def test_data_rounded_to_a_millimetre_are_closed():
@@ -66,7 +67,7 @@ def test_disturbed_positions_and_velocities_become_consistent(kind, formulation,
     assert np.abs(constraints.C).max(initial=0.0) < 2e-12
     assert np.abs(constraints.Cdot).max(initial=0.0) < 1e-11
     # what keeps the value that it has as placed is not open
-    if not all(isinstance(basic, Combination) for basic in JOINTS[kind].constraints):
+    if not all(isinstance(basic, Combination) for basic in JOINTS[kind].composition.constraints):
         assert assembly.gap > 1e-4
 
 

@@ -57,10 +57,10 @@ def test_velocities_that_do_not_fit_are_corrected_and_said():
 
 @pytest.mark.parametrize("kind", JOINTS)
 def test_every_joint_states_its_convention(kind):
-    convention = JOINTS[kind].convention
-    if not JOINTS[kind].coordinates:
+    convention = JOINTS[kind].composition.convention
+    if not JOINTS[kind].composition.coordinates:
         assert convention == "no joint coordinate"
-    for coordinate in JOINTS[kind].coordinates:
+    for coordinate in JOINTS[kind].composition.coordinates:
         assert f"{coordinate.name}:" in convention
 
 

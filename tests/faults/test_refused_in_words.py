@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from nivel.cli import main
 from nivel.errors import ModelError, SolveError
-from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from simulating import hinge, machine, solid
 
@@ -64,11 +64,11 @@ def joint(kind):
         "locked": ["x", "y", "rx"],
         "radius": 0.3,
     }
-    facts = JOINT_KINDS[kind]
+    facts = JOINT_WORDS[kind]
     return {"type": kind, "bodies": ["ground", "a"], **{key: keys[key] for key in (*facts.place, *facts.size)}}
 
 
-PLACED = [kind for kind, facts in JOINT_KINDS.items() if not facts.rail]
+PLACED = [kind for kind, facts in JOINT_WORDS.items() if not facts.rail]
 COUPLINGS = {
     "gear": {"type": "gear", "ratio": 2},
     "belt": {"type": "belt", "radii": [1, 2]},
@@ -88,7 +88,7 @@ def coupled(kind, coupling, reference):
 @pytest.mark.parametrize(("kind", "coupling"), list(itertools.product(PLACED, COUPLINGS)))
 def test_a_coupling_takes_a_joint_with_one_coordinate_of_its_kind(kind, coupling):
     names = JOINT_COORDINATES[kind]
-    held = JOINT_KINDS[kind].held
+    held = JOINT_WORDS[kind].held
     right = [COORDINATE_KINDS[name] for name in names if name not in held] == [
         "length" if coupling == "rack" else "angle"
     ]

@@ -22,7 +22,7 @@ from nivel.machine import (
     placement,
 )
 from nivel.machine.core.orientation import matrix_from_euler_parameters, rotation_matrix
-from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.uses.references import SECTIONS
 
 TURNED = Orientation(euler=(0.3, 0.7, -1.0), sequence="zxz")
@@ -94,9 +94,9 @@ NO_AXES = (
 )  # where they are placed by points
 WITH_AXES = [
     (kind, by)
-    for kind in JOINT_KINDS
+    for kind in JOINT_WORDS
     for by in ("points", "markers")
-    if not JOINT_KINDS[kind].rail and (by == "markers" or kind not in NO_AXES)
+    if not JOINT_WORDS[kind].rail and (by == "markers" or kind not in NO_AXES)
 ]
 
 
@@ -107,11 +107,11 @@ def joint_of(kind, by):
         first = Marker(body="a", position=(0.1, 0.2, 0.3), axis=(1, 2, 0.5), x_axis=(0.3, 0, 1))
         second = Marker(body="b", position=(-0.1, 0.2, 0), orientation=Orientation(euler=(1, 2, 3), sequence="xyz"))
         return Joint(name="j", type=kind, markers=(first, second), **size)
-    axes = ((0, 1, 0.2), (1, 0, 0)) if JOINT_KINDS[kind].axes == "perpendicular" else ((0, 1, 0.2), (1, 0.3, 0))
+    axes = ((0, 1, 0.2), (1, 0, 0)) if JOINT_WORDS[kind].axes == "perpendicular" else ((0, 1, 0.2), (1, 0.3, 0))
     if kind == "translational-universal":
         axes = ((0.3, 0, -0.2), (0.2, 1, 0.3))  # the first across the way
     given = {"point": (0.4, 0, 0.1), "points": ((0.4, 0, 0.1), (1, 2, 0)), "axis": (0.2, 1, 0.3), "axes": axes}
-    return Joint(name="j", type=kind, bodies=("a", "b"), **{key: given[key] for key in JOINT_KINDS[kind].place}, **size)
+    return Joint(name="j", type=kind, bodies=("a", "b"), **{key: given[key] for key in JOINT_WORDS[kind].place}, **size)
 
 
 def ends(joint):
@@ -167,7 +167,7 @@ def test_joints_keep_the_meaning_of_their_coordinates(kind, by, placing, rng):
     images = [(np.array(placing.point(r)), placing.polar @ axes * placing.reflection) for r, axes in poses]
     values, rows = coordinates(joint, bodies, poses)
     of_image, its_rows = coordinates(made["joints"][0], made["bodies"], images)
-    for name in JOINT_KINDS[kind].coordinates:
+    for name in JOINT_WORDS[kind].coordinates:
         opposite = placing.mirrored and kind in ("cylindrical", "screw", "generic") and name == "displacement"
         opposite |= placing.mirrored and kind == "rolling" and name == "y"
         assert of_image[name] == pytest.approx(-values[name] if opposite else values[name], abs=1e-12), name

@@ -6,7 +6,7 @@ import pytest
 from refusals import refused
 
 from nivel.machine import JOINT_COORDINATES, Joint, JointType
-from nivel.machine.joints.joint import JOINT_KINDS, CoordinateRates, CoordinateValues
+from nivel.machine.joints.joint import JOINT_WORDS, CoordinateRates, CoordinateValues
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 
 PAIR = {"bodies": ("crank", "rod")}
@@ -24,24 +24,24 @@ KEYS = {
     "x_axis": (1, 0, 0),
 }
 TYPES = get_args(JointType)
-BETWEEN_BODIES = [type_ for type_ in TYPES if not JOINT_KINDS[type_].rail]
+BETWEEN_BODIES = [type_ for type_ in TYPES if not JOINT_WORDS[type_].rail]
 
 
 def by_points(type_):
-    kind = JOINT_KINDS[type_]
+    kind = JOINT_WORDS[type_]
     return {**PAIR, **{key: KEYS[key] for key in (*kind.place, *kind.size)}}
 
 
 def test_facts_are_those_of_all_types():
-    assert set(JOINT_KINDS) == set(JOINT_COORDINATES) == set(TYPES)
+    assert set(JOINT_WORDS) == set(JOINT_COORDINATES) == set(TYPES)
     assert {name for names in JOINT_COORDINATES.values() for name in names} == set(COORDINATE_KINDS)
-    free = {name for kind in JOINT_KINDS.values() for name in kind.coordinates if name not in kind.held}
+    free = {name for kind in JOINT_WORDS.values() for name in kind.coordinates if name not in kind.held}
     assert set(CoordinateValues.model_fields) == set(CoordinateRates.model_fields) == free
 
 
 @pytest.mark.parametrize("type_", BETWEEN_BODIES)
 def test_every_joint_can_be_placed_by_markers_and_by_points(type_):
-    kind = JOINT_KINDS[type_]
+    kind = JOINT_WORDS[type_]
     assert Joint(name="j", type=type_, **MARKERS, **{key: KEYS[key] for key in kind.size})
     assert Joint(name="j", type=type_, **by_points(type_))
     more = {key: KEYS[key] for key in (*kind.may, *kind.may_size)}
@@ -50,7 +50,7 @@ def test_every_joint_can_be_placed_by_markers_and_by_points(type_):
 
 @pytest.mark.parametrize("type_", TYPES)
 def test_what_a_joint_needs_must_be_given_and_what_it_has_not_is_refused(type_):
-    kind = JOINT_KINDS[type_]
+    kind = JOINT_WORDS[type_]
     given = by_points(type_)
     for key in given:
         rest = {name: value for name, value in given.items() if name != key}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nivel.looks.joints import LINKS, sliding_axes, turning_axes
-from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.report.force_drawing import planes
 from nivel.report.picture import machine_picture
 from nivel.report.symbols import SIGNS, joint_icon, joint_sign
@@ -57,7 +57,7 @@ def classes(svg):
 
 
 def test_every_kind_of_joint_has_a_sign():
-    assert set(SIGNS) == set(JOINT_KINDS)
+    assert set(SIGNS) == set(JOINT_WORDS)
     assert set(LINKS) <= set(SIGNS)
 
 
@@ -69,7 +69,7 @@ def test_signs_of_kinds_that_differ_differ(axis):
     assert joint_sign("unheard-of", 0.0, 0.0, axis) not in signs.values()
 
 
-@pytest.mark.parametrize("kind", sorted(JOINT_KINDS))
+@pytest.mark.parametrize("kind", sorted(JOINT_WORDS))
 def test_every_joint_has_an_icon_that_fits(kind):
     root = ET.fromstring(str(joint_icon(kind)))
     assert len(list(root.iter())) > 2
@@ -79,7 +79,7 @@ def test_every_joint_has_an_icon_that_fits(kind):
         assert float(rect.get("width")) <= ICON_WIDTH
 
 
-@pytest.mark.parametrize("kind", sorted(JOINT_KINDS))
+@pytest.mark.parametrize("kind", sorted(JOINT_WORDS))
 @pytest.mark.parametrize("ground_first", [True, False])
 def test_every_joint_is_drawn_named_and_grounded(kind, ground_first):
     made = joint(kind, ((0, 0, 0), (0.5, 0.5, 0)), slot=[1, 0, 0]) if kind == "revolute-translational" else None

@@ -9,10 +9,12 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
-from nivel.system.elimination.topology import CARRIERS, FREE, Edge, spanning_tree
+from nivel.system.elimination.topology import FREE, Edge, carries, spanning_tree
+from nivel.system.joints.joints import JOINTS
 
 # what carries nothing whatever the tree: links, couplings of two freedoms, points on lines
 NEVER = ("distance", "point-on-line", "revolute-cylindrical")
+CARRIERS = {type_: len(kind.composition.rows) for type_, kind in JOINTS.items() if carries(type_)}
 TYPES = (*CARRIERS, *NEVER)
 
 

@@ -4,8 +4,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
-from nivel.machine.joints.joint import JOINT_KINDS
-from nivel.system.joints.joints import JOINTS, generic
+from nivel.machine.joints.joint import JOINT_WORDS
+from nivel.system.joints.joints import JOINTS
+from nivel.system.joints.kinds.constraints import generic
 
 GRAVITY = (0.0, -9.81, 0.0)
 
@@ -28,7 +29,7 @@ def random_body(name, rng, *, centre=True):
 
 
 PARALLEL_LINK = "revolute-cylindrical, parallel"
-BETWEEN_BODIES = tuple(kind for kind in JOINTS if not JOINT_KINDS[kind].rail)
+BETWEEN_BODIES = tuple(kind for kind in JOINTS if not JOINT_WORDS[kind].rail)
 LOCKED = ("rx", "ry")  # of the generic joint
 KINDS = (*BETWEEN_BODIES, PARALLEL_LINK)
 
@@ -37,13 +38,15 @@ def composition(kind):
     """What a joint of `kind` is made of."""
     if kind == "generic":
         return generic(LOCKED)
-    return JOINTS["revolute-cylindrical"].when_parallel if kind == PARALLEL_LINK else JOINTS[kind]
+    if kind == PARALLEL_LINK:
+        return JOINTS["revolute-cylindrical"].composition.when_parallel
+    return JOINTS[kind].composition
 
 
 def joint_at(name, kind, first, second, rng, point=None):
     """A joint of `kind` between two bodies at random points and directions."""
     joint_type = "revolute-cylindrical" if kind == PARALLEL_LINK else kind
-    facts = JOINT_KINDS[joint_type]
+    facts = JOINT_WORDS[joint_type]
     point = tuple(rng.uniform(-1, 1, 3)) if point is None else point
     z = rng.standard_normal(3)
     x = np.cross(z, rng.standard_normal(3))

@@ -28,17 +28,9 @@ from nivel.machine import (
 from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
+from nivel.machine.joints.joint import JOINT_WORDS
 
-_SLIDING = (
-    "translational",
-    "point-on-line",
-    "translational-universal",
-)  # joints whose axis is a direction of motion, not an axis of turning
-KEPT = {
-    "universal": AXIAL,
-    "skew-universal": AXIAL,
-    **dict.fromkeys((*_SLIDING, "rolling"), POLAR_Z),
-}  # others keep AXIAL_Z
+KEPT = {"arms": AXIAL, "sliding": POLAR_Z, "turning": AXIAL_Z}
 
 
 def placed_body(body: Body, placing: Placement) -> Body:
@@ -161,7 +153,7 @@ def placed_joint(joint: Joint, scene: Scene) -> Joint:
     changes: dict[str, Any] = {}
     if joint.markers is not None:
         first, second = joint.markers
-        kept = KEPT.get(joint.type, AXIAL_Z)
+        kept = KEPT[JOINT_WORDS[joint.type].mirror]
         changes["markers"] = (scene.end(first, kept), scene.end(second, kept))
     if joint.point is not None:
         changes["point"] = placing.point(joint.point)
@@ -185,7 +177,7 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
     """The axes of a joint; its x axis as well, which would else come from another global axis."""
     changes: dict[str, Any] = {}
     if joint.axis is not None:
-        turned = placing.direction if joint.type in _SLIDING else placing.turning
+        turned = placing.direction if JOINT_WORDS[joint.type].mirror == "sliding" else placing.turning
         changes["axis"] = turned(joint.axis)
     if joint.axis is not None and joint.axes is None:
         changes["x_axis"] = placing.direction(triple(frame_from_axes(joint.axis, joint.x_direction)[:, 0]))

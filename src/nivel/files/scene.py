@@ -25,10 +25,9 @@ from nivel.machine import (
     placement,
 )
 from nivel.machine.core.orientation import matrix_from_euler_parameters
+from nivel.machine.joints.joint import JOINT_WORDS
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
-# coordinates that count the other way in a mirror image: of joints that turn and slide along one axis, and across what a wheel rolls on
-_OPPOSITE = {"cylindrical": "displacement", "screw": "displacement", "generic": "displacement", "rolling": "y"}
 
 
 @dataclass
@@ -54,9 +53,11 @@ class Scene:
     def is_opposite(self, reference: str, kind: str = "length") -> bool:
         """Whether a joint coordinate counts the other way in the mirror image. `kind`: of a joint without coordinate."""
         joint, _, coordinate = reference.partition(".")
-        if not self.placement.mirrored or joint not in self.joints or self.joints[joint].type not in _OPPOSITE:
+        if not self.placement.mirrored or joint not in self.joints:
             return False
-        opposite = _OPPOSITE[self.joints[joint].type]
+        opposite = JOINT_WORDS[self.joints[joint].type].opposite
+        if not opposite:
+            return False
         return coordinate.removesuffix("_rate") == opposite if coordinate else kind == "length"
 
     def signal(self, path: str) -> Linear:

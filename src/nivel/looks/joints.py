@@ -1,4 +1,4 @@
-"""Looks of joints: where their signs stand, which are links, and their axes in space, which say what is planar."""
+"""Axes of joints in space, which say what is planar, and where their signs stand."""
 
 from __future__ import annotations
 
@@ -7,45 +7,32 @@ from typing import Any
 import numpy as np
 
 from nivel.looks.poses import Array, Pose
-
-ON_RAIL = ("translational", "cylindrical", "screw")  # drawn where the moving body is
-ON_FIRST = (
-    "planar",
-    "point-on-line",
-    "point-on-plane",
-    "rolling",
-)  # a point of the second body on a line or plane of the first
-# along a beam, whose node in the joint is only where it began
-SLIDING_ON_BEAMS = ("point-on-beam", "keyed-on-beam", "cylindrical-on-beam", "translational-on-beam")
-# massless links between two bodies, and the joints at their ends
-LINKS = {
-    "distance": ("spherical", "spherical"),
-    "spherical-spherical": ("spherical", "spherical"),
-    "variable-distance": ("spherical", "spherical"),
-    "revolute-spherical": ("revolute", "spherical"),
-    "revolute-cylindrical": ("revolute", "cylindrical"),
-}
-# axes of a joint that turns about them only, or slides along them only: they say what is planar
-TURNING = ("revolute", "cylindrical", "planar", "revolute-spherical", "revolute-translational", "revolute-cylindrical")
-SLIDING = ("translational", "screw", "point-on-line")
+from nivel.machine.joints.joint import JOINT_WORDS
+from nivel.system.joints.joints import looks_of
 
 
 def turning_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
-    """(k, 3) axes that bodies turn about, global; a link between two hinges has two."""
-    axes = _axes(scene, poses, TURNING, "first")
-    return np.concatenate([axes, _axes(scene, poses, ("revolute-cylindrical",), "second")])
+    """(k, 3) axes that bodies turn about and about nothing else, global; a link between two hinges has two."""
+    axes = [joint_axis(joint, poses, which) for joint in scene["joints"] for which in looks_of(joint["type"]).turns]
+    return np.reshape(np.array(axes), (-1, 3))
 
 
 def sliding_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
-    """(k, 3) axes that bodies slide along, global."""
-    return np.concatenate(
-        [_axes(scene, poses, SLIDING, "first"), _axes(scene, poses, ("revolute-translational",), "slot")]
-    )
+    """(k, 3) axes that bodies slide along and along nothing else, global."""
+    axes = [joint_axis(joint, poses, slides) for joint in scene["joints"] if (slides := looks_of(joint["type"]).slides)]
+    return np.reshape(np.array(axes), (-1, 3))
 
 
-def _axes(scene: dict[str, Any], poses: dict[str, Pose], kinds: tuple[str, ...], which: str) -> Array:
-    found = [joint_axis(joint, poses, which) for joint in scene["joints"] if joint["type"] in kinds]
-    return np.reshape(np.array(found), (-1, 3))
+def slides_on_beam(joint: dict[str, Any]) -> bool:
+    """Whether a joint slides along a beam, whose node in it is only where it began."""
+    words = JOINT_WORDS.get(joint["type"])
+    return words is not None and words.rail
+
+
+def stands_at_second(joint: dict[str, Any]) -> bool:
+    """Whether the sign of a joint stands at its point on the second body."""
+    at = looks_of(joint["type"]).at
+    return at == "second" or (at == "moving" and joint["bodies"][1] != "ground")
 
 
 def joint_axis(joint: dict[str, Any], poses: dict[str, Pose], which: str) -> Array:

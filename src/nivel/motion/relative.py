@@ -22,8 +22,7 @@ from nivel.native.function import stage
 @stage
 def read_state(machine, t, y):
     """Poses and velocities of bodies and of the markers in use, and the rows that are left. Returns a status."""
-    record = record_at(machine)
-    move_tree(record.bodies, record.tree, y)
+    move_tree(machine, y)
     return read_markers(machine, t)
 
 

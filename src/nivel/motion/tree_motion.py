@@ -8,7 +8,7 @@ import numpy as np
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import finish_forces
-from nivel.kernels.record.record import FREE, SPHERICAL, record_at
+from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.saddle import multipliers
 from nivel.native.function import shared, stage
 
@@ -16,19 +16,21 @@ WIDTH = 1
 
 
 @stage
-def parameters_of(kind, q):
-    """Where the Euler parameters of a joint start among its positions at q; -1 where it has none."""
-    if kind == SPHERICAL:
-        return q
-    return q + 3 if kind == FREE else -1
+def parameters_of(tree, n):
+    """Where the Euler parameters of node n start in y: they are the last four of its positions where it has one more of these than
+    velocities; -1 where it has none."""
+    last = n + 1 == tree.place.shape[0]
+    end = np.int64(tree.positions[0]) if last else np.int64(tree.place[n + 1, 0])
+    positions, velocities = end - np.int64(tree.place[n, 0]), np.int64(tree.node[n, 5]) - np.int64(tree.node[n, 4])
+    return end - 4 if positions > velocities else -1
 
 
 @stage
 def normalise(machine, y):
-    """θ := θ/|θ| for every spherical and free joint."""
+    """θ := θ/|θ| for every joint that has Euler parameters."""
     tree = record_at(machine).tree
     for n in range(tree.node.shape[0]):
-        k = parameters_of(tree.node[n, 2], np.int64(tree.place[n, 0]))
+        k = parameters_of(tree, n)
         if k >= 0:
             normalise_parameters(y[k : k + 4])
 
@@ -38,8 +40,7 @@ def write_positions(machine, y, change, out, n, first):
     """out = rates (or changes) of the positions of node n for the joint velocities (or their changes) from change[first] on."""
     tree = record_at(machine).tree
     node, q = tree.node[n], np.int64(tree.place[n, 0])
-    kind, count = node[2], np.int64(node[5]) - np.int64(node[4])
-    k = parameters_of(kind, q)
+    count, k = np.int64(node[5]) - np.int64(node[4]), parameters_of(tree, n)
     if k < 0:
         for i in range(count):
             out[q + i] = change[first + i]

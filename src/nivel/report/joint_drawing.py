@@ -7,20 +7,22 @@ from typing import Any
 
 import numpy as np
 
-from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, joint_axis
+from nivel.looks.joints import joint_axis, stands_at_second
 from nivel.looks.poses import Pose, ends_in_space
 from nivel.report.drawing import Array, Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
 from nivel.report.strokes import Point, ground_sign, plane_sign, rail_sign, rod_sign
-from nivel.report.symbols import END_ON, PLANE_GAP, joint_sign
+from nivel.report.symbols import END_ON, joint_sign
+from nivel.system.joints.joints import looks_of
+from nivel.system.joints.symbols import PLANE_GAP
 
 
 def draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> None:
     """Draw a joint with its name."""
     title = f"{joint['name']}: {joint['type']}, {joint['bodies'][0]} – {joint['bodies'][1]}"
     drawing.signs.append(f"<g><title>{escape(title)}</title>")
-    if joint["type"] in LINKS:
+    if looks_of(joint["type"]).ends is not None:
         x, y = _draw_link(drawing, frame, joint, poses)
     else:
         x, y = _draw_at_point(drawing, frame, joint, poses)
@@ -34,7 +36,8 @@ def _draw_link(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dic
     first, second = (_point(end) for end in ends)
     drawing.links.append(rod_sign(first, second, frame.sign))
     drawing.lines.append(ends)
-    for which, kind, body, end in zip(("first", "second"), LINKS[joint["type"]], joint["bodies"], ends, strict=True):
+    kinds = looks_of(joint["type"]).ends or ()
+    for which, kind, body, end in zip(("first", "second"), kinds, joint["bodies"], ends, strict=True):
         x, y = _point(end)
         axis = _on_screen(frame, joint_axis(joint, poses, which))
         if body == "ground":
@@ -46,29 +49,24 @@ def _draw_link(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dic
 
 def _draw_at_point(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> Point:
     """The sign of a joint at one point, which is returned."""
-    kind, (first, second) = joint["type"], joint["bodies"]
-    at_second = kind in ON_FIRST or (kind in ON_RAIL and second != "ground")
-    x, y = _point(frame.pixels(ends_in_space(joint, poses)[int(at_second)]))
+    x, y = _point(frame.pixels(ends_in_space(joint, poses)[int(stands_at_second(joint))]))
     axis = _on_screen(frame, joint_axis(joint, poses, "slot" if "slot" in joint else "first"))
-    if "ground" in (first, second):
+    if "ground" in joint["bodies"]:
         _draw_ground(drawing, x, y, _ground_of(joint, x, y, axis, frame.sign))
-    drawing.signs.append(joint_sign(kind, x, y, axis, frame.sign))
+    drawing.signs.append(joint_sign(joint["type"], x, y, axis, frame.sign))
     drawing.points += [np.array([x, y]) + part * 13.0 * np.array(axis) for part in (-1.0, 0.0, 1.0)]
     return x, y
 
 
 def _ground_of(joint: dict[str, Any], x: float, y: float, axis: Point, scale: float) -> str:
     """Ground along a rail, a plane or a slot, or under a point."""
-    kind, (first, second) = joint["type"], joint["bodies"]
+    ground, (first, second) = looks_of(joint["type"]).ground, joint["bodies"]
     length = float(np.hypot(*axis))
     if length <= END_ON:
         return ground_sign(x, y, scale)
-    along = (
-        kind in ON_RAIL or (kind == "point-on-line" and first == "ground") or ("slot" in joint and second == "ground")
-    )
-    if along:
+    if ground == "rail" or (ground == "line" and first == "ground") or ("slot" in joint and second == "ground"):
         return rail_sign(x, y, axis)
-    if kind in ("planar", "point-on-plane") and first == "ground":
+    if ground == "plane" and first == "ground":
         gap = PLANE_GAP * scale / length
         return plane_sign(x - gap * axis[0], y - gap * axis[1], axis, 26.0)
     return ground_sign(x, y, scale)

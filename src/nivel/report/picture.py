@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nivel.looks.colours import colour_of, colour_of_body
-from nivel.looks.joints import ON_RAIL, sliding_axes, turning_axes
+from nivel.looks.joints import sliding_axes, turning_axes
 from nivel.looks.links import held_points
 from nivel.looks.poses import Array, Pose, body_poses, in_space
 from nivel.looks.solids import FACETS, FEW_FACETS, FEWEST_FACETS, reach_of, shapes_of
@@ -21,6 +21,7 @@ from nivel.report.force_drawing import Plane, draw_force, draw_plane, force_poin
 from nivel.report.frame import WIDTH, Frame, fit
 from nivel.report.joint_drawing import draw_joint
 from nivel.report.labels import FONT, WITHOUT_LINE, Label, place
+from nivel.system.joints.joints import looks_of
 
 MANY_BODIES, VERY_MANY_BODIES = 20, 200
 ALONG = np.linspace(0.0, 1.0, 12)[None, :, None]  # where lines are probed
@@ -83,7 +84,7 @@ def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touche
         if body["name"] in swept:
             continue
         draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of_body(body, k), facets)
-    for joint in sorted(scene["joints"], key=lambda joint: joint["type"] not in ON_RAIL):
+    for joint in sorted(scene["joints"], key=lambda joint: looks_of(joint["type"]).ground != "rail"):
         draw_joint(drawing, frame, joint, poses)
     for force in scene.get("forces", []):
         draw_force(drawing, frame, force, poses)

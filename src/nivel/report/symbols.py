@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from markupsafe import Markup
 
+from nivel.system.joints.joints import looks_of, symbol_of
+
 END_ON = 0.35  # a joint axis whose projection is shorter than this fraction of its length is seen end-on
-RADIUS = 6.5
-PLANE_GAP = 5.0  # from a point on a plane to the plane in the sign
 
 
 def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 1.0), scale: float = 1.0) -> str:
@@ -21,143 +20,13 @@ def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 
     length = math.hypot(*axis)
     seen = length > END_ON
     angle = math.degrees(math.atan2(axis[1], axis[0])) if seen else 0.0
-    body = SIGNS.get(kind, _unknown)(seen)
+    body = symbol_of(kind)(seen)
     return f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f}) scale({scale:.2f})" class="joint">{body}</g>'
-
-
-def _revolute(seen: bool) -> str:
-    if not seen:
-        return f'<circle r="{RADIUS}"/><circle r="1.6" class="dot"/>'
-    return '<rect x="-9" y="-5" width="18" height="10" rx="2.5"/><path d="M-14 0H14" class="axis"/>'
-
-
-def _cylindrical(seen: bool) -> str:
-    if not seen:
-        return f'<circle r="{RADIUS}"/><circle r="3" class="thin"/>'
-    arrows = '<path d="M-15.5 0l4-2.6v5.2zM15.5 0l-4-2.6v5.2z" class="dot"/>'
-    return f'<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="2.5"/>{arrows}'
-
-
-def _translational(seen: bool) -> str:
-    if not seen:
-        return '<rect x="-6" y="-6" width="12" height="12"/><rect x="-2.5" y="-2.5" width="5" height="5" class="thin"/>'
-    return '<path d="M-17 -6.5H17M-17 6.5H17" class="axis"/><rect x="-9" y="-4.5" width="18" height="9"/>'
-
-
-def _spherical(seen: bool) -> str:
-    return f'<circle r="{RADIUS}"/><circle r="3.6" class="dot"/>'
-
-
-def _universal(seen: bool) -> str:
-    return f'<circle r="{RADIUS}"/><path d="M-4.4 -4.4L4.4 4.4M-4.4 4.4L4.4 -4.4" class="axis"/>'
-
-
-def _fixed(seen: bool) -> str:
-    return '<rect x="-5.5" y="-5.5" width="11" height="11" class="solid"/>'
-
-
-def _planar(seen: bool) -> str:
-    if not seen:
-        arrows = "M0 -10l-2.6 4h5.2zM0 10l-2.6 -4h5.2zM-10 0l4 -2.6v5.2zM10 0l-4 -2.6v5.2z"
-        return f'<rect x="-10.5" y="-10.5" width="21" height="21" rx="2"/><path d="{arrows}" class="dot"/>'
-    return '<rect x="-2.5" y="-8" width="7" height="16"/><path d="M-5 -15V15" class="axis"/>'
-
-
-def _point_on_line(seen: bool) -> str:
-    if not seen:
-        return '<circle r="5"/><path d="M-2.6 0H2.6M0 -2.6V2.6" class="axis"/>'
-    return '<path d="M-17 0H17" class="axis"/><circle r="4.6" class="solid"/>'
-
-
-def _point_on_plane(seen: bool) -> str:
-    if not seen:
-        return '<rect x="-9" y="-9" width="18" height="18" class="thin"/><circle r="4.2" class="solid"/>'
-    return f'<path d="M{-PLANE_GAP} -15V15" class="axis"/><circle r="4.2" class="solid"/>'
-
-
-def _rolling(seen: bool) -> str:
-    if not seen:
-        return '<circle r="9"/><circle r="1.6" class="dot"/>'
-    return '<path d="M-9 -15V15" class="axis"/><circle r="9"/><circle r="1.6" class="dot"/>'
-
-
-def _screw(seen: bool) -> str:
-    if not seen:
-        return f'<circle r="{RADIUS}"/><path d="M3.4 0A3.4 3.4 0 1 1 0 -3.4" class="axis"/>'
-    thread = "".join(f"M{k} 5l4 -10" for k in (-8, -4, 0, 4))
-    return (
-        '<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="1"/>'
-        f'<path d="{thread}" class="thin"/>'
-    )
-
-
-def _pin_in_slot(seen: bool) -> str:
-    if not seen:
-        return '<rect x="-6" y="-6" width="12" height="12" rx="3"/><circle r="2.6" class="solid"/>'
-    return '<rect x="-15" y="-5.5" width="30" height="11" rx="5.5"/><circle r="3.8" class="solid"/>'
-
-
-def _on_beam(slider: str) -> Callable[[bool], str]:
-    """What slides on a line that bends."""
-    line = '<path d="M-17 4Q0 -4 17 4" class="axis"/>'
-    return lambda seen: f"{line}{slider}"
-
-
-def _rod(first: str, second: str) -> Callable[[bool], str]:
-    """A massless link, small, between the signs of its ends."""
-    bar = '<path d="M-11 0H11" class="axis"/>'
-    return lambda seen: f'{bar}<g transform="translate(-11 0)">{first}</g><g transform="translate(11 0)">{second}</g>'
-
-
-def _cylinder(seen: bool) -> str:
-    """A cylinder with its rod, between two balls."""
-    barrel = '<rect x="-9" y="-4" width="11" height="8" rx="1"/><path d="M-4 -4V4M-4 0H11" class="axis"/>'
-    ends = f'<g transform="translate(-12 0)">{_BALL}</g><g transform="translate(12 0)">{_BALL}</g>'
-    return f"{barrel}{ends}"
-
-
-def _unknown(seen: bool) -> str:
-    return f'<circle r="{RADIUS}" class="thin"/>'
-
-
-_BALL = '<circle r="4.6"/><circle r="2.4" class="dot"/>'
-_HINGE = '<circle r="4.6"/><circle r="1.3" class="dot"/>'
-_SLEEVE = '<rect x="-3.5" y="-6" width="7" height="12" rx="2"/><path d="M0 -9.5V9.5" class="axis"/>'
-
-SIGNS: dict[str, Callable[[bool], str]] = {
-    "revolute": _revolute,
-    "cylindrical": _cylindrical,
-    "translational": _translational,
-    "spherical": _spherical,
-    "universal": _universal,
-    "fixed": _fixed,
-    "planar": _planar,
-    "point-on-line": _point_on_line,
-    "point-on-plane": _point_on_plane,
-    "rolling": _rolling,
-    "screw": _screw,
-    "distance": _rod(_BALL, _BALL),
-    "spherical-spherical": _rod(_BALL, _BALL),
-    "variable-distance": _cylinder,
-    "skew-universal": lambda seen: f'{_universal(seen)}<path d="M-2 8L2 4" class="axis"/>',
-    "translational-universal": lambda seen: f'{_translational(seen)}<path d="M0 -4V4M-4 0H4" class="axis"/>',
-    "generic": lambda seen: f'{_unknown(seen)}<circle r="2.4" class="dot"/>',
-    "revolute-spherical": _rod(_HINGE, _BALL),
-    "revolute-cylindrical": _rod(_HINGE, _SLEEVE),
-    "revolute-translational": _pin_in_slot,
-    "point-on-beam": _on_beam('<circle r="4.2" class="solid"/>'),
-    "keyed-on-beam": _on_beam('<circle r="4.2" class="solid"/><path d="M0 -9.5V-4" class="axis"/>'),
-    "cylindrical-on-beam": _on_beam('<rect x="-8" y="-5" width="16" height="10" rx="2.5"/>'),
-    "translational-on-beam": _on_beam('<rect x="-8" y="-5" width="16" height="10" class="solid"/>'),
-}
-_ICON_AXES = {"planar": (0.0, -1.0), "point-on-plane": (0.0, -1.0), "rolling": (0.0, -1.0)}  # on a level plane
-_ICON_END_ON = ("revolute", "spherical", "universal", "fixed")
 
 
 def joint_icon(kind: str) -> Markup:
     """The sign of a joint by itself, for tables."""
-    axis = (0.0, 0.0) if kind in _ICON_END_ON else _ICON_AXES.get(kind, (1.0, 0.0))
-    sign = joint_sign(kind, 18.0, 10.0, axis)
+    sign = joint_sign(kind, 18.0, 10.0, looks_of(kind).icon)
     return Markup(
         f'<svg class="machine icon" viewBox="0 0 36 20" width="36" height="20" aria-hidden="true">{sign}</svg>'
     )

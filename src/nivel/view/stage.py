@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.colours import colour_of, colour_of_body
-from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, SLIDING_ON_BEAMS
+from nivel.looks.joints import slides_on_beam, stands_at_second
 from nivel.looks.links import held_points, link_ends
 from nivel.looks.solids import shapes_of
 from nivel.machine.bodies.surface import surface_arrays
+from nivel.system.joints.joints import looks_of
 from nivel.view.acting import drivers, forces
 from nivel.view.package import Block
 from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
@@ -158,7 +159,7 @@ def _part_of(
     passed = [
         triple(joint["points"][1])
         for joint in scene.get("joints", [])
-        if joint["type"] in SLIDING_ON_BEAMS and joint["bodies"][1] == body["name"]
+        if slides_on_beam(joint) and joint["bodies"][1] == body["name"]
     ]
     held = np.reshape(np.array([point for point in drawn.held if point not in passed]), (-1, 3))
     far = held[np.linalg.norm(held - np.array(drawn.centre_of_mass), axis=1) > beside]
@@ -209,7 +210,7 @@ def _joint(joint: dict[str, Any], places: dict[str, int]) -> Joint:
         (triple(axes[0]), triple(axes[1])),
         (triple(x_axes[0]), triple(x_axes[1])) if x_axes else None,
         triple(joint["slot"]) if "slot" in joint else None,
-        1 if joint["type"] in ON_FIRST or (joint["type"] in ON_RAIL and second != "ground") else 0,
-        joint["type"] in LINKS,
+        1 if stands_at_second(joint) else 0,
+        looks_of(joint["type"]).ends is not None,
         facts=[("type", joint["type"]), ("first body", first), ("second body", second)],
     )

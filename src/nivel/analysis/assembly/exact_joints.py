@@ -19,6 +19,7 @@ from nivel.analysis.assembly.freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.joints.joints import JOINTS
 from nivel.system.system import Array
 
 MOST: Final = 4  # joints that are changed among those that repeat each other
@@ -27,20 +28,6 @@ LISTED: Final = 100_000  # combinations of which the rows are counted
 COUPLED: Final = 1e-9  # entries of N Nᵀ above this are not round-off
 REGULAR: Final = 1e-6  # smallest singular value of Rᵀ N, as a share of the largest
 POINT: Final = ("s.x", "s.y", "s.z")
-# freer joints in place of one, and the rows of that one that they have, by what stands behind the joint's name; "s.axis" is what is left of
-# a point that may slide along the axis
-_FREER: Final[dict[str, dict[str, tuple[str, ...]]]] = {
-    "revolute": {
-        "spherical": ("s.x", "s.y", "s.z"),
-        "cylindrical": ("s.axis", "d1.xz", "d1.yz"),
-        "point-on-line": ("s.axis",),
-    },
-    "translational": {"cylindrical": ("d1.xz", "d1.yz", "d2.x", "d2.y"), "point-on-line": ("d2.x", "d2.y")},
-    "cylindrical": {"point-on-line": ("d2.x", "d2.y")},
-    "universal": {"spherical": ("s.x", "s.y", "s.z")},
-    "fixed": {"spherical": ("s.x", "s.y", "s.z"), "revolute": ("s.x", "s.y", "s.z", "d1.xz", "d1.yz")},
-    "planar": {"point-on-plane": ("d2.z",)},
-}
 
 
 def exact_joints(machine: MachineRecord, motion: MotionEquations, repeated: Collection[str]) -> tuple[str, ...]:
@@ -136,7 +123,7 @@ def _changes(machine: MachineRecord, motion: MotionEquations, N: Array, joints: 
             continue
         axis = record.markers.A[int(record.joints.first_marker[k])][:, 2]
         own = {name.split(".", 1)[1]: row for name, row in rows.items() if name.startswith(f"{joint.name}.")}
-        for freer, kept in _FREER.get(joint.type, {}).items():
+        for freer, kept in JOINTS[joint.type].freer.items():
             along = "s.axis" in kept
             given_up = [row for name, row in own.items() if name not in kept and not (along and name in POINT)]
             if along:

@@ -19,6 +19,7 @@ from nivel.kernels.record.implicit_record import Newton, Residual
 from nivel.kernels.record.record import (
     DEPENDENT,
     GIVEN_FRICTION,
+    HOOKS,
     MEASURE,
     MODES,
     MOMENTARY,
@@ -277,7 +278,8 @@ def _twin(record: Record, *, held: bool) -> Handle:
     """
     twin = complex_twin(record)
     address = np.zeros_like(record.hooks.address)
-    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS):
+    # behind the others are motions of joints
+    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS, *range(HOOKS, len(address))):
         address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
     if held:

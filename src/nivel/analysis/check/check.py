@@ -31,13 +31,13 @@ from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import PartFunction
-from nivel.machine.joints.joint import JOINT_KINDS, Joint
+from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.system.flexible import bending_bodies
 from nivel.system.hydraulics.elements import without_slopes
-from nivel.system.joints.joints import composition_of
+from nivel.system.joints.joints import JOINTS, composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 from nivel.words.wording import set_in_motion
@@ -193,7 +193,7 @@ def _lines(facts: Check) -> Iterator[str]:
     if facts.joints:
         yield "joints (first body → second body)"
     for joint in facts.joints:
-        axis = "" if joint.type == "spherical" else f", z axis {_vector(joint.axis)}"
+        axis = "" if JOINTS[joint.type].is_ball else f", z axis {_vector(joint.axis)}"
         place = f"at {_vector(joint.point)} m{axis}"
         yield f"  {joint.name}: {joint.type}, {joint.first} → {joint.second}, free motions {joint.free}, {place}"
         for name, value, units in joint.coordinates:
@@ -428,7 +428,7 @@ def _joint(system: System, k: int, joint: Joint, values: dict[str, tuple[float, 
     first = int(record.joints.first_marker[k])
     bodies = [*system.bodies, "ground"]
     second = bodies[int(record.markers.body[first + 1])]
-    if JOINT_KINDS[kind].rail:
+    if JOINT_WORDS[kind].rail:
         second = second.rpartition(".")[0]  # the beam, not a node of it
     return JointFacts(
         name=name,

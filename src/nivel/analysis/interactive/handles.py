@@ -20,6 +20,7 @@ from nivel.analysis.assembly.turned_frame import (
     rates_of_angles,
 )
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.joints.joints import JOINTS
 from nivel.system.system import Array
 
 
@@ -190,7 +191,7 @@ def further_handles(machine: MachineRecord, motion: MotionEquations, q: Array, f
 def _balls(machine: MachineRecord, motion: MotionEquations, q: Array) -> Iterator[FrameHandle]:
     markers, ground = motion.system.record.markers, motion.system.body_count
     for k, joint in enumerate(machine.joints):
-        if joint.type != "spherical":
+        if not JOINTS[joint.type].is_ball:
             continue
         first = int(motion.system.record.joints.first_marker[k])
         bodies = [int(markers.body[m]) for m in (first, first + 1)]

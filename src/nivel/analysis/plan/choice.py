@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.machine.forces import Friction
-from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
@@ -75,7 +75,7 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     frictions = [force for force in machine.forces if isinstance(force, Friction)]
     if frictions and (not facts.residual or any(force.model == "stiction" for force in frictions)):
         # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
-        sliders = (joint.name for joint in machine.joints if JOINT_KINDS[joint.type].rail)
+        sliders = (joint.name for joint in machine.joints if JOINT_WORDS[joint.type].rail)
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
     if machine.simulation.cut or not facts.residual or facts.first_order:
         return settings
@@ -87,7 +87,7 @@ def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: Simu
     """Whether with these methods a beam carries a body that slides along it. cut : as `choose_cut` has it, where it is known."""
     from nivel.system.states.relative import has_sliders
 
-    if coordinates != "relative" or not any(JOINT_KINDS[joint.type].rail for joint in machine.joints):
+    if coordinates != "relative" or not any(JOINT_WORDS[joint.type].rail for joint in machine.joints):
         return False
     machine = with_nodes(machine)
     return has_sliders(machine, (cut or choose_cut(machine)).replace(formulation=formulation))
@@ -131,7 +131,7 @@ def _absolute_cost(machine: MachineRecord) -> float:
 def _relative_cost(machine: MachineRecord) -> float:
     from nivel.system.elimination.topology import FREE
     from nivel.system.states.relative import tree_of
-    from nivel.system.states.tree_nodes import KINDS
+    from nivel.system.states.tree_nodes import tree_joint
 
     tree = tree_of(machine, machine.simulation)
     number = {body.name: k for k, body in enumerate(machine.bodies)}
@@ -147,7 +147,7 @@ def _relative_cost(machine: MachineRecord) -> float:
             while at in branch_of and (at, 0) not in columns:
                 branch = branch_of[at]
                 kind = "free" if branch.joint == FREE else machine.joints[branch.joint].type
-                columns |= {(at, k) for k in range(KINDS[kind][2])}
+                columns |= {(at, k) for k in range(tree_joint(kind).velocities)}
                 at = branch.parent
         cost += count * (TREE_ROW + TREE_BLOCK * len(columns))
         left.append((count, columns))

@@ -19,7 +19,7 @@ from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.machine.hydraulics import Actuator
-from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
 from nivel.native import library
@@ -30,6 +30,7 @@ from nivel.system.beams.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.elements import families as families_of_circuits
 from nivel.system.hydraulics.elements import families_of
+from nivel.system.joints.joints import JOINTS
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -134,10 +135,18 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         twins.append(entry_of(RESIDUAL))
     if integrator.needs == "accelerations" and path.dependent:
         modules.append(path.dependent)
+    own = _motions(machine) if methods.coordinates == "relative" else []
+    twins += [motion.twin for motion in own if twins]
     if methods.coordinates == "relative":
         modules += [COMPLETIONS[0]] * (not methods.solves_residual) + [COMPLETIONS[1]] * methods.solves_residual
         modules += [COMPLETIONS[2]] * machine.is_flexible
-    return [*assembly_entries(machine), entry_of(f"{path.module}:evaluate"), *_entries(modules), *twins]
+    return [
+        *assembly_entries(machine),
+        entry_of(f"{path.module}:evaluate"),
+        *_entries(modules),
+        *(motion.code for motion in own),
+        *twins,
+    ]
 
 
 def run_entries(plan: Plan) -> list[Entry]:
@@ -260,6 +269,13 @@ def _families(machine: MachineRecord) -> list[Family]:
     return [*families, run_expression]
 
 
+def _motions(machine: MachineRecord) -> list[Family]:
+    """Motions of joints of a tree that have an address of their own."""
+    kinds = dict.fromkeys(joint.type for joint in machine.joints)
+    trees = (JOINTS[kind].tree for kind in kinds)
+    return [tree.motion for tree in trees if tree is not None and isinstance(tree.motion, Family)]
+
+
 def _node_modules(methods: Methods) -> list[str]:
     """Modules of nodes of the tree that are no joints."""
     of_modes = [OF_MODES] if methods.machine.is_flexible and methods.coordinates == "relative" else []
@@ -287,7 +303,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
     needed = {
         MEASURE: bool(measured),
         FRICTION: "friction" in types,
-        RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
+        RAIL: any(JOINT_WORDS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states)

@@ -125,7 +125,7 @@ def move_flexible_tree(machine, y):
         elif kind == OUTWARD:
             carry_frame(bodies, tree, own, modal.link[n])
         else:
-            move_child(bodies, tree, n, y)
+            move_child(machine, bodies, tree, n, y)
 
 
 @stage

@@ -43,7 +43,7 @@ from nivel.kernels.record.record import (
     TRANSLATIONAL_ON_BEAM,
     record_at,
 )
-from nivel.kernels.tree.tree import plus, set_column, times, turn_by_parameters
+from nivel.kernels.tree.joints import plus, set_column, times, turn_by_parameters
 from nivel.native.function import leaf, stage
 
 # columns of `Tree.frame`: σ, e1, e2, e3, k0 … k5; of the four nodes about σ the weights of their places in X, of their x axes in X, and of

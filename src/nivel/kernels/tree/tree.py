@@ -15,18 +15,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, dot, multiply
-from nivel.kernels.algebra.trigonometry import cosine_and_sine
-from nivel.kernels.record.record import (
-    CYLINDRICAL,
-    FIXED,
-    NONE,
-    PLANAR,
-    REVOLUTE,
-    SCREW,
-    SPHERICAL,
-    TRANSLATIONAL,
-    UNIVERSAL,
-)
+from nivel.kernels.record.record import NONE, UNIVERSAL, record_at
+from nivel.kernels.tree.joints import BY_ADDRESS, call_motion, move_joint, plus, times
 from nivel.native.function import leaf, stage
 
 
@@ -40,120 +30,6 @@ def product(A, B, out):
         out[i, 2] = a * B[0, 2] + b * B[1, 2] + c * B[2, 2]
 
 
-@stage
-def turn_by_angle(A, angle, out):
-    """out = A Rz(angle)."""
-    c, s = cosine_and_sine(angle)
-    turn_about_z(A, c, s, out)
-
-
-@leaf
-def turn_about_z(A, c, s, out):
-    """out = A Rz, with the cosine and sine of the angle."""
-    for i in range(3):
-        x, y = A[i, 0], A[i, 1]
-        out[i, 0], out[i, 1], out[i, 2] = c * x + s * y, c * y - s * x, A[i, 2]
-
-
-@leaf
-def turn_by_cross(A, q, out):
-    """out = A Rz(a₁) X Rz(a₂): X lays the second z axis along the first x axis, the second x axis along the first z axis."""
-    c, s = cosine_and_sine(q[0])
-    e, f = cosine_and_sine(q[1])
-    for i in range(3):
-        x, y, z = A[i, 0], A[i, 1], A[i, 2]
-        side = s * x - c * y
-        out[i, 0], out[i, 1], out[i, 2] = e * z + f * side, e * side - f * z, c * x + s * y
-
-
-@leaf
-def turn_by_parameters(A, theta, out):
-    """out = A Q(θ)."""
-    e0, e1, e2, e3 = theta[0], theta[1], theta[2], theta[3]
-    k = 2.0 / (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3)
-    q00, q01, q02 = 1.0 - k * (e2 * e2 + e3 * e3), k * (e1 * e2 - e0 * e3), k * (e1 * e3 + e0 * e2)
-    q10, q11, q12 = k * (e1 * e2 + e0 * e3), 1.0 - k * (e1 * e1 + e3 * e3), k * (e2 * e3 - e0 * e1)
-    q20, q21, q22 = k * (e1 * e3 - e0 * e2), k * (e2 * e3 + e0 * e1), 1.0 - k * (e1 * e1 + e2 * e2)
-    for i in range(3):
-        a, b, c = A[i, 0], A[i, 1], A[i, 2]
-        out[i, 0] = a * q00 + b * q10 + c * q20
-        out[i, 1] = a * q01 + b * q11 + c * q21
-        out[i, 2] = a * q02 + b * q12 + c * q22
-
-
-@leaf
-def set_column(column, w, v):
-    """A column (w, v)."""
-    column[0], column[1], column[2], column[3], column[4], column[5] = w[0], w[1], w[2], v[0], v[1], v[2]
-
-
-@leaf
-def axis_of(A, axis):
-    """A column of a rotation matrix."""
-    return A[0, axis], A[1, axis], A[2, axis]
-
-
-@leaf
-def times(factor, a):
-    """factor a."""
-    return factor * a[0], factor * a[1], factor * a[2]
-
-
-@leaf
-def plus(a, b):
-    """a + b."""
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-@stage
-def move_joint(kind, number, q, A, out, column, k):
-    """Axes of the child in `out` and columns from number k on, for a marker of the parent with axes A; returns A d."""
-    zero = (0.0, 0.0, 0.0)
-    z = axis_of(A, 2)
-    if kind == REVOLUTE:
-        turn_by_angle(A, q[0], out)
-        set_column(column[k], z, zero)
-        return zero
-    if kind == TRANSLATIONAL:
-        turn_about_z(A, number[2], number[3], out)
-        set_column(column[k], zero, z)
-        return times(q[0], z)
-    if kind == UNIVERSAL:
-        turn_by_cross(A, q, out)
-        set_column(column[k], z, zero)
-        set_column(column[k + 1], axis_of(out, 2), zero)
-        return zero
-    if kind == SPHERICAL:
-        turn_by_parameters(A, q, out)
-        for i in range(3):
-            set_column(column[k + i], axis_of(out, i), zero)
-        return zero
-    if kind == CYLINDRICAL:
-        turn_by_angle(A, q[0], out)
-        set_column(column[k], z, zero)
-        set_column(column[k + 1], zero, z)
-        return times(q[1], z)
-    if kind == SCREW:
-        turn_by_angle(A, q[0], out)
-        set_column(column[k], z, times(number[0], z))
-        return times(number[0] * q[0] + number[1], z)
-    x, y = axis_of(A, 0), axis_of(A, 1)
-    if kind == PLANAR:
-        turn_by_angle(A, q[2], out)
-        set_column(column[k], zero, x)
-        set_column(column[k + 1], zero, y)
-        set_column(column[k + 2], z, zero)
-        return plus(times(q[0], x), times(q[1], y))
-    if kind == FIXED:
-        turn_about_z(A, number[2], number[3], out)
-        return zero
-    turn_by_parameters(A, q[3:7], out)
-    for i in range(3):
-        set_column(column[k + i], zero, axis_of(A, i))
-        set_column(column[k + 3 + i], axis_of(out, i), zero)
-    return plus(times(q[2], z), plus(times(q[0], x), times(q[1], y)))
-
-
 @leaf
 def swing(alpha, w, u):
     """α × u + ω × (ω × u)."""
@@ -163,7 +39,7 @@ def swing(alpha, w, u):
 
 
 @stage
-def move_child(bodies, tree, n, y):
+def move_child(machine, bodies, tree, n, y):
     """Pose and velocity of the child of node n, its acceleration while no joint velocity changes, and the columns of its joint."""
     node, number = tree.node[n], tree.number[n]
     child, parent, kind, k = node[0], node[1], node[2], np.int64(node[4])
@@ -178,9 +54,15 @@ def move_child(bodies, tree, n, y):
             Ap[1, 0] * number[4] + Ap[1, 1] * number[5] + Ap[1, 2] * number[6],
             Ap[2, 0] * number[4] + Ap[2, 1] * number[5] + Ap[2, 2] * number[6],
         )
-    arm = plus(arm, move_joint(kind, number, y[tree.place[n, 0] :], axes, A, tree.column, k))
-    R, V, w = bodies.R[child], bodies.Rdot[child], bodies.omega[child]
     alpha, a = tree.alpha0[child], tree.Rddot0[child]
+    if kind >= BY_ADDRESS:
+        call_motion(machine, n, y)
+        arm = plus(arm, (tree.arm[child, 0], tree.arm[child, 1], tree.arm[child, 2]))
+    else:
+        arm = plus(arm, move_joint(kind, number, y[tree.place[n, 0] :], axes, A, tree.column, k))
+        alpha[0], alpha[1], alpha[2] = 0.0, 0.0, 0.0
+        a[0], a[1], a[2] = 0.0, 0.0, 0.0
+    R, V, w = bodies.R[child], bodies.Rdot[child], bodies.omega[child]
     tree.arm[child, 0], tree.arm[child, 1], tree.arm[child, 2] = arm
     multiply(A, bodies.centre_b[child], bodies.c[child])
     u = y[tree.place[n, 1] :]
@@ -196,8 +78,6 @@ def move_child(bodies, tree, n, y):
     R[0], R[1], R[2] = arm
     w[0], w[1], w[2] = w0, w1, w2
     V[0], V[1], V[2] = v0, v1, v2
-    alpha[0], alpha[1], alpha[2] = 0.0, 0.0, 0.0
-    a[0], a[1], a[2] = 0.0, 0.0, 0.0
     if kind == UNIVERSAL:
         twist = cross(tree.column[k][0:3], tree.column[k + 1][0:3])
         alpha[0], alpha[1], alpha[2] = times(u[0] * u[1], twist)
@@ -216,18 +96,20 @@ def add_parent(bodies, tree, child, parent, arm):
     alpha[0] += ap[0] + bend[0]
     alpha[1] += ap[1] + bend[1]
     alpha[2] += ap[2] + bend[2]
-    a[0] = ar[0] + there[0] + 2.0 * coriolis[0]
-    a[1] = ar[1] + there[1] + 2.0 * coriolis[1]
-    a[2] = ar[2] + there[2] + 2.0 * coriolis[2]
+    a[0] += ar[0] + there[0] + 2.0 * coriolis[0]
+    a[1] += ar[1] + there[1] + 2.0 * coriolis[1]
+    a[2] += ar[2] + there[2] + 2.0 * coriolis[2]
     w[0], w[1], w[2] = wp[0] + w[0], wp[1] + w[1], wp[2] + w[2]
     V[0], V[1], V[2] = Vp[0] + out[0] + V[0], Vp[1] + out[1] + V[1], Vp[2] + out[2] + V[2]
 
 
 @stage
-def move_tree(bodies, tree, y):
+def move_tree(machine, y):
     """Poses and velocities of all bodies from the state."""
+    record = record_at(machine)
+    bodies, tree = record.bodies, record.tree
     for n in range(tree.node.shape[0]):
-        move_child(bodies, tree, n, y)
+        move_child(machine, bodies, tree, n, y)
 
 
 @leaf

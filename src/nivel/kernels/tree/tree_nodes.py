@@ -11,8 +11,9 @@ import numpy as np
 
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook
-from nivel.kernels.record.record import ACCELERATE, FREE, HAND, MODES, MOVE, OUTWARD, SLIDERS, record_at
+from nivel.kernels.record.record import ACCELERATE, HAND, MODES, MOVE, OUTWARD, SLIDERS, record_at
 from nivel.kernels.tree.articulated import carry_motion, hand_wrench
+from nivel.kernels.tree.joints import is_joint
 from nivel.kernels.tree.tree import move_child
 from nivel.native.function import stage
 
@@ -49,8 +50,8 @@ def move_nodes(machine, t):
     record = record_at(machine)
     tree = record.tree
     for n in range(tree.node.shape[0]):
-        if tree.node[n, 2] <= FREE:
-            move_child(record.bodies, tree, n, record.residual.y)
+        if is_joint(tree.node[n, 2]):
+            move_child(machine, record.bodies, tree, n, record.residual.y)
         else:
             status = ask_node(machine, MOVE, n, t)
             if status != OK:
@@ -66,7 +67,7 @@ def accelerate_nodes(machine, t):
     # less those that they have while no velocity changes ...
     for n in range(tree.node.shape[0]):
         node = tree.node[n]
-        if node[2] <= FREE:
+        if is_joint(node[2]):
             carry_motion(own.acceleration[node[1]], tree.arm[node[0]], own.acceleration[node[0]])
             add_own_acceleration(tree, own, n)
         else:
@@ -87,7 +88,7 @@ def hand_inwards(machine, t):
     for m in range(count):
         n = count - 1 - m
         node = tree.node[n]
-        if node[2] > FREE:
+        if not is_joint(node[2]):
             ask_node(machine, HAND, n, t)
             continue
         write_efforts(tree, own, n)

@@ -6,49 +6,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.bodies.floating_frame import TURN
-from nivel.kernels.record.record import (
-    FIXED,
-    FREE,
-    MODAL,
-    NONE,
-    OUTWARD,
-    PLANAR,
-    SPHERICAL,
-    TRANSLATIONAL,
-    UNIVERSAL,
-    record_at,
-)
+from nivel.kernels.record.record import MODAL, NONE, OUTWARD, record_at
+from nivel.kernels.tree.joints import joint_turn, quaternion_product
 from nivel.native.function import leaf, stage
-
-
-@leaf
-def quaternion_product(a, b):
-    """a ∘ b: first b, then a."""
-    return (
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    )
-
-
-@stage
-def joint_turn(kind, number, q):
-    """Euler parameters of the child seen from the marker of the parent: half angles of joint angles."""
-    if kind == SPHERICAL:
-        return q[0], q[1], q[2], q[3]
-    if kind == FREE:
-        return q[3], q[4], q[5], q[6]
-    if kind in (TRANSLATIONAL, FIXED):
-        # markers may be half a turn apart
-        return (1.0, 0.0, 0.0, 0.0) if number[2] > 0.0 else (0.0, 0.0, 0.0, 1.0)
-    half = 0.5 * (q[2] if kind == PLANAR else q[0])
-    about_first = (np.cos(half), 0.0, 0.0, np.sin(half))
-    if kind != UNIVERSAL:
-        return about_first
-    # X: half a turn about (1, 0, 1)/√2
-    crossed = quaternion_product(about_first, (0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)))
-    return quaternion_product(crossed, (np.cos(0.5 * q[1]), 0.0, 0.0, np.sin(0.5 * q[1])))
 
 
 @stage

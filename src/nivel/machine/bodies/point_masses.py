@@ -12,6 +12,7 @@ from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
 from nivel.machine.forces import FORCES, Between, PointForce, Rope
+from nivel.machine.joints.joint import JOINT_WORDS
 
 if TYPE_CHECKING:
     from nivel.machine.machine_record import MachineRecord
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 Faults = Iterator[tuple[Place, str]]
 Triple = tuple[float, float, float]
 
-ON_EITHER: Final = ("spherical", "distance", "spherical-spherical")
-ON_SECOND: Final = ("point-on-line", "point-on-plane", "revolute-spherical")
 NEAR: Final = 1e-9  # by which a point may miss the origin, relative to where the point mass is and to 1 m
 
 _TURN: Final = "a point mass does not turn"
@@ -52,12 +51,13 @@ def point_mass_faults(machine: Any, index: Index) -> Faults:
 
 def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
     type_ = entry(joint, "type")
+    may = JOINT_WORDS[type_].point_mass if type_ in JOINT_WORDS else ""
     for where, body in _bodies(joint, index):
-        if body not in index.point_masses or type_ in ON_EITHER:
+        if body not in index.point_masses or may == "either":
             continue
-        if type_ not in ON_SECOND:
+        if not may:
             held = "; `type: spherical` holds it" if type_ == "fixed" else ""
-            others = ", ".join((*ON_EITHER, *ON_SECOND))
+            others = ", ".join(sorted(name for name, words in JOINT_WORDS.items() if words.point_mass))
             yield (*place, *where), f"`{body}`: {_TURN}; it can be in the joints {others}{held}"
         elif where[-1] == 0:
             yield (*place, *where), f"`{body}`: {_TURN}; in a {type_} joint it can only be the second body"

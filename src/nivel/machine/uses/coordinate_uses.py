@@ -10,7 +10,7 @@ from nivel.machine.core.record import GROUND, Record, entry
 from nivel.machine.joints.joint import (
     COORDINATE_OF,
     JOINT_COORDINATES,
-    JOINT_KINDS,
+    JOINT_WORDS,
     CoordinateRates,
     CoordinateValues,
     held_by,
@@ -90,7 +90,7 @@ def _find(reference: Any, index: Index, kind: Kind | None, place: Place) -> Iter
         found = find(reference, index.joints, kind)
     except UnknownCoordinateError as problem:
         joint = reference.partition(".")[0]
-        if joint not in index.joints or index.joints[joint] in JOINT_KINDS:  # else the type of the joint is at fault
+        if joint not in index.joints or index.joints[joint] in JOINT_WORDS:  # else the type of the joint is at fault
             yield place, str(problem)
         return None
     return found
@@ -98,7 +98,7 @@ def _find(reference: Any, index: Index, kind: Kind | None, place: Place) -> Iter
 
 def _held(found: tuple[str, str], index: Index, place: Place) -> Faults:
     joint, coordinate = found
-    if coordinate in JOINT_KINDS[index.joints[joint]].held:
+    if coordinate in JOINT_WORDS[index.joints[joint]].held:
         yield (
             place,
             f"`{joint}.{coordinate}` is held by the joint itself; one that changes is of `type: variable-distance`",

@@ -10,7 +10,7 @@ from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
 from nivel.machine.forces import Contact
 from nivel.machine.forces.contact import HULLS, SHAPES_ON_PLANE
-from nivel.machine.joints.joint import JOINT_KINDS
+from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.laws.symbols import outputs_of, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import unknown_name
@@ -197,7 +197,7 @@ def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
-    kind = JOINT_KINDS.get(str(entry(joint, "type")))
+    kind = JOINT_WORDS.get(str(entry(joint, "type")))
     bodies = as_list(entry(joint, "bodies"))
     placed = bool(entry(joint, "nodes"))  # its beam is nodes already
     if kind is None or not kind.rail or placed or len(bodies) != 2:

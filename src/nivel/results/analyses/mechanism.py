@@ -18,6 +18,7 @@ from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.rotations import rotation_matrices
 from nivel.results.pages import page_maker
+from nivel.system.joints.joints import looks_of
 
 if TYPE_CHECKING:
     import xarray
@@ -31,8 +32,6 @@ GROUND: Final = "ground"
 STILL: Final = 1e-6
 # joints nearer to each other than this share of the machine are in one place
 APART: Final = 1e-9
-# joints that slide along the z axis of their first marker
-SLIDES: Final = frozenset({"translational", "cylindrical", "point-on-line", "screw"})
 # transmission angles further than this from the right angle transmit badly
 GOOD: Final = np.radians(40.0)
 
@@ -164,7 +163,7 @@ def _line(result: Result, at: str, to: str) -> Array:
 def _slide(result: Result, name: str) -> Array | None:
     """(frames, 3) direction in which a joint slides; None where it turns."""
     joint = _joints(result).get(name)
-    if joint is None or joint["type"] not in SLIDES:
+    if joint is None or looks_of(joint["type"]).ground not in ("rail", "line"):
         return None
     body, axis = joint["bodies"][0], np.array(joint["axes"][0], dtype=float)
     bodies = list(result.coordinates.get("body", ()))

@@ -12,6 +12,7 @@ from nivel.kernels.forces.elastic_beam import apply as elastic_beam
 from nivel.kernels.record.beam_record import BeamTangent
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import FREE, NONE, Record
+from nivel.kernels.tree.joints import BY_ADDRESS
 from nivel.system.beams.beams import empty_tangent
 from nivel.system.elimination.tangent_plan import TangentPlan
 from nivel.system.system import System
@@ -49,7 +50,7 @@ def has_carried_nodes(record: Record) -> bool:
         return False
     carried: set[int] = set()
     for child, parent, kind in record.tree.node[:, :3].tolist():
-        if parent in carried or kind > FREE:
+        if parent in carried or FREE < kind < BY_ADDRESS:
             carried.add(child)
     return any(body in carried for nodes in _nodes(record) for body in record.markers.body[nodes].tolist())
 

@@ -15,26 +15,15 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-# constraint rows of the joints that may carry a body
-CARRIERS: Final[dict[str, int]] = {
-    "revolute": 5,
-    "translational": 5,
-    "cylindrical": 4,
-    "screw": 5,
-    "universal": 4,
-    "spherical": 3,
-    "planar": 3,
-    "fixed": 6,
-}
-# of those that carry their first body along a beam
-SLIDERS: Final[dict[str, int]] = {
-    "point-on-beam": 2,
-    "keyed-on-beam": 3,
-    "cylindrical-on-beam": 4,
-    "translational-on-beam": 5,
-}
-ROWS: Final = CARRIERS | SLIDERS
+from nivel.machine.joints.joint import JOINT_WORDS
+from nivel.system.joints.joints import JOINTS
+
 FREE: Final = -1
+
+
+def carries(kind: str) -> bool:
+    """Whether a joint of this kind may carry a body on another one."""
+    return JOINTS[kind].tree is not None and not JOINT_WORDS[kind].rail
 
 
 @dataclass(frozen=True)
@@ -81,7 +70,7 @@ def spanning_tree(
     """
     around: list[list[int]] = [[] for _ in range(bodies + 1)]
     for k, edge in enumerate(edges):
-        if edge.type in CARRIERS and edge.name not in kept:
+        if carries(edge.type) and edge.name not in kept:
             around[edge.first].append(k)
             around[edge.second].append(k)
     branches: list[Branch] = []
@@ -89,7 +78,9 @@ def spanning_tree(
     lighter = (
         [min((weight[b] for b in (e.first, e.second) if b < bodies), default=0.0) for e in edges] if heavy_first else []
     )
-    rank = [(-lighter[k] if heavy_first else 0.0, -ROWS.get(edge.type, 0)) for k, edge in enumerate(edges)]
+    rank = [
+        (-lighter[k] if heavy_first else 0.0, -len(JOINTS[edge.type].composition.rows)) for k, edge in enumerate(edges)
+    ]
     _grow(bodies, 0, edges, around, reached, branches, rank)
     island = _islands(bodies, edges, around)
     roots = _sliding_roots(edges, kept, island, rank)

@@ -9,8 +9,8 @@ from nivel.kernels.bodies.driven_turn import TURN_X, TURN_Y, TURN_Z
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.system.builder import SystemBuilder
+from nivel.system.joints.composition import AXES
 from nivel.system.joints.interfaces import marker_place
-from nivel.system.joints.joints import AXES
 from nivel.system.joints.rows import RowTable, units_of
 from nivel.system.located import located
 from nivel.system.tables import Target

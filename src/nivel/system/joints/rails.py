@@ -10,7 +10,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.machine.beams.beam import Beam
 from nivel.machine.core.checked import Problem
-from nivel.machine.joints.joint import JOINT_KINDS, Joint
+from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.system.tables import Array
 
 SAMPLES = 8  # of the line between two nodes, from which the nearest point is looked for
@@ -53,7 +53,7 @@ def stretches(nodes: Sequence[int], *, turned: bool) -> Iterator[tuple[int, ...]
 
 
 def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
-    if not JOINT_KINDS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
+    if not JOINT_WORDS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
         return joint
     assert joint.point is not None  # the record was checked
     beam = beams[joint.bodies[1]]

@@ -11,8 +11,7 @@ from nivel.kernels.record.record import NONE, Constraints
 from nivel.machine.joints.joint import Joint
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.system.builder import SystemBuilder
-from nivel.system.joints.joint_frames import cosine_as_placed, joint_frames, slot_frame
-from nivel.system.joints.joints import (
+from nivel.system.joints.composition import (
     AXES,
     Basic,
     Coincident,
@@ -21,8 +20,9 @@ from nivel.system.joints.joints import (
     Measured,
     PerpendicularAxes,
     PerpendicularDistance,
-    composition_of,
 )
+from nivel.system.joints.joint_frames import cosine_as_placed, joint_frames, slot_frame
+from nivel.system.joints.joints import composition_of
 from nivel.system.joints.rails import OnBeam
 from nivel.system.tables import Rail, Wheel, index_array
 

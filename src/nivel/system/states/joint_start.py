@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from nivel.machine.core.orientation import (
 )
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.joints.kind import Seen, TreeJoint
 from nivel.system.states.slider_start import Rail, slider_start
 from nivel.system.system import Array, System
 
@@ -95,26 +96,20 @@ class Poses:
     omega: Array
 
 
-@dataclass(frozen=True)
-class _Relative:
-    """Motion of the child seen from the parent's marker: turn Q, displacement d, relative velocities, in the marker's axes."""
-
-    Q: Array
-    d: Array
-    omega: Array
-    velocity: Array
-
-
 def joint_start(
     own: Poses,
     markers: Markers,
     frames: Frames,
     nodes: list[Node],
     machine: MachineRecord,
+    carrying: Callable[[str], TreeJoint],
     coordinates: Coordinates,
     bent: Mapping[int, Bent] | None = None,
 ) -> JointStart:
-    """Joint coordinates of all nodes for poses of the bodies' own frames. bent : the nodes that are no joints."""
+    """Joint coordinates of all nodes for poses of the bodies' own frames.
+
+    carrying(kind) : how a node of a kind does. bent : the nodes that are no joints.
+    """
     bodies, bent = _moved(own, frames), bent or {}
     q: list[float] = []
     v: list[float] = []
@@ -138,11 +133,14 @@ def joint_start(
             joint = euler_parameters_from_matrix(bodies.A[node.child])
         else:
             seen = _seen(bodies, node, first[n], number[n, 4:])
-            pitch = machine.joints[node.joint].pitch or 0.0 if node.kind == "screw" else 0.0
-            positions, velocities, number[n, :4] = _coordinates(node.kind, seen, pitch / (2.0 * np.pi))
+            tree = carrying(node.kind)
+            assert tree.start is not None  # only sliders have none
+            positions, velocities, number[n, :4] = tree.start(
+                seen, machine.joints[node.joint] if node.joint >= 0 else None
+            )
             q += positions
             v += velocities
-            joint = joint_turn(node.kind, positions, number[n])
+            joint = tree.turn(positions, number[n]) if tree.turn else euler_parameters_from_matrix(seen.Q)
         turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
     own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)])
     return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4), turned)
@@ -181,56 +179,10 @@ def _moved(own: Poses, frames: Frames) -> Poses:
     return Poses(own.R + u, own.theta, own.A @ frames.axes, speed, own.omega)
 
 
-def _seen(bodies: Poses, node: Node, frame: Array, point: Array) -> _Relative:
+def _seen(bodies: Poses, node: Node, frame: Array, point: Array) -> Seen:
     b, c = node.parent, node.child
     Ai = bodies.A[b] @ frame
     distance = bodies.R[c] - bodies.R[b]
     omega = bodies.omega[c] - bodies.omega[b]
     speed = bodies.Rdot[c] - bodies.Rdot[b] - cross(bodies.omega[b], distance)
-    return _Relative(Ai.T @ bodies.A[c], Ai.T @ distance - frame.T @ point, Ai.T @ omega, Ai.T @ speed)
-
-
-def _coordinates(kind: str, seen: _Relative, lead: float) -> tuple[list[float], list[float], list[float]]:
-    """(positions, velocities, numbers) of one joint; lead of a screw [m/rad]."""
-    Q, d, w, v = seen.Q, seen.d, seen.omega, seen.velocity
-    angle = float(np.arctan2(Q[1, 0], Q[0, 0]))
-    numbers = [0.0, 0.0, 1.0, 0.0]
-    match kind:
-        case "revolute":
-            return [angle], [w[2]], numbers
-        case "translational" | "fixed":
-            # markers that are given may be half a turn apart
-            half = float(np.round(angle / np.pi)) * np.pi
-            numbers[2:] = [float(np.cos(half)), 0.0]
-            return ([d[2]], [v[2]], numbers) if kind == "translational" else ([], [], numbers)
-        case "cylindrical":
-            return [angle, d[2]], [w[2], v[2]], numbers
-        case "screw":
-            return [angle], [w[2]], [lead, d[2] - lead * angle, 1.0, 0.0]
-        case "universal":
-            arm = Q[:, 2]
-            first, second = float(np.arctan2(arm[1], arm[0])), -float(np.arctan2(Q[2, 1], Q[2, 0]))
-            # the second marker's rate about its own z axis
-            return [first, second], [w[2], float(arm @ w)], numbers
-        case "planar":
-            return [d[0], d[1], angle], [v[0], v[1], w[2]], numbers
-    theta = euler_parameters_from_matrix(Q)
-    if kind == "spherical":
-        return [*theta], [*(Q.T @ w)], numbers
-    return [*d, *theta], [*v, *(Q.T @ w)], numbers
-
-
-def joint_turn(kind: str, q: list[float], number: Array) -> Array:
-    """Euler parameters of the child seen from the parent's marker, as in `nivel.kernels.tree.tree_orientation.joint_turn`."""
-    if kind == "spherical":
-        return np.array(q)
-    if kind == "free":
-        return np.array(q[3:])
-    if kind in ("translational", "fixed"):
-        return np.array([1.0, 0.0, 0.0, 0.0] if number[2] > 0.0 else [0.0, 0.0, 0.0, 1.0])
-    half = 0.5 * (q[2] if kind == "planar" else q[0])
-    about = np.array([np.cos(half), 0.0, 0.0, np.sin(half)])
-    if kind != "universal":
-        return about
-    crossed = product(about, np.array([0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)]))
-    return product(crossed, np.array([np.cos(0.5 * q[1]), 0.0, 0.0, np.sin(0.5 * q[1])]))
+    return Seen(Ai.T @ bodies.A[c], Ai.T @ distance - frame.T @ point, Ai.T @ omega, Ai.T @ speed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.record.hook import Family
-from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
+from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Hooks, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
 from nivel.machine.forces import Friction
@@ -26,11 +26,14 @@ from nivel.system.joints.rails import OnBeam
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.tree_nodes import (
-    TURNING,
+    BETWEEN_FRAMES,
+    is_turning,
     joint_node,
+    motions,
     number_of,
     placed,
     positions_in,
+    tree_joint,
     units_of,
     velocities_in,
     width_of,
@@ -89,7 +92,7 @@ def in_tree(
     """
     old, positions, columns = absolute.record, positions_in(nodes), velocities_in(nodes)
     frames = carried_frames(old.markers, nodes, len(own.R))
-    start = joint_start(own, old.markers, frames, nodes, machine, old.coordinates, bent)
+    start = joint_start(own, old.markers, frames, nodes, machine, tree_joint, old.coordinates, bent)
     carried = {machine.joints[node.joint].name for node in nodes if node.joint != FREE}
     left = np.array([owner not in carried for owner in absolute.row_owner], dtype=bool)
     rows = np.flatnonzero(left).astype(np.uint32)
@@ -101,6 +104,9 @@ def in_tree(
     active = _active(old, nodes)
     in_use = _markers_in_use(old, nodes, np.union1d(active, angles.followed))
     sliders = [n for n, node in enumerate(nodes) if node.along >= 0]
+    own_motions = motions(nodes)
+    address = np.array([*old.hooks.address, *(motion.address for motion in own_motions)], dtype=np.uint64)
+    address[COMPLETE] = _completion(machine, sliding=bool(sliders)).address
     bundle = int(np.diff(path_tables["bundle"]).max(initial=0))
     record = old._replace(
         coordinates=old.coordinates._replace(active=active, followed=angles.followed),
@@ -111,7 +117,7 @@ def in_tree(
         outputs=old.outputs._replace(combination=reports),
         friction=_friction(old, blocks, len(rows), columns),
         tree=empty_tree(old.constraints, len(nodes), columns, positions, bundle, len(own.R), len(sliders))._replace(
-            node=_node_table(nodes, positions),
+            node=_node_table(nodes, positions, own_motions),
             place=index_array([(node.position, node.velocity) for node in nodes], 2),
             number=start.number,
             first=start.first,
@@ -134,11 +140,11 @@ def in_tree(
             **_reactions(old, nodes),
         ),
         frames=Frames(*(np.zeros((absolute.body_count + 1, width)) for width in (3, 4, 3, 3))),
-        hooks=old.hooks._replace(address=old.hooks.address.copy()),
+        hooks=Hooks(address),
     )
-    record.hooks.address[COMPLETE] = _completion(machine, sliding=bool(sliders)).address
-    for n in sliders:
-        record.bodies.theta[nodes[n].child] = start.turned[nodes[n].child]
+    # Euler parameters that follow from axes go on from here
+    for node in (node for node in nodes if node.kind not in BETWEEN_FRAMES and tree_joint(node.kind).turn is None):
+        record.bodies.theta[node.child] = start.turned[node.child]
     x = absolute.start_of_states
     system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)))
     return system.known_rank(rank), np.concatenate([start.q, start.v, x])
@@ -360,10 +366,10 @@ def _reactions(old: Record, nodes: list[Node]) -> dict[str, Index]:
     return {"carried": index_array(spans, 2), "reaction": index_array(table, 3)}
 
 
-def _node_table(nodes: list[Node], positions: int) -> Index:
+def _node_table(nodes: list[Node], positions: int, own_motions: Sequence[Family]) -> Index:
     first = [node.velocity - positions for node in nodes]
     rows = [
-        (n.child, n.parent, number_of(n), NONE if n.joint == FREE else n.joint, k, k + width_of(n))
+        (n.child, n.parent, number_of(n, own_motions), NONE if n.joint == FREE else n.joint, k, k + width_of(n))
         for n, k in zip(nodes, first, strict=True)
     ]
     return index_array(rows, 6)
@@ -376,7 +382,7 @@ def _map(nodes: list[Node], positions: int, rest: int) -> StateMap:
     for node in nodes:
         of_positions, count = units_of(node), width_of(node)
         units += of_positions
-        turning = 3 if node.kind in TURNING else 0
+        turning = 3 if is_turning(node) else 0
         moving = count - turning
         plain += [(node.position + i, node.velocity + i) for i in range(moving)]
         rates += [f"{unit}/s" for unit in of_positions[:moving]] + ["1/s"] * turning

@@ -2,54 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.record import record as kernels
+from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, Record
+from nivel.kernels.tree.joints import BY_ADDRESS
+from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.elimination.topology import FREE, SLIDERS, Branch
+from nivel.system.elimination.topology import FREE, Branch
+from nivel.system.joints.joints import JOINTS
+from nivel.system.joints.kind import TreeJoint
+from nivel.system.joints.kinds.in_trees import FREE_BODY
 from nivel.system.states.joint_start import Node
 
-# numbers of the kernels' kinds of nodes, positions and velocities of each, and units of the positions
-KINDS = {
-    "revolute": (kernels.REVOLUTE, ("1",), 1),
-    "translational": (kernels.TRANSLATIONAL, ("m",), 1),
-    "cylindrical": (kernels.CYLINDRICAL, ("1", "m"), 2),
-    "screw": (kernels.SCREW, ("1",), 1),
-    "universal": (kernels.UNIVERSAL, ("1", "1"), 2),
-    "spherical": (kernels.SPHERICAL, ("1",) * 4, 3),
-    "planar": (kernels.PLANAR, ("m", "m", "1"), 3),
-    "fixed": (kernels.FIXED, (), 0),
-    "free": (kernels.FREE, ("m",) * 3 + ("1",) * 4, 6),
-    "point-on-beam": (kernels.POINT_ON_BEAM, ("m",) + ("1",) * 4, 4),
-    "keyed-on-beam": (kernels.KEYED_ON_BEAM, ("m", "1", "1"), 3),
-    "cylindrical-on-beam": (kernels.CYLINDRICAL_ON_BEAM, ("m", "1"), 2),
-    "translational-on-beam": (kernels.TRANSLATIONAL_ON_BEAM, ("m",), 1),
-    # between frames of a flexible body; nodes of kind "modal" have its modes
-    "outward": (kernels.OUTWARD, (), 0),
-}
+BETWEEN_FRAMES: Final = {"outward": kernels.OUTWARD, "modal": kernels.MODAL}  # of a flexible body
 
 
-# those that end with Euler parameters, and three velocities of these
-TURNING = ("spherical", "free", "point-on-beam")
+def tree_joint(kind: str) -> TreeJoint:
+    """How a node of a kind carries its body: a joint, or "free" in space."""
+    found = FREE_BODY if kind == "free" else JOINTS[kind].tree
+    assert found is not None  # others stay constraints
+    return found
 
 
 def units_of(node: Node) -> tuple[str, ...]:
     """Units of the positions of a node."""
-    return ("kg^0.5 m",) * node.modes if node.kind == "modal" else KINDS[node.kind][1]
-
-
-def number_of(node: Node) -> int:
-    """The kernels' number of its kind."""
-    return kernels.MODAL if node.kind == "modal" else KINDS[node.kind][0]
+    return ("kg^0.5 m",) * node.modes if node.kind in BETWEEN_FRAMES else tree_joint(node.kind).units
 
 
 def width_of(node: Node) -> int:
     """Velocities of a node."""
-    return node.modes if node.kind == "modal" else KINDS[node.kind][2]
+    return node.modes if node.kind in BETWEEN_FRAMES else tree_joint(node.kind).velocities
+
+
+def is_turning(node: Node) -> bool:
+    """Whether its positions end with Euler parameters, and its velocities with ω̄."""
+    return node.kind not in BETWEEN_FRAMES and tree_joint(node.kind).turning
+
+
+def motions(nodes: Sequence[Node]) -> list[Family]:
+    """Motions of joints that the kernels have no number of."""
+    kinds = dict.fromkeys(node.kind for node in nodes if node.kind not in BETWEEN_FRAMES)
+    return [motion for kind in kinds if isinstance(motion := tree_joint(kind).motion, Family)]
+
+
+def number_of(node: Node, own: Sequence[Family]) -> int:
+    """The kernels' number of its kind; own : the motions that have none, in the order of their addresses."""
+    if node.kind in BETWEEN_FRAMES:
+        return BETWEEN_FRAMES[node.kind]
+    motion = tree_joint(node.kind).motion
+    return BY_ADDRESS + own.index(motion) if isinstance(motion, Family) else motion
 
 
 def positions_in(nodes: list[Node]) -> int:
@@ -78,7 +86,7 @@ def joint_node(machine: MachineRecord, old: Record, branch: Branch) -> Node:
     if branch.joint != FREE:
         kind, near = machine.joints[branch.joint].type, int(old.joints.first_marker[branch.joint])
         near, far = (near + 1, near) if branch.turned else (near, near + 1)
-    if kind in SLIDERS:
+    if kind in JOINT_WORDS and JOINT_WORDS[kind].rail:
         return Node(branch.child, branch.parent, branch.joint, kind, NONE, far, 0, 0, along=_along(old, far))
     return Node(branch.child, branch.parent, branch.joint, kind, near, far, 0, 0)
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
-from nivel.kernels.bodies.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE, ROTATION
+from nivel.kernels.bodies.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE
 from nivel.kernels.record.record import U1, U2, Coordinates
 from nivel.system.states.joint_start import Node
+from nivel.system.states.tree_nodes import tree_joint
 from nivel.system.system import Array
 from nivel.system.tables import index_array
 
-# position of the angle about the common z axis among those of a joint
-ABOUT_Z = {"revolute": 0, "cylindrical": 0, "screw": 0, "planar": 2}
+# what an angle is for a joint that carries its first body
+BACKWARDS: Final = {CROSS_FIRST: CROSS_SECOND, CROSS_SECOND: CROSS_FIRST}
 
 
 @dataclass(frozen=True)
@@ -51,8 +53,4 @@ def turns(coordinates: Coordinates, nodes: Sequence[Node], q: Array) -> Turns:
 
 def _place(kind: int, node: Node, forwards: bool) -> int | None:
     """Where among the positions of the node's joint an angle of this kind stands; a joint that is `forwards` carries its second body."""
-    if kind == ROTATION:
-        return ABOUT_Z.get(node.kind)
-    if node.kind == "universal" and kind in (CROSS_FIRST, CROSS_SECOND):
-        return int((kind == CROSS_SECOND) == forwards)
-    return None
+    return tree_joint(node.kind).angles.get(kind if forwards else BACKWARDS.get(kind, kind))

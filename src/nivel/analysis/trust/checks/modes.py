@@ -22,6 +22,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number
 from nivel.system.beams.nodes import with_nodes
+from nivel.system.joints.composition import POINT
 from nivel.system.joints.joint_frames import joint_frames
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ FRAMES = 4000  # that are looked at, at most
 STRAIGHT = 1e-4  # of its size: a body that bends by less is compared with one that bends by as much
 FITS = 1e-3  # misfit, as a share, with which the forces at one interface explain the motion of a body
 DAMPED_MOST = 0.99  # of critical
-# Joints whose two markers are one point, so that the reaction on the second body is that on the first, turned round.
-ONE_POINT = ("spherical", "universal", "revolute", "fixed")
 NEAR = 1e-3  # of the size of a body: an interface so near to a marker is the one it is at
 THRESHOLD = Threshold(
     1e-2,
@@ -157,7 +156,8 @@ def _held(whole: MachineRecord, body: ModalBody, interfaces: list[Interface]) ->
         for k, (name, point, _) in enumerate(joint_frames(machine, joint)):
             at = _nearest(interfaces, point)
             there = np.linalg.norm(interfaces[at].position - point) < NEAR * body.extent
-            if name == body.name and there and (k == 0 or joint.type in ONE_POINT):
+            # of one point, the reaction on the second body is that on the first, turned round
+            if name == body.name and there and (k == 0 or POINT in composition_of(joint).constraints):
                 yield Held(joint.name, at, 1.0 if k == 0 else -1.0)
 
 

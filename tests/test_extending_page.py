@@ -179,7 +179,6 @@ def test_the_joint_of_the_page_moves_on_what_moves_as_its_constraints_say(seat, 
         ("joint_force", 1e-5),
     ):
         np.testing.assert_allclose(ours.array(name), theirs.array(name), atol=error, err_msg=name)
-    reactions = [name for name in map(str, ours.dataset.data_vars) if name.startswith("reaction")]
 
 
 def test_the_joint_of_the_page_has_its_sign_and_convention(seat, tmp_path):

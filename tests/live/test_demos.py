@@ -116,3 +116,27 @@ def test_gauges_of_a_demo_stay_on_their_scales(name):
                 shown = result.array(f"sensor.{each.name}")
                 assert each.range[0] - 0.02 <= shown.min(), (each.name, lever.name, end)
                 assert shown.max() <= each.range[1], (each.name, lever.name, end)
+
+
+@pytest.mark.parametrize(
+    ("values", "duration", "inputs", "sensor", "least"),
+    [
+        # the load is set down, the ropes go slack and are hauled in at full speed
+        ({}, 10.5, {"hoist": Table((0, 0.5, 7, 8, 10.5), (0, -1, -1, 1, 1))}, "rope-force", 110e3),
+        # the trolley turns round with the swing of long ropes
+        (
+            {"parameters.hoist_start": "20 m"},
+            9.2,
+            {"trolley": Table((0, 0.7, 4.6, 6, 9.2), (0, 1, 1, -1, -1))},
+            "swing",
+            6.0,
+        ),
+    ],
+    ids=["hauled in from slack", "in step with the swing"],
+)
+def test_gauges_of_the_harbour_crane_hold_what_an_operator_can_do(values, duration, inputs, sensor, least):
+    crane = nivel.load(demo_file("harbour-crane")).with_values(values)
+    shown = crane.simulate(duration=duration, output_interval=0.02, inputs=inputs).array(f"sensor.{sensor}")
+    low, high = next(each for each in crane.record.sensors if each.name == sensor).range
+    assert np.abs(shown).max() > least
+    assert low <= shown.min() <= shown.max() <= high

@@ -6,7 +6,7 @@ LAW = {
     "arguments": ["time", "hinge.angle", "2 N"],
 }
 MOTION = {"source": "def turn(t):\n    return t, 1.0, 0.0\n", "function": "turn", "arguments": ["time"], "file": "m.py"}
-STEEL = {"young_modulus": "210 GPa", "poisson_ratio": 0.3}
+STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}
 
 
 def _ball(name, **more):

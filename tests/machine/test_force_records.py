@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from refusals import refused
 
+from nivel.errors import ModelError
 from nivel.machine import (
     Bushing,
     Contact,
@@ -18,7 +19,8 @@ from nivel.machine import (
     Stop,
     TorsionalSpringDamper,
 )
-from nivel.machine.forces import FORCES
+from nivel.machine.beams.section import Material as BeamMaterial
+from nivel.machine.forces import FORCES, Material
 
 LINE = {"markers": ("tip", "eye")}
 POINTS = {"bodies": ("rod", "crank"), "points": ((0, 0, 0), (1, 0, 0))}
@@ -30,7 +32,7 @@ STICTION, LUGRE = (
     {"model": "lugre", "coefficient": 0.3, "bristle_stiffness": 1e5},
 )
 BALL = {"body": "rod", "plane": "base", "stiffness": 1e6, "restitution": 0.5}
-STEEL = {"young_modulus": "210 GPa", "poisson_ratio": 0.3}
+STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}
 
 
 def test_every_force_has_a_type_of_its_own_and_outputs():
@@ -298,3 +300,37 @@ def skew(value, at, mirrored=None):
 )
 def test_refused(make, given, part):
     assert part in refused(make, name="f", **given)
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ({**LINE, "stifness": 5, "free_length": 1}, "stifness"),  # that a force needs one is told by `problems`
+        ({"markers": ("a", "b"), "stiffness": "3 N/m", "free_lenght": 1}, "free_lenght"),
+    ],
+)
+def test_a_misspelt_key_is_told_once(given, meant):
+    with pytest.raises(ModelError) as caught:
+        SpringDamper(name="f", **given)
+    (fault,) = caught.value.faults
+    assert f"`{meant}` is not known; did you mean" in fault.message
+
+
+def test_a_misspelt_key_that_must_be_there_is_told_once():
+    with pytest.raises(ModelError) as caught:
+        Contact(
+            name="f",
+            bodies=("a", "b"),
+            restitution=0.5,
+            materials=({"youngs_module": 1e9, "poisson_ratio": 0.3}, STEEL),
+        )
+    (fault,) = caught.value.faults
+    assert fault.message == "the key `youngs_module` is not known; did you mean `youngs_modulus`?"
+
+
+def test_youngs_modulus_is_understood_by_its_other_name():
+    other = {"young_modulus": "210 GPa", "poisson_ratio": 0.3}
+    assert Material.model_validate(other) == Material(**STEEL)
+    assert BeamMaterial.model_validate({**other, "density": 7850}) == BeamMaterial(**STEEL, density=7850)
+    with pytest.raises(ModelError, match="`young_modulus` is not known; did you mean `youngs_modulus`"):
+        Material(**STEEL, young_modulus=1e9)

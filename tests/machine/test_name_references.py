@@ -184,7 +184,7 @@ def test_the_machine_of_these_tests_is_right():
                         **{key: value for key, value in CONTACT.items() if key != "stiffness"},
                         "body": "slab",
                         "plane": "base",
-                        "materials": ({"young_modulus": 1e9, "poisson_ratio": 0.3},) * 2,
+                        "materials": ({"youngs_modulus": 1e9, "poisson_ratio": 0.3},) * 2,
                     },
                 )
             },

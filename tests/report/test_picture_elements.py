@@ -6,12 +6,14 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from nivel.looks.joints import LINKS, sliding_axes, turning_axes
+from nivel.looks.joints import sliding_axes, turning_axes
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.report.force_drawing import planes
 from nivel.report.picture import machine_picture
-from nivel.report.symbols import SIGNS, joint_icon, joint_sign
+from nivel.report.symbols import joint_icon, joint_sign
+from nivel.system.joints.joints import JOINTS
 
+LINKS = {type_: kind.looks.ends for type_, kind in JOINTS.items() if kind.looks.ends is not None}
 AT_REST = np.array([[1.0, 0, 0, 0]])
 SVG = "{http://www.w3.org/2000/svg}"
 ICON_WIDTH, ICON_HEIGHT = 36.0, 20.0
@@ -57,13 +59,14 @@ def classes(svg):
 
 
 def test_every_kind_of_joint_has_a_sign():
-    assert set(SIGNS) == set(JOINT_WORDS)
-    assert set(LINKS) <= set(SIGNS)
+    assert set(JOINTS) == set(JOINT_WORDS)
+    assert all(kind.symbol is not None for kind in JOINTS.values())
+    assert {end for ends in LINKS.values() for end in ends} <= set(JOINTS)
 
 
 @pytest.mark.parametrize("axis", [(1.0, 0.0), (0.0, 0.0)], ids=["seen", "end-on"])
 def test_signs_of_kinds_that_differ_differ(axis):
-    signs = {kind: joint_sign(kind, 0.0, 0.0, axis) for kind in SIGNS}
+    signs = {kind: joint_sign(kind, 0.0, 0.0, axis) for kind in JOINTS}
     assert signs.pop("distance") == signs["spherical-spherical"]  # two words for one joint
     assert len(set(signs.values())) == len(signs)
     assert joint_sign("unheard-of", 0.0, 0.0, axis) not in signs.values()

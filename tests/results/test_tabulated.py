@@ -108,3 +108,11 @@ def test_results_that_move_are_animated_in_notebooks(kinds):
     for kind in ("run", "kinematics", "statics"):
         assert "<iframe" in kinds[kind][0].animate(height=200)._repr_html_()
     assert "<iframe" in kinds["linear"][0].animate(1)._repr_html_()
+
+
+def test_a_table_without_numbers_cannot_be_made():
+    class Nothing(Tabulated):
+        pass
+
+    with pytest.raises(TypeError, match="to_xarray"):
+        Nothing()

@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
+from nivel.machine import MachineRecord
 from nivel.system.elimination.topology import FREE, Edge, carries, spanning_tree
 from nivel.system.joints.joints import JOINTS
+from nivel.system.states.relative import tree_of
 
 # what carries nothing whatever the tree: links, couplings of two freedoms, points on lines
 NEVER = ("distance", "point-on-line", "revolute-cylindrical")
@@ -150,3 +152,16 @@ def test_a_closed_chain_on_the_ground_is_cut_in_its_middle():
     for branch in tree.branches:
         depth[branch.child] = depth[branch.parent] + 1
     assert max(depth.values()) == n // 2
+
+
+def test_a_body_weighs_what_its_shape_and_density_say():
+    cube = {"type": "box", "size": [1, 1, 1]}
+    pair = MachineRecord(
+        name="pair",
+        bodies=({"name": "light", "mass": 2.0, "shape": cube}, {"name": "heavy", "density": 3.0, "shape": cube}),
+        joints=(
+            {"name": "hinge", "type": "revolute", "bodies": ("light", "heavy"), "point": (0, 0, 0), "axis": (0, 0, 1)},
+        ),
+    )
+    root, _ = tree_of(pair, pair.simulation).branches
+    assert (root.child, root.joint) == (1, FREE)

@@ -86,7 +86,7 @@ def test_damped_impact_takes_the_time_of_its_equation():
 
 def test_hertz_stiffness_comes_from_the_materials():
     """A ball on a plane, of steel and rubber-like: static depth (m g/K)^(2/3), K = 4/3 E* √R."""
-    materials = [{"young_modulus": 1e7, "poisson_ratio": 0.45}, {"young_modulus": 210e9, "poisson_ratio": 0.3}]
+    materials = [{"youngs_modulus": 1e7, "poisson_ratio": 0.45}, {"youngs_modulus": 210e9, "poisson_ratio": 0.3}]
     K = impact.hertz_stiffness((RADIUS,), (1e7, 210e9), (0.45, 0.3))
     depth = (MASS * G / K) ** (2 / 3)
     sections = thrown({"materials": materials, "restitution": 0.5}, -depth, 0.0) | {"gravity": [0, 0, -G]}
@@ -104,7 +104,7 @@ def test_two_spheres_collide_and_keep_their_momentum(materials, formulation):
     moduli, ratios = (2e7, 5e7), (0.45, 0.4)
     K = impact.hertz_stiffness((R1, R2), moduli, ratios)
     law = (
-        {"materials": [{"young_modulus": E, "poisson_ratio": nu} for E, nu in zip(moduli, ratios, strict=True)]}
+        {"materials": [{"youngs_modulus": E, "poisson_ratio": nu} for E, nu in zip(moduli, ratios, strict=True)]}
         if materials
         else {"stiffness": K}
     )
@@ -143,7 +143,7 @@ def test_hertz_time_of_two_spheres():
                 "type": "contact",
                 "bodies": ["a", "b"],
                 "restitution": 1.0,
-                "materials": [{"young_modulus": E, "poisson_ratio": nu}] * 2,
+                "materials": [{"youngs_modulus": E, "poisson_ratio": nu}] * 2,
             }
         },
     }

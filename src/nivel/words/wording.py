@@ -54,13 +54,19 @@ def seconds(value: float) -> str:
     return f"{value * 1e9:.3g} ns"
 
 
+def meant_word(word: str, valid: Sequence[str]) -> str | None:
+    """The one of `valid` that `unknown_word` offers for `word`, where it is a slip of that one."""
+    if translated(word, valid):
+        return None
+    return next(iter(get_close_matches(word, valid, n=1, cutoff=0.6)), None)
+
+
 def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
     """A sentence that refuses `word` and offers what it is called here, the nearest of `valid`, or all of them."""
     if answer := translated(word, valid):
         return f"the {what} `{word}` is not known; {answer}"
-    near = get_close_matches(word, valid, n=1, cutoff=0.6)
-    if near:
-        return f"the {what} `{word}` is not known; did you mean `{near[0]}`?"
+    if near := meant_word(word, valid):
+        return f"the {what} `{word}` is not known; did you mean `{near}`?"
     if not valid:
         return f"the {what} `{word}` is not known; there are none"
     return f"the {what} `{word}` is not known; there {'are' if len(valid) > 1 else 'is'} {', '.join(valid)}"

@@ -1,4 +1,4 @@
-"""Adams–Moulton of orders 1 to 12, of variable step."""
+"""Adams–Moulton of variable step and order, 1 to 11; with functional iteration a step goes on from the next order."""
 
 from __future__ import annotations
 
@@ -24,4 +24,4 @@ def adams(evaluate, machine, history):
     return variable_step(evaluate, machine, history, allowed(run_at(history), SHARE))
 
 
-FACTS = (IntegratorFacts("adams", adams, 12, ROWS, NUMBERS, kind="corrector", multistep=True),)
+FACTS = (IntegratorFacts("adams", adams, MOST_ORDER + 1, ROWS, NUMBERS, kind="corrector", multistep=True),)

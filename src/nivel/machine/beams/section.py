@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Annotated, Literal
+from collections.abc import Iterator, Mapping
+from typing import Annotated, ClassVar, Literal
 
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import SectionLength
@@ -21,6 +21,8 @@ SOFT, HEAVY = 1e9, 2500.0
 
 class Material(Checked):
     """A linear elastic, isotropic material."""
+
+    spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
 
     youngs_modulus: Stress
     poisson_ratio: Scalar

@@ -124,11 +124,18 @@ def mass_properties(body: Body) -> MassProperties:
     return MassProperties(mass, centre, inertia)
 
 
+def mass_of(body: Body) -> float:
+    """[kg] as given, or of its shape by its density; 0 of a flexible body, whose mass is in its modes."""
+    if body.mass is None and body.density is not None and body.shape is not None:
+        return body.density * volume(body.shape)
+    return body.mass or 0.0
+
+
 def _of_homogeneous_shape(body: Body) -> MassProperties:
     shape = body.shape
     if shape is None:
         raise ValueError(f"body {body.name} has neither inertia nor shape")
-    mass = body.mass if body.mass is not None else float(body.density or 0.0) * volume(shape)
+    mass = mass_of(body)
     return MassProperties(mass, centroid(shape), mass * squared_gyration(shape))
 
 

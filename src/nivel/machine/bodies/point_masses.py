@@ -51,16 +51,21 @@ def point_mass_faults(machine: Any, index: Index) -> Faults:
 
 def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
     type_ = entry(joint, "type")
-    may = JOINT_WORDS[type_].point_mass if type_ in JOINT_WORDS else ""
+    may = _may(type_)
     for where, body in _bodies(joint, index):
         if body not in index.point_masses or may == "either":
             continue
         if not may:
             held = "; `type: spherical` holds it" if type_ == "fixed" else ""
-            others = ", ".join(sorted(name for name, words in JOINT_WORDS.items() if words.point_mass))
+            others = ", ".join(sorted(filter(_may, JOINT_WORDS), key=_may))
             yield (*place, *where), f"`{body}`: {_TURN}; it can be in the joints {others}{held}"
         elif where[-1] == 0:
             yield (*place, *where), f"`{body}`: {_TURN}; in a {type_} joint it can only be the second body"
+
+
+def _may(type_: object) -> str:
+    """Which body of a joint of this type may be a point mass; empty: none."""
+    return JOINT_WORDS[type_].point_mass if isinstance(type_, str) and type_ in JOINT_WORDS else ""
 
 
 def _bodies(element: Any, index: Index) -> Iterator[tuple[Place, str]]:

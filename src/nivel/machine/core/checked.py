@@ -16,7 +16,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
-from nivel.machine.core.record import Record, restated
+from nivel.machine.core.record import Record, meant_keys, respelt, restated
 from nivel.machine.units.quantity import fault
 
 
@@ -101,14 +101,15 @@ class Checked(Record):
     def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
         """With what is wrong between the other fields, where some are wrong by themselves."""
         try:
-            return handler(data)
+            return handler(respelt(data, cls))
         except ValidationError as error:
             raise restated(error, cls, cls.lines_beside(error, data, info)) from None
 
     @classmethod
     def lines_beside(cls, error: ValidationError, data: Any, info: ValidationInfo) -> list[InitErrorDetails]:
         """What is wrong in `data` between the fields that `error` is not about."""
-        wrong = {line["loc"][0] for line in error.errors(include_url=False) if line["loc"]}
+        found = error.errors(include_url=False)
+        wrong = {line["loc"][0] for line in found if line["loc"]} | meant_keys(found, cls)
         return lines_of(problems_beside(cls, data, wrong, info.context))
 
 

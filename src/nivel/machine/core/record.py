@@ -23,7 +23,7 @@ from nivel.machine.given import RecordClass
 from nivel.machine.laws.signature import PlainSignature, words_of
 from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
 from nivel.words.arguments import checked_arguments
-from nivel.words.wording import shown, unknown_word
+from nivel.words.wording import meant_word, shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")
 _ROUGHLY = r"^[^\s\d._-][^\s.]*$"  # in the schema: regular expressions of JSON know no classes of letters
@@ -65,6 +65,8 @@ class Record(BaseModel, metaclass=RecordClass):
     collection: ClassVar[str] = ""  # the section of the machine that holds such records
     # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
     tagged: ClassVar[Mapping[str, int]] = {}
+    # keys that mean a field too, and its name
+    spellings: ClassVar[Mapping[str, str]] = {}
 
     @checked_arguments
     def __init__(self, /, **data: Any) -> None:
@@ -122,15 +124,37 @@ class Record(BaseModel, metaclass=RecordClass):
     @classmethod
     def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         try:
-            return handler(data)
+            return handler(respelt(data, cls))
         except ValidationError as error:
             raise restated(error, cls) from None
 
 
+def respelt(data: Any, record: type[Record]) -> Any:
+    """`data` with the names of fields in place of their other spellings; a key that is given both ways stays unknown."""
+    if not record.spellings or not isinstance(data, Mapping):
+        return data
+    return {
+        new if (new := record.spellings.get(key, key)) == key or new not in data else key: data[key] for key in data
+    }
+
+
 def restated(error: ValidationError, record: type[Record], more: Sequence[InitErrorDetails] = ()) -> ValidationError:
     """The same error in our own words, with `more` lines."""
-    lines = [_restated_line(line, record) for line in error.errors(include_url=False)]
+    found = error.errors(include_url=False)
+    meant = meant_keys(found, record)
+    lines = [
+        _restated_line(line, record)
+        for line in found
+        if not (line["type"] == "missing" and line["loc"][-1] in meant)  # a misspelt key is told once
+    ]
     return ValidationError.from_exception_data(record.__name__, [*lines, *more])
+
+
+def meant_keys(lines: Sequence[ErrorDetails], record: type[Record]) -> set[str | int]:
+    """Keys of the record that unknown ones are slips of: these are told, and not that they are missing."""
+    unknown = (line["loc"] for line in lines if line["type"] == "extra_forbidden")
+    words = (meant_word(str(place[0]), field_words(record)) for place in unknown if len(place) == 1)
+    return {word for word in words if word is not None}
 
 
 def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import ClassVar, Final, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
@@ -31,7 +31,9 @@ SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder", "extrusion", "mesh")
 class Material(Record):
     """An elastic material."""
 
-    young_modulus: Pressure
+    spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
+
+    youngs_modulus: Pressure
     poisson_ratio: PoissonRatio
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from fnmatch import fnmatchcase
 from os import PathLike
@@ -34,12 +35,12 @@ class Rows(NamedTuple):
     columns: Mapping[str, Column]
 
 
-class Tabulated:
+class Tabulated(ABC):
     """Something with numbers by name: `keys()`, completion of names in notebooks, `save(path)`, `to_dataframe()`."""
 
+    @abstractmethod
     def to_xarray(self) -> xarray.Dataset:
         """Everything, with names and units."""
-        raise NotImplementedError
 
     def keys(self) -> tuple[str, ...]:
         """The names that ``[…]`` takes."""

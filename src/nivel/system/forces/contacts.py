@@ -71,7 +71,7 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     stiffness = force.stiffness
     if force.materials is not None:
         # Hertz: K = 4/3 E* √R, 1/E* = Σ (1 - ν²)/E, 1/R = Σ 1/r
-        compliance = sum((1.0 - each.poisson_ratio**2) / each.young_modulus for each in force.materials)
+        compliance = sum((1.0 - each.poisson_ratio**2) / each.youngs_modulus for each in force.materials)
         stiffness = 4.0 / 3.0 / compliance / math.sqrt(curvature)
     law = NONE
     if force.law is not None:

@@ -24,6 +24,7 @@ from nivel.results.trust import Item, Threshold, number
 from nivel.system.beams.nodes import with_nodes
 from nivel.system.joints.composition import POINT
 from nivel.system.joints.joint_frames import joint_frames
+from nivel.system.joints.joints import composition_of
 
 if TYPE_CHECKING:
     from nivel.analysis.preparation.preparation import Prepared

@@ -98,8 +98,6 @@ def solution(times):
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_force_with_a_state_moves_as_its_equations_say(cart, integrator, coordinates):
-    if integrator == "ros2" and coordinates == "independent":
-        pytest.skip("ros2 has no independent coordinates")
     result = cart.simulate(integrator=integrator, coordinates=coordinates)
     place, _, stretch = solution(result.time)
     error = INTEGRATORS[integrator]

@@ -7,9 +7,11 @@ from scipy.spatial.transform import Rotation
 
 from machines import GRAVITY, random_body
 from nivel.machine import Joint, MachineRecord, Marker, PointForce
-from nivel.system.elimination.topology import CARRIERS
+from nivel.system.elimination.topology import carries
+from nivel.system.joints.joints import JOINTS
 from simulating import G, hinge, machine, slide, solid
 
+CARRIERS = tuple(kind for kind in JOINTS if carries(kind))
 PITCH = -0.6
 
 

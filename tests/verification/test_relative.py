@@ -14,7 +14,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
 from nivel.motion import relative as equations_in_relative
-from nivel.system.elimination.topology import CARRIERS, FREE
+from nivel.system.elimination.topology import FREE
 from nivel.system.states.relative import arrange, tree_of
 from preparing import prepare
 
@@ -29,7 +29,7 @@ PAIRS = {
     f"{kind}, {'ground' if ground else 'free'}{', turned' if turned else ''}{', half a turn' if half else ''}": seeded(
         linked.marked_pair, kind, ground=ground, turned=turned, half=half
     )
-    for kind in CARRIERS
+    for kind in linked.CARRIERS
     for ground in (True, False)
     for turned in (False, True)
     for half in ((False, True) if kind in ("translational", "fixed") else (False,))
@@ -51,7 +51,7 @@ MACHINES = {
     **{f"every element, {model}": (lambda model=model: linked.record(linked.every_element(model)))
        for model in ("coulomb", "stiction", "lugre")},
     **PAIRS,
-    **{kind: seeded(machines.pair, kind) for kind in machines.BETWEEN_BODIES if kind not in CARRIERS},
+    **{kind: seeded(machines.pair, kind) for kind in machines.BETWEEN_BODIES if kind not in linked.CARRIERS},
     **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in RIGID},
 }  # fmt: skip
 EACH = pytest.mark.parametrize("name", MACHINES)
@@ -152,7 +152,7 @@ def test_zoo_has_every_carrier_both_ways_on_the_ground_and_between_bodies():
             if branch.joint != FREE:
                 seen.add((machine.joints[branch.joint].type, branch.turned, branch.parent == len(machine.bodies)))
     ways = (True, False)
-    assert seen == {(kind, turned, ground) for kind in CARRIERS for turned in ways for ground in ways}
+    assert seen == {(kind, turned, ground) for kind in linked.CARRIERS for turned in ways for ground in ways}
 
 
 TREES = {name: MACHINES[name] for name in ("marked tree", "free tree", "two trees", "loops", "free ring", *PAIRS)}

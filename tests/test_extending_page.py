@@ -241,7 +241,7 @@ def test_check_tells_what_a_component_without_slopes_costs(vessel):
     assert "extrapolated-euler" in line
 
 
-def test_the_faults_of_a_component_outside_the_package_are_told(folder):
+def test_the_faults_of_a_component_outside_the_package_are_told(vessel, folder):
     text = FILES["vessel.yaml"].replace("B: supply}, diameter: 1 mm", "C: supply}, diameter: 1 kg")
     (folder / "wrong.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(nivel.ModelError) as caught:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from typing import Any, Final
+from typing import Final
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 from settings_keywords import Keywords, absent_of, all_keywords, kind_of, meaning_of, option_of
 
 TABLE: Final = re.compile(r"(<!-- table of (\w+): (\w+) -->\n\n).*?(\n\n<!-- end of table -->)", re.DOTALL)
-MOST_WORDS: Final = 6  # longer lists stand elsewhere
+SHORT, LONG = 30, 100  # characters of lists in a column, and behind a meaning; longer ones stand elsewhere
 
 
 def with_tables(page: str) -> str:
@@ -29,7 +29,7 @@ def _keys(fields: Mapping[str, FieldInfo]) -> Iterator[str]:
     """Rows for the keys of a section of a machine file."""
     yield "| key | unit | default | allowed | meaning |\n|---|---|---|---|---|"
     for name, field in fields.items():
-        yield f"| `{name}` | {kind_of(field).unit} | {_default(field)} | {_allowed(field)} | {meaning_of(field)} |"
+        yield f"| `{name}` | {kind_of(field).unit} | {_default(field)} | {_allowed(field, SHORT)} | {meaning_of(field)} |"
 
 
 def _options(keywords: Keywords) -> Iterator[str]:
@@ -37,7 +37,7 @@ def _options(keywords: Keywords) -> Iterator[str]:
     yield "| option | default | for |\n|---|---|---|"
     for name, field in keywords.fields.items():
         if option := option_of(name, field):
-            words = f": {_allowed(field)}" if kind_of(field).words else ""
+            words = f": {_allowed(field, LONG)}" if kind_of(field).words else ""
             default = "of the file" if keywords.of_file else _default(field)
             yield f"| `{option.split()[0]}` | {default} | {meaning_of(field)}{words} |"
 
@@ -47,26 +47,20 @@ def _default(field: FieldInfo) -> str:
     if absent or isinstance(value, bool) or value in (None, (), "", {}):
         return absent
     if isinstance(value, BaseModel):
-        return "see below"
+        return ""
     return f"`{value}`" if isinstance(value, str) else f"{value:g}".replace("e-0", "e-")
 
 
-def _allowed(field: FieldInfo) -> str:
-    """Words, keys of a part, or bounds."""
-    words, record = kind_of(field).words, _record_of(field)
+def _allowed(field: FieldInfo, longest: int) -> str:
+    """Words, where they are no longer than so many characters, or bounds."""
+    words, kind = ", ".join(f"`{word}`" for word in kind_of(field).words), kind_of(field)
     if words:
-        return ", ".join(f"`{word}`" for word in words) if len(words) <= MOST_WORDS else "see below"
-    if record is not None:
-        return f"`{{{', '.join(f'{key}: …' for key in record.model_fields)}}}`"
+        return words if len(words) <= longest else "see below"
+    if kind.type.startswith("Mapping"):
+        return "a mapping, see below"
     bounds = {
         key: getattr(mark, key) for mark in field.metadata for key in ("ge", "gt", "le", "lt") if hasattr(mark, key)
     }
     if {"gt", "lt"} <= bounds.keys():
         return f"between {bounds['gt']:g} and {bounds['lt']:g}"
-    return "greater than 0" if kind_of(field).unit else ""
-
-
-def _record_of(field: FieldInfo) -> Any:
-    """The record that a field takes; None where it takes none."""
-    kinds = [field.annotation, *getattr(field.annotation, "__args__", ())]
-    return next((each for each in kinds if isinstance(each, type) and issubclass(each, BaseModel)), None)
+    return "greater than 0" if kind.unit else ""

@@ -77,8 +77,9 @@ def separated(_context: click.Context, _parameter: click.Parameter, values: tupl
 class SettingOption(click.Option):
     """The option of a setting, whose help ends with the words of which the setting may be one."""
 
-    def __init__(self, name: str, declaration: str, takes: Any, **more: Any) -> None:
+    def __init__(self, name: str, takes: Any, declaration: str, meaning: str) -> None:
         option, _, metavar = declaration.partition(" ")
+        more: dict[str, Any] = {}
         kinds = {get_origin(each) or each for each in get_args(takes)}
         if bool in kinds:
             more |= {
@@ -89,18 +90,15 @@ class SettingOption(click.Option):
             more |= {"multiple": True, "callback": separated}
         elif Mapping in kinds:
             more |= {"multiple": True, "callback": assignments(metavar)}
-        super().__init__([option, name], metavar=metavar or None, **more)
         self.words = [word for each in get_args(takes) if get_origin(each) is Literal for word in get_args(each)]
-
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        record = super().get_help_record(ctx)
-        return record and (record[0], f"{record[1]} {', '.join(self.words)}." if self.words else record[1])
+        said = f"{meaning} {', '.join(self.words)}." if self.words else meaning
+        super().__init__([option, name], metavar=metavar or None, help=said, **more)
 
 
 def setting_options(keys: Any, *names: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Options for the settings in a mapping of `nivel.settings`, or for some; those that were given come as the mapping `settings`."""
     options = [
-        SettingOption(name, kind.__metadata__[0], kind.__origin__, help=kind.__metadata__[1])
+        SettingOption(name, kind.__origin__, *kind.__metadata__)
         for name, kind in get_type_hints(keys, include_extras=True).items()
         if get_origin(kind) is Annotated and name in (names or (name,))
     ]

@@ -49,14 +49,12 @@ class Kind(NamedTuple):
 
 
 class Keywords(NamedTuple):
-    """A mapping of keywords: name, meaning, fields by name, whether a default is that of the machine file, and mappings of which it has all
-    keywords."""
+    """A mapping of keywords: name, meaning, fields by name, and whether a default is that of the machine file."""
 
     name: str
     meaning: str
     fields: Mapping[str, FieldInfo]
     of_file: bool = False
-    bases: tuple[str, ...] = ()
 
 
 PLAIN: Final = {
@@ -83,9 +81,9 @@ def all_keywords() -> tuple[Keywords, ...]:
         Keywords("SweepSettingsDict", "Settings of a sweep over machines.", sweep),
         Keywords(
             "MachineSweepSettingsDict",
-            "Settings of a sweep over values of a machine, and of all its runs.",
-            run | sweep,
-            bases=("RunSettingsDict", "SweepSettingsDict"),
+            "Settings of a sweep over values of a machine, and of its runs.",
+            sweep | run,
+            True,
         ),
         Keywords("StaticsSettingsDict", "Settings of statics.", StaticsSettings.model_fields),
         Keywords("KinematicsSettingsDict", "Settings of kinematics.", KinematicsSettings.model_fields),
@@ -105,11 +103,9 @@ def module() -> str:
     }
     lines = [HEAD.format(aliases=", ".join(sorted(aliases)))]
     for each in found:
-        lines += ["", f"class {each.name}({', '.join(each.bases or ('TypedDict',))}, total=False):"]
-        lines += [f'    """{each.meaning}"""', ""]
-        if not each.bases:
-            lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in each.fields.items()]
-            lines += [""]
+        lines += ["", f"class {each.name}(TypedDict, total=False):", f'    """{each.meaning}"""', ""]
+        lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in each.fields.items()]
+        lines += [""]
     return "\n".join(lines)
 
 

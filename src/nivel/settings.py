@@ -87,8 +87,34 @@ class SweepSettingsDict(TypedDict, total=False):
     processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
 
 
-class MachineSweepSettingsDict(RunSettingsDict, SweepSettingsDict, total=False):
-    """Settings of a sweep over values of a machine, and of all its runs."""
+class MachineSweepSettingsDict(TypedDict, total=False):
+    """Settings of a sweep over values of a machine, and of its runs."""
+
+    combine: Annotated[Combination | None, "--combine NAME", "Grid, every value with every other; or rows, the first of all lists, the second of all:"]
+    samples: Annotated[int | str | None, "--samples NUMBER", "Number of variants of a Latin hypercube between two bounds, or over distributions."]
+    seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
+    save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
+    processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
+    duration: Annotated[float | str | None, "--duration TIME", "Simulated time, e.g. 8 or '8 s'."]
+    step: Annotated[float | str | None, "--step TIME", "Time step, e.g. '1 ms'; first step of integrators that choose their steps."]
+    output_interval: Annotated[float | str | None, "--output-interval TIME", "Time between frames; with a fixed step a multiple of it; default: up to 1000 intervals."]
+    integrator: Annotated[Integrator | None, "--integrator NAME", "Time integration method:"]
+    formulation: Annotated[Formulation | None, "--formulation NAME", "Equations of motion:"]
+    coordinates: Annotated[Coordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
+    rotations: Annotated[Rotations | None, "--rotations NAME", "Rotation coordinates of lagrange:"]
+    cut: Annotated[Sequence[str] | str | None, "--cut JOINTS", "Joints that close loops: they stay constraints in relative coordinates; default: chosen automatically."]
+    stabilisation: Annotated[Stabilisation | None, "--stabilisation NAME", "Constraint stabilisation:"]
+    start: Annotated[Start | None, "--start NAME", "Initial state: as assembled, or the equilibrium at rest:"]
+    free: Annotated[Sequence[str] | str | None, "--free NAMES", "Joint coordinates without stiffness that an equilibrium leaves where they are placed."]
+    step_control: Annotated[StepControl | None, "--step-control NAME", "Steps fixed, or chosen by their error; own: as the integrator does:"]
+    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, for integrators that choose their steps."]
+    largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
+    corrector: Mapping[str, Any] | None
+    newmark: Mapping[str, Any] | None
+    hht: Mapping[str, Any] | None
+    generalised_alpha: Mapping[str, Any] | None
+    penalty: Mapping[str, Any] | None
+    baumgarte: Mapping[str, Any] | None
 
 
 class StaticsSettingsDict(TypedDict, total=False):

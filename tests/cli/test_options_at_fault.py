@@ -45,6 +45,8 @@ def said(*arguments):
         ("run", ["--integrator", "rkx"], "--integrator", "the word `rkx` is not known"),
         ("run", ["--tolerance", "1e-3"], "--tolerance", "`tolerance` has no effect here"),
         ("run", ["--integrator", "dopri5", "--tolerance", "1e-14"], "--tolerance", "1e-14 is below 1e-12"),
+        ("run", ["--free", "hinge.angle"], "--free", "the run starts as-given; it is for `start: equilibrium`"),
+        ("run", ["--coordinates", "relative", "--cut", "pin, rod"], "--cut", "there is no joint `rod`"),
         ("run", ["--coordinates", "relative", "--cut", "pin"], "--cut", "there is no joint `pin`"),
         (
             "run",

@@ -61,6 +61,8 @@ def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
     if name == "penalty" and formulation.factor == 0.0:
         fitting = [each for each, facts in FORMULATIONS.items() if facts.factor > 0.0]
         return f"`formulation: {settings.formulation}` has multipliers of its own; {_choice('it', fitting)}"
+    if name == "free" and settings.free and settings.start != "equilibrium":
+        return f"the run starts {settings.start}; it is for `start: equilibrium`"
     if name == "cut" and settings.cut and coordinates != "relative":
         return f"all joints stay constraints in {coordinates} coordinates; it is for `coordinates: relative`"
     return ""

@@ -63,7 +63,9 @@ def test_order_in_lagrange(name, stabilisation):
     assert abs(slope(steps, errors) - order) < 0.2, errors
 
 
-@pytest.mark.parametrize("name", ["am1", "am2", "am5", "gear1", "gear2", "gear3", "gear4"])
+@pytest.mark.parametrize(
+    "name", tail(["am1", "am2", "am5", "gear1", "gear2", "gear3", "gear4"], ["am1", "am5", "gear1", "gear4"])
+)
 def test_order_with_newtons_iteration(name):
     order = INTEGRATORS[name].order
     steps = LONGEST[order] * np.array([1 / 2, 1 / 4, 1 / 8])
@@ -121,7 +123,7 @@ def test_order_on_a_tumbling_body(name, formulation):
     assert abs(slope(steps, errors) - 4) < 0.2, errors
 
 
-@pytest.mark.parametrize("name", ["rkn4", "abm4", "gear4"])
+@pytest.mark.parametrize("name", tail(["rkn4", "abm4", "gear4"], ["rkn4", "abm4"]))
 @pytest.mark.parametrize("coordinates", tail(["absolute", "relative"], ["relative"]))
 def test_order_on_the_heavy_top(name, coordinates):
     """24 turns a second: 0.8 ms are an eighth of a radian. In relative coordinates the state is that of its spherical joint."""

@@ -134,7 +134,7 @@ def test_bdf_where_the_spring_is_damped(coordinates):
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
-@pytest.mark.parametrize("integrator", ["hht", "generalised-alpha"])
+@pytest.mark.parametrize("integrator", tail(["hht", "generalised-alpha"], ["generalised-alpha"]))
 def test_no_tolerance_is_dear(integrator, coordinates):
     """What a step leaves of the vibration along the rod must not make the run follow it, at this tolerance and at none beside it."""
     tolerances = np.geomspace(3e-3, 1e-4, 60 if FULL else 8)

@@ -20,9 +20,8 @@ from part import part
 
 @part
 def tree_motion(machine, y, _out, repeats):
-    record = record_at(machine)
     for _ in range(repeats):
-        move_tree(record.bodies, record.tree, y)
+        move_tree(machine, y)
 
 
 @part

@@ -13,6 +13,7 @@ from nivel.files import parse_machine
 from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FILE_WORDS, TOP_WORDS
 from nivel.files.writer import write_machine
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine import (
     AssemblySettings,
     Belt,
@@ -48,6 +49,7 @@ from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import CONSTANTS, LOOKUP, ExpressionError, Number
 from nivel.machine.units.unit import UNITS
+from nivel.system.elimination.topology import carries
 from nivel.system.joints.joints import JOINTS
 
 ROOT = Path(__file__).parent.parent
@@ -359,3 +361,50 @@ def test_faults_are_shown_as_they_are():
 def test_lines_are_short():
     """Addresses of links are not counted."""
     assert not [line for line in PAGE.splitlines() if len(re.sub(r"\]\([^)]*\)", "]", line)) > 130]
+
+
+METHODS = (ROOT / "docs" / "methods.md").read_text(encoding="utf-8")
+STEPS = {"fixed": (False, False), "chosen": (True, False), "fixed or chosen": (False, True)}
+IN_SETTINGS = {"fixed": "fixed", "variable": "chosen", "fixed; variable with `step_control: error`": "fixed or chosen"}
+
+
+def integrators_of(text):
+    """(word, other cells) of the rows of a table that name integrators; "`ab1` … `ab5`" are all between."""
+    for cells in rows(text):
+        for part in cells[0].split(", "):
+            found = code(part)
+            if "…" in part:
+                stem = found[0][:-1]
+                found = [f"{stem}{k}" for k in range(int(found[0][-1]), int(found[1][-1]) + 1)]
+            yield from ((word, cells) for word in found if word in INTEGRATORS)
+
+
+def test_the_table_of_integrators_has_their_orders_and_steps():
+    listed = list(integrators_of(METHODS[METHODS.index("\n## Integrators") : METHODS.index("\n## Limits")]))
+    assert sorted(word for word, _ in listed) == sorted(INTEGRATORS)
+    for word, (names, steps, order, _) in listed:
+        facts = INTEGRATORS[word]
+        assert STEPS[steps] == (facts.chooses_steps, facts.optional_control), word
+        if "…" in order:
+            assert order == "1 … 4" if word.startswith("gear") else "1 … 5"
+            assert facts.order == int(word[-1])
+        elif order != "variable":
+            orders = order.split(", ")
+            own = orders[code(names).index(word)] if len(orders) > 1 else orders[0]
+            assert facts.order == int(own), word
+        else:
+            assert facts.chooses_steps
+
+
+def test_the_table_of_settings_has_every_integrator_with_its_steps():
+    text = section("Integrators")
+    listed = [(word, cells) for word, cells in integrators_of(text) if cells[1] in IN_SETTINGS]
+    assert sorted(word for word, _ in listed) == sorted(INTEGRATORS)
+    for word, cells in listed:
+        facts = INTEGRATORS[word]
+        assert STEPS[IN_SETTINGS[cells[1]]] == (facts.chooses_steps, facts.optional_control), word
+
+
+def test_joints_that_can_be_part_of_the_tree_are_named():
+    (said,) = re.findall(r"These joints can be part of the tree: ([^.]*)\.", METHODS)
+    assert said.replace("\n", " ").split(", ") == [kind for kind in JOINTS if carries(kind)]

@@ -132,7 +132,7 @@ def test_a_crane_is_driven_with_keys_and_a_gamepad_and_its_recording_is_repeated
             page.keyboard.down("w")
             until(page, lambda: session.newest[gauge["boom-angle"]] > before + 5.0)
             page.keyboard.up("w")
-            shown = "Number(document.querySelectorAll('.strip output')[4].textContent.split(' ')[0].replace('−', '-'))"
+            shown = "parseFloat(document.querySelectorAll('.strip output')[4].textContent.replace('−', '-'))"
             until(page, lambda: page.evaluate(shown) > before + 4.0)
             slewed = session.values()["slew_lever"]
             page.evaluate("navigator.getGamepads = () => [{connected: true, axes: [1], buttons: []}]")
@@ -237,4 +237,8 @@ def test_gauges_and_paths_are_the_same_on_a_page_that_shows_few_frames(live, bro
         np.testing.assert_allclose(np.diff(times), spacing, rtol=1e-6)
         assert page.locator(".strip .name").inner_text() == "Speed"
         assert page.locator(".strip output").inner_text() == "0 m/s"
+        for unit, half in (("deg", 90.0), ("rad", np.pi / 2)):
+            gauge = f"{{name: 'a', label: 'a', unit: '{unit}', low: {-half}, high: {half}, limit: {half / 3}}}"
+            strip = f"new nivel.app.live.strips[0].constructor({gauge}).element"
+            assert page.evaluate(f"{strip}.querySelector('.scale').textContent") == "−90 … 90°, limit 30°"
     session.command("reset")

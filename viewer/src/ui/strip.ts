@@ -42,7 +42,7 @@ export class Strip {
     const { low, high, limit } = this.gauge;
     const largest = Math.max(...this.numbers.map(Math.abs), Math.abs(low ?? 0), Math.abs(high ?? 0), 1e-3);
     const { texts, unit: shown } = inWords(this.gauge, [this.value], largest);
-    this.output.textContent = `${texts[0]} ${shown}`.trim();
+    this.output.textContent = withUnit(texts[0]!, shown);
     this.element.classList.toggle("beyond", limit !== null && Math.abs(this.value) > limit);
     const context = this.canvas.getContext("2d");
     const end = this.times.at(-1);
@@ -84,18 +84,23 @@ function scaleInWords(gauge: Gauge): string {
   const words: string[] = [];
   if (low !== null && high !== null) {
     const { texts, unit: shown } = inWords(gauge, [low, high]);
-    words.push(`${texts.join(" … ")} ${shown}`.trim());
+    words.push(withUnit(texts.join(" … "), shown));
   }
   if (limit !== null) {
     const { texts, unit: shown } = inWords(gauge, [limit]);
-    words.push(`limit ${texts[0]} ${shown}`.trim());
+    words.push(`limit ${withUnit(texts[0]!, shown)}`);
   }
   return words.join(", ");
 }
 
+/** `12 bar`, `30°`. */
+function withUnit(text: string, unit: string): string {
+  return unit === "°" ? `${text}°` : `${text} ${unit}`.trim();
+}
+
 /** Numbers of a gauge with their unit; angles in degrees. */
 function inWords({ unit }: Gauge, values: number[], scale?: number): { texts: string[]; unit: string } {
-  if (unit !== "rad") return measured(values, unit, scale);
-  const turned = (value: number) => (value * 180) / Math.PI;
+  if (unit !== "rad" && unit !== "deg") return measured(values, unit, scale);
+  const turned = (value: number) => (unit === "deg" ? value : (value * 180) / Math.PI);
   return { ...measured(values.map(turned), "deg", scale && turned(scale)), unit: "°" };
 }

@@ -188,6 +188,7 @@ def test_true_is_no_number(settings, value):
     [
         ({"duration": "0 kg"}, "`0 kg` is a mass (kg); a time (s) was expected"),
         ({"duration": -1}, "a time greater than zero was expected, got `-1`"),
+        ({"duration": "-1 s"}, "a time greater than zero was expected, got `-1 s`"),
         ({"modes": "nan"}, "a whole number from 0 to 1000 was expected, got `nan`"),
         ({"buckling": 10**400}, "a whole number from 0 to 1000 was expected, got a number of more than 40 digits"),
         ({"coordinates": ""}, "'' is not one of auto, absolute, relative"),

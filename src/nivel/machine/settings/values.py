@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, TypeVar, get_args
 
-from pydantic import AfterValidator, BeforeValidator, GetCoreSchemaHandler
+from pydantic import BeforeValidator, GetCoreSchemaHandler, WrapValidator
 from pydantic_core import CoreSchema, core_schema
 
 from nivel.errors import ModelError
@@ -54,10 +54,10 @@ def static_coordinates(coordinates: str) -> str:
     return coordinates if coordinates in get_args(StaticCoordinates) else "auto"
 
 
-def _not_negative(value: float) -> float:
-    if value < 0.0:
-        raise fault(f"a time greater than zero was expected, got `{value:g}`")
-    return value
+def _not_negative(value: Any, read: Callable[[Any], float]) -> float:
+    if (number := read(value)) < 0.0:
+        raise fault(f"a time greater than zero was expected, got {shown(value)}")
+    return number
 
 
 def _static(value: Any) -> Any:
@@ -71,7 +71,7 @@ def _listed(value: Any) -> Any:
     return [each.strip() for each in value.split(",")] if isinstance(value, str) else value
 
 
-Time = Annotated[OneNumber, Quantity("time"), AfterValidator(_not_negative)]  # zero: the start alone
+Time = Annotated[OneNumber, Quantity("time"), WrapValidator(_not_negative)]  # zero: the start alone
 Modes = Annotated[Given[int, int, int | str], Between("0", "1000")]
 Positions = Annotated[Given[int, int, int | str], Between("2", "10000000")]
 OfStatics = Annotated[StaticCoordinates, BeforeValidator(_static)]

@@ -34,6 +34,33 @@ def test_crossings_with_the_speed_are_those_of_the_closed_form(speeds):
     np.testing.assert_allclose(found, wanted, rtol=2e-3)
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("rpm", 30.0 / np.pi), ("deg/s", 180.0 / np.pi), ("Hz", 0.5 / np.pi)])
+def test_crossings_do_not_depend_on_the_unit_of_the_speed(speeds, unit, factor):
+    plain = speeds.crossings([1.0])
+    other = LinearSweep("spin", unit, factor * speeds.values, speeds.models).crossings([1.0])
+    assert [each.mode for each in other] == [each.mode for each in plain]
+    for name, scale in (("speed", 1.0), ("frequency", 1.0), ("value", factor)):
+        wanted = [scale * getattr(each, name) for each in plain]
+        np.testing.assert_allclose([getattr(each, name) for each in other], wanted, rtol=1e-12)
+    assert f" {unit} (" in other[0].words(unit)
+
+
+def test_orders_belong_to_speeds_of_rotation(speeds):
+    with pytest.raises(nivel.ModelError, match="spin is in mm"):
+        LinearSweep("spin", "mm", speeds.values, speeds.models).crossings([1.0])
+
+
+def test_a_value_that_meets_the_speed_exactly_is_one_crossing():
+    """A mass on a spring, whose √(k/m) of 3 rad/s is one of the values."""
+    body = nivel.Body(name="m", mass=2.0, inertia=(1, 1, 1))
+    rail = nivel.Joint(name="rail", type="translational", bodies=("ground", "m"), point=(0, 0, 0), axis=(1, 0, 0))
+    spring = nivel.JointSpringDamper(name="s", coordinate="rail", stiffness=18.0)
+    model = nivel.Machine("m", bodies=[body], joints=[rail], forces=[spring]).linearise()
+    for values in ([1.0, 2.0, 3.0, 4.0], [1.0, 3.0], [3.0, 4.0], [-4.0, -2.5, -1.0]):
+        found = LinearSweep("speed", "rad/s", np.array(values), (model,) * len(values)).crossings([1.0])
+        assert [abs(each.speed) for each in found] == pytest.approx([3.0], rel=1e-12)
+
+
 def test_a_spring_that_becomes_negative_changes_the_stability():
     body = nivel.Body(name="m", mass=2.0, inertia=(1, 1, 1))
     rail = nivel.Joint(name="rail", type="translational", bodies=("ground", "m"), point=(0, 0, 0), axis=(1, 0, 0))

@@ -122,3 +122,42 @@ def test_a_coin_that_sways_already_has_no_eigenvalues():
         machine.record.replace(bodies=(body.replace(angular_velocity=tuple(omega), velocity=tuple(velocity)),))
     )
     assert not swaying.linearise().steady
+
+
+def test_a_rounded_steady_circle_is_judged_though_it_is_unstable():
+    """A slow disc falls out of its circle from the last digit that is given: λ² of its sway is positive."""
+    machine, square = coin(0.05, 1.5)
+    body = machine.record.bodies[0]
+    rounded = body.replace(
+        angular_velocity=tuple(round(x, 7) for x in body.angular_velocity),
+        velocity=tuple(round(x, 7) for x in body.velocity),
+    )
+    model = nivel.Machine.from_record(machine.record.replace(bodies=(rounded,))).linearise()
+    assert model.steady
+    assert not model.stable
+    assert int(model.structural.sum()) == 4
+    np.testing.assert_allclose(max(model.eigenvalues.real), np.sqrt(square), rtol=1e-5)
+
+
+@pytest.mark.parametrize(("lean", "turn"), [(0.35, 0.2), (-0.1, 0.3), (0.35, 0.01)])
+def test_slow_circles_are_judged(lean, turn):
+    machine, square = coin(lean, turn)
+    model = machine.linearise()
+    assert model.steady
+    np.testing.assert_allclose(max(model.eigenvalues.imag), np.sqrt(-square), rtol=1e-8)
+
+
+def test_what_is_not_steady_has_no_eigenvalues_to_read():
+    machine, _ = coin(0.35, 2.0)
+    body = machine.record.bodies[0]
+    omega = np.add(body.angular_velocity, (2e-3, 0.0, 0.0))
+    swaying = body.replace(angular_velocity=tuple(omega), velocity=tuple(np.cross(omega, body.position)))
+    model = nivel.Machine.from_record(machine.record.replace(bodies=(swaying,))).linearise()
+    assert not model.steady
+    assert np.isnan(model.eigenvalues).all()
+    assert np.isnan(model.to_xarray()["eigenvalue_real"]).all()
+    assert not model.modes
+    assert not model.stable
+    assert np.isfinite(model.A).all()
+    with pytest.raises(nivel.ModelError, match="describe no motion"):
+        model.mode(1)

@@ -69,9 +69,11 @@ def _sweep(order: Order, over: str, orders: list[float]) -> None:
     """Eigenvalues over a parameter."""
     import numpy as np
 
-    from nivel.results.analyses.linear_sweep import LinearSweep
+    from nivel.results.analyses.linear_sweep import LinearSweep, speed_of
 
     path, values, unit = read_range(over)
+    if orders:
+        speed_of(unit, path)
     name = order.load().name
 
     def compute(listener: Listener) -> LinearSweep:
@@ -85,10 +87,7 @@ def _sweep(order: Order, over: str, orders: list[float]) -> None:
         return [
             f"{name}: eigenvalues at {len(values)} values of {path}",
             *sweep.statements(),
-            *(
-                f"mode {each.mode} has {each.order:g} times the speed at {each.value:.6g}, {each.frequency:.6g} Hz"
-                for each in sweep.crossings(orders)
-            ),
+            *(each.words(unit) for each in sweep.crossings(orders)),
         ]
 
     order.keep(f"{name}-sweep.nc", compute, said, orders)

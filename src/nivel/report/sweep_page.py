@@ -22,10 +22,7 @@ def sweep_html(sweep: LinearSweep, orders: Sequence[float] = ()) -> str:
     from jinja2 import Environment, FileSystemLoader
 
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    said = sweep.statements() + [
-        f"mode {each.mode} has {each.order:g} times the speed at {each.value:.6g}, {each.frequency:.6g} Hz"
-        for each in sweep.crossings(orders)
-    ]
+    said = sweep.statements() + [each.words(sweep.unit) for each in sweep.crossings(orders)]
     return environment.get_template("plots.html.j2").render(
         name=f"{sweep.models[0].name}: eigenvalues over {sweep.parameter}",
         said=said or ["nothing changes its stability"],
@@ -47,7 +44,7 @@ def _plots(sweep: LinearSweep, orders: Sequence[float]) -> list[tuple[str, str]]
     shown: Any = np.where(np.nan_to_num(found.imag) >= 0.0, found, np.nan)
     some = [k for k in range(shown.shape[1]) if np.any(np.isfinite(shown[:, k]))]
     frequencies = [Line(f"mode {k + 1}", values, found[:, k].imag / TURN) for k in upper]
-    frequencies += [Line(f"{order:g} × speed", values, order * values / TURN) for order in orders]
+    frequencies += [Line(f"{order:g} × speed", values, order * np.abs(sweep.speeds) / TURN) for order in orders]
     rates = [Line(f"mode {k + 1}", values, shown[:, k].real) for k in some]
     out = []
     if upper:

@@ -17,6 +17,8 @@ from nivel.system.tables import Array
 LARGEST = 1e15
 # A moment of inertia below this share of the largest one of a node that bends is round-off.
 ROUND_OFF = 1e-13
+# a moment of inertia that is none, as a share of the largest
+TINY = 1e-12
 
 
 def given_poses(machine: MachineRecord) -> Array:
@@ -64,6 +66,8 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
     faults: dict[str, Fault] = {}
     for k, body in enumerate(machine.bodies):
         beam, least = owners.get(body.name), float(moments[k, 0] / moments[k, 2])
+        if beam is not None and beam.shares_mass and least < -ROUND_OFF:
+            continue  # a node of a curved beam, see `_positive`
         if beam is not None and not least > ROUND_OFF:
             message = (
                 f"the beam is {beam.line.length:.3g} m long, and too thin for that: of the moments of inertia of its nodes the smallest is "
@@ -109,7 +113,8 @@ def body_tables(machine: MachineRecord, size: float) -> Bodies:
             # nothing turns a point mass and it turns nothing: any inertia will do
             inertia[k] = mass[k] * size**2 * np.eye(3)
     _refuse_lost_inertia(machine, mass, centre, inertia)
-    whitener = np.array([np.linalg.inv(np.linalg.cholesky(J)) for J in inertia], dtype=np.float64).reshape(count, 3, 3)
+    whitener = np.array([np.linalg.inv(np.linalg.cholesky(_positive(J))) for J in inertia], dtype=np.float64)
+    whitener = whitener.reshape(count, 3, 3)
     square = np.einsum("bi,bi->b", centre, centre)
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
     A = np.zeros((count + 1, 3, 3))
@@ -139,3 +144,10 @@ def body_tables(machine: MachineRecord, size: float) -> Bodies:
         Rddot=vectors(),
         alpha_b=vectors(),
     )
+
+
+def _positive(inertia: Array) -> Array:
+    """The same (3, 3) with all moments positive. A node of a curved beam may have a negative one by itself: what it has in common with its
+    neighbours makes the mass of the beam positive, and nothing divides by its own."""
+    moments, axes = np.linalg.eigh(inertia)
+    return inertia if moments[0] > 0.0 else (axes * np.maximum(np.abs(moments), TINY * moments[-1])) @ axes.T

@@ -193,6 +193,17 @@ class Instant:
             psi[self.free[k]] = 1.0
             own.y[: self.positions] += 1j * EPSILON * self.position_rates(psi)
 
+    def beside(self, direction: tuple[Array, Array, Array], size: float) -> tuple[Array, Array]:
+        """(r, g one behind the other, their derivative along the direction) at a state that is moved by `size` times a direction, which has
+        tangent increments (n,), velocities (n,) and states (S,). v̇ and λ stay what they are."""
+        psi, v, x = direction
+        change = np.concatenate([self.position_rates(psi), v, x])
+        self._load()
+        self.twin.residual.y[: len(change)] += (size + 1j * EPSILON) * change
+        self._call()
+        found = self.twin.residual.value[: self.n + self.state_count]
+        return found.real.copy(), found.imag / EPSILON
+
     def position_rates(self, psi: Array) -> Array:
         """(positions,) change of q for tangent increments psi (n,)."""
         out = np.zeros(self.positions)

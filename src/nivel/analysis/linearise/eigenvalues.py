@@ -2,33 +2,40 @@
 
 A coordinate on which nothing depends, and a rigid motion, make eigenvalues that are exactly zero, often several with one eigenvector; as
 numbers these come out as ± √ε or worse. States are ordered into strongly connected blocks: of a block of one state the eigenvalue is
-A_kk; in larger ones the multiplicity of zero follows from the null spaces of the block.
+A_kk; in larger ones the multiplicity of zero follows from the null spaces of the block, whose rows and columns are first made equal in
+size, so that no unit and no fast motion beside a slow one decides what is zero.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eig
+from scipy.linalg import eig, matrix_balance
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
+from nivel.analysis.linearise.vibrations_apart import Graded
 from nivel.system.system import Array
 
 # entries below this share of the largest of their row are round-off
 NOTHING = 1e-12
-# singular values below this share of the largest, times the root of their number, are zero
+# singular values of a block whose rows and columns are equal in size, below this times the root of their number, are zero
 ROUND_OFF = 4e-15
+# rounds that make rows and columns equal in size
+ROUNDS = 12
 # left and right eigenvectors with less in common belong to one chain
 CHAINED = 1e-6
+# zeros of a chain whose equations are not known to this share part by so many roots of what is not known
+DRIFTS, PARTED = 1e-13, 10.0
 # eigenvalues that the ranks say are zero have to be this small, as a share of the largest
 SMALL = 1e-3
-# eigenvalues by symmetric matrices are this near to those by A, as a share
-NEAR = 1e-3
+# a state of a rigid motion moves by more than this share of the one that moves most
+MOVES = 1e-6
 Complex = NDArray[np.complex128]
+Index = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -42,63 +49,127 @@ class Eigen:
     left: Complex
     zeros: tuple[tuple[int, ...], ...]
 
+    def unknown(self) -> Eigen:
+        """As many that are not numbers: of equations that change, whose eigenvalues describe no motion."""
+        n = len(self.values)
+        none, vectors = np.full(n, complex(np.nan, np.nan)), np.full((n, n), complex(np.nan, np.nan))
+        return Eigen(none, np.zeros(n, dtype=bool), vectors, vectors.copy(), ())
 
-def eigenvalues(A: Array, scale: Array, noise: Array | None = None) -> Eigen:
-    """Of A (n, n); scale : (n,) sizes of the states, which entries are compared by. noise : (n, n) below which entries are round-off."""
+
+def eigenvalues(
+    A: Array, scale: Array, noise: Array | None = None, apart: Graded | None = None, drift: Array | None = None
+) -> Eigen:
+    """Of A (n, n); scale : (n,) sizes of the states, which entries are compared by. noise : (n, n) below which entries are round-off.
+    apart : the same equations in the basis of their vibrations, where eigenvalues are then taken. drift : (n, n) by which A changes
+    with time while it is taken for constant: no zero is known better."""
     n = len(A)
     if not n:
         empty = np.zeros((0, 0), dtype=np.complex128)
         return Eigen(np.zeros(0, dtype=np.complex128), np.zeros(0, dtype=bool), empty, empty, ())
-    scaled = (A if noise is None else np.where(np.abs(A) > noise, A, 0.0)) * scale / scale[:, None]
-    largest = np.abs(scaled).max(axis=1, keepdims=True)
-    scaled = np.where(np.abs(scaled) > NOTHING * largest, scaled, 0.0)
-    _, block = connected_components(csr_matrix(scaled != 0.0), directed=True, connection="strong")
+    noise, drift = (np.zeros_like(A) if each is None else each for each in (noise, drift))
+    scaled = _without_round_off(np.where(np.abs(A) > noise, A, 0.0) * scale / scale[:, None])
+    if apart is None:
+        values, left, right = _of(scaled, (noise + drift) * scale / scale[:, None])
+        right, left = scale[:, None] * right, left / scale[:, None]
+    else:
+        T = apart.basis
+        unsure = apart.noise + np.abs(np.linalg.inv(T)) @ drift @ np.abs(T) if np.any(drift) else apart.noise
+        values, left, right = _of(np.where(np.abs(apart.A) > apart.noise, apart.A, 0.0), unsure)
+        right, left = T @ right, np.linalg.solve(T.T, left)
+    place = np.lexsort((-values.imag, np.round(np.abs(values), 12)))
+    values, left, right = values[place], left[:, place], right[:, place]
+    overlap = np.einsum("ij,ij->j", left.conj(), right)
+    size = np.linalg.norm(left * scale[:, None], axis=0) * np.linalg.norm(right / scale[:, None], axis=0)
+    sure = np.abs(overlap) > 1e-12 * size
+    left = left / np.where(sure, overlap.conj(), 1.0)
+    zero = values == 0.0
+    return Eigen(values, zero, right, left, _moved(scaled, right[:, zero] / scale[:, None]))
+
+
+def _without_round_off(A: Array) -> Array:
+    return np.where(np.abs(A) > NOTHING * np.abs(A).max(axis=1, keepdims=True), A, 0.0)
+
+
+def _of(A: Array, unsure: Array) -> tuple[Complex, Complex, Complex]:
+    """(eigenvalues, left, right): of parts that do not act on each other each by itself. unsure (n, n) : how little is known of entries."""
+    n = len(A)
+    values = np.zeros(n, dtype=np.complex128)
+    left, right = np.zeros((n, n), dtype=np.complex128), np.zeros((n, n), dtype=np.complex128)
+    _, part = connected_components(csr_matrix(A != 0.0), directed=False)
+    for number in np.unique(part):
+        own = np.flatnonzero(part == number)
+        some = np.ix_(own, own)
+        values[own], left[some], right[some] = _of_part(A[some], unsure[some])
+    return values, left, right
+
+
+def _of_part(A: Array, unsure: Array) -> tuple[Complex, Complex, Complex]:
+    _, block = connected_components(csr_matrix(A != 0.0), directed=True, connection="strong")
     known: list[complex] = []
-    zeros: list[tuple[int, ...]] = []
     for number in np.unique(block):
         own = np.flatnonzero(block == number)
-        values, count = _of_block(scaled[np.ix_(own, own)])
-        known += values
-        zeros += [tuple(own.tolist())] * count
-    found: Any = eig(scaled, left=True, right=True)
-    values, left, right = found[0], found[1], found[2]
-    order = _matched(np.array(known), values)
-    left, right = left[:, order], right[:, order]
-    exact = np.array(known, dtype=np.complex128)
-    place = np.lexsort((-exact.imag, np.round(np.abs(exact), 12)))
-    exact, left, right = exact[place], left[:, place], right[:, place]
-    overlap = np.einsum("ij,ij->j", left.conj(), right)
-    sure = np.abs(overlap) > 1e-12
-    left = left / np.where(sure, overlap.conj(), 1.0)
-    return Eigen(exact, exact == 0.0, scale[:, None] * right, left / scale[:, None], tuple(zeros))
+        known += _of_block(A[np.ix_(own, own)], unsure[np.ix_(own, own)])
+    found: Any = eig(A, left=True, right=True)
+    order = _matched(np.array(known), found[0])
+    return np.array(known, dtype=np.complex128), found[1][:, order], found[2][:, order]
 
 
-def _of_block(A: Array) -> tuple[list[complex], int]:
-    """(eigenvalues, how many are exactly zero) of a strongly connected block."""
+def _of_block(A: Array, unsure: Array) -> list[complex]:
+    """Eigenvalues of a strongly connected block."""
     if len(A) == 1:
-        return [complex(A[0, 0])], int(A[0, 0] == 0.0)
+        return [complex(A[0, 0])]
     values = np.linalg.eigvals(A).astype(np.complex128)
-    count = _zeros(A)
+    count = _zeros(A, unsure)
     order = np.argsort(np.abs(values), kind="stable")
     if count and np.abs(values[order[count - 1]]) > SMALL * np.abs(values).max():
         count = 0
     values[order[:count]] = 0.0
-    return [complex(value) for value in values], count
+    return [complex(value) for value in values]
 
 
-def _zeros(A: Array) -> int:
+def _zeros(A: Array, unsure: Array) -> int:
     """Multiplicity of the eigenvalue zero: its eigenvectors, and one more for each of them that is orthogonal to all left ones, as in a
     rigid motion, whose position and speed make one chain."""
-    U, size, Vt = np.linalg.svd(A)
-    count = int(np.sum(size <= ROUND_OFF * np.sqrt(len(A)) * size[0]))
+    balanced: Any = matrix_balance(A, permute=False, separate=True)
+    A, size = balanced[0], balanced[1][0]
+    rows, columns = _equal_sizes(A)
+    U, values, Vt = np.linalg.svd(rows[:, None] * A * columns)
+    unsure = rows[:, None] * (unsure * size / size[:, None]) * columns
+    known = np.einsum("ij,ik,kj->j", np.abs(U), unsure, np.abs(Vt.T))
+    count = int(np.sum(np.cumprod((values <= np.maximum(ROUND_OFF * np.sqrt(len(A)) * values[0], known))[::-1])))
     if not count:
         return 0
-    left, right = U[:, len(A) - count :], Vt[len(A) - count :].T
-    overlap = np.linalg.svd(left.T @ right, compute_uv=False)
-    return count + int(np.sum(overlap <= CHAINED))
+    left, right = rows[:, None] * U[:, len(A) - count :], columns[:, None] * Vt[len(A) - count :].T
+    overlap = np.linalg.svd(np.linalg.qr(left)[0].T @ np.linalg.qr(right)[0], compute_uv=False)
+    chained = int(np.sum(overlap <= CHAINED))
+    # what is not known of a chain of two moves its zeros by the root
+    root = PARTED * np.sqrt(np.max(known[len(A) - count :]) * np.abs(A).max())
+    near = int(np.sum(np.abs(np.linalg.eigvals(A)) <= root)) if np.max(unsure) > DRIFTS else 0
+    return max(count + chained, near)
 
 
-def _matched(known: Complex, values: Complex) -> NDArray[np.intp]:
+def _equal_sizes(A: Array) -> tuple[Array, Array]:
+    """Factors of the rows and of the columns that make the largest entry of each about one (Ruiz 2001)."""
+    rows, columns = np.ones(len(A)), np.ones(len(A))
+    for _ in range(ROUNDS):
+        size = np.abs(rows[:, None] * A * columns)
+        rows = rows / np.sqrt(np.where(size.max(axis=1) > 0.0, size.max(axis=1), 1.0))
+        columns = columns / np.sqrt(np.where(size.max(axis=0) > 0.0, size.max(axis=0), 1.0))
+    return rows, columns
+
+
+def _moved(A: Array, right: Complex) -> tuple[tuple[int, ...], ...]:
+    """Of each zero the states that it moves: one on which nothing depends, or all of a rigid motion. right (n, z) : of the zeros."""
+    _, block = connected_components(csr_matrix(A != 0.0), directed=True, connection="strong")
+    alone = np.bincount(block)[block] == 1
+    single = [k for k in np.flatnonzero(alone) if A[k, k] == 0.0][: right.shape[1]]
+    size = np.abs(right)
+    seen = np.any(size > MOVES * np.max(size, axis=0, initial=0.0), axis=1) & ~alone
+    rest = right.shape[1] - len(single)
+    return tuple((int(k),) for k in single) + (tuple(np.flatnonzero(seen).tolist()),) * rest
+
+
+def _matched(known: Complex, values: Complex) -> Index:
     """For each known eigenvalue the place of the nearest computed one, each taken once; large ones first."""
     out, left = np.zeros(len(known), dtype=np.intp), list(range(len(values)))
     for k in np.argsort(-np.abs(known), kind="stable"):
@@ -106,21 +177,3 @@ def _matched(known: Complex, values: Complex) -> NDArray[np.intp]:
         out[k] = best
         left.remove(best)
     return out
-
-
-def with_squares(found: Eigen, squares: Array) -> Eigen:
-    """The eigenvalues ± iω of an undamped machine at rest, whose ω² are known better from symmetric matrices, in place of the others."""
-    upper = np.flatnonzero(found.values.imag > 0.0)
-    upper = upper[np.argsort(found.values[upper].imag, kind="stable")]
-    known = np.sort(squares)[len(squares) - len(upper) :]
-    if 2 * len(upper) != int(np.sum(~found.zero)) or np.any(known <= 0.0):
-        return found
-    values = found.values.copy()
-    for k, square in zip(upper, known, strict=True):
-        if abs(values[k] - 1j * np.sqrt(square)) > NEAR * abs(values[k]):
-            return found
-        values[k] = 1j * np.sqrt(square)
-    lower = np.flatnonzero(found.values.imag < 0.0)
-    lower = lower[np.argsort(-found.values[lower].imag, kind="stable")]
-    values[lower] = np.conj(values[upper])
-    return replace(found, values=values)

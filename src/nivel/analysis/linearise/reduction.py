@@ -53,6 +53,16 @@ class StateSpace:
     D: Array
 
 
+@dataclass(frozen=True)
+class Held:
+    """motions (f, h) : Z of the motions that all rows leave. by_row (f, K) : what a unit of each row asks for beside them.
+    prescribed (f, k) : of rows that inputs prescribe."""
+
+    motions: Array
+    by_row: Array
+    prescribed: Array
+
+
 class Reduction:
     """The linear equations of a machine at an instant; reader : of its outputs. chosen : places of the independent coordinates and of the
     independent velocities; None: chosen here. axes : in which the changes of spinning bodies are resolved; all unknowns here, rows of r
@@ -205,10 +215,14 @@ class Reduction:
         """What the turning of the axes adds to accelerations in them: δv̇' = T δv̇ + Ṫ Tᵀ v'."""
         return velocities * 0.0 if self._axes is None else self._axes.rate @ velocities
 
+    def unturned(self, changes: Array) -> Array:
+        """Changes (f, k) of all unknowns as the instant has them, not in turned axes."""
+        return changes if self._axes is None else self._axes.turn.T @ changes
+
     @property
     def positions(self) -> Array:
         """(f, m) change of all positions of the instant, not in turned axes, for a unit of each independent one."""
-        return self.Zq if self._axes is None else self._axes.turn.T @ self.Zq
+        return self.unturned(self.Zq)
 
     def state_space(self) -> StateSpace:
         """A, B, C, D for the states (s, w, x)."""
@@ -237,23 +251,27 @@ class Reduction:
         return saddle
 
     @cached_property
+    def held(self) -> Held:
+        """Motions while all rows hold, those that inputs prescribe too."""
+        every, places = np.arange(self.instant.rows), np.arange(len(self.instant.free))
+        inner = self._inverse_with(every, self._chosen_for(every, places) if len(self.ports.opened) else self.moving)
+        by_row = inner[:, : self.instant.rows]
+        return Held(inner[:, self.instant.rows :], by_row, by_row[:, self.ports.opened])
+
+    @cached_property
     def _saddle_inverse(self) -> Array:
         """(f + K, f + K) its inverse, in the null space of all rows: where these leave no motion, forces make none, exactly."""
-        free, K = self.instant.free, self.instant.rows
-        M, every = self.by_rate.r[free], np.arange(K)
-        places = np.arange(len(free))
-        inner = self._inverse_with(every, self._chosen_for(every, places) if len(self.ports.opened) else self.moving)
-        P, Z = inner[:, :K], inner[:, K:]
+        M, P, Z = self.by_rate.r[self.instant.free], self.held.by_row, self.held.motions
         reduced = Z.T @ M @ Z
-        by_force = Z @ np.linalg.solve(reduced, Z.T) if Z.shape[1] else np.zeros((len(free), len(free)))
+        by_force = Z @ np.linalg.solve(reduced, Z.T) if Z.shape[1] else np.zeros((len(M), len(M)))
         by_row = P - by_force @ M @ P
         return np.block([[by_force, by_row], [P.T - P.T @ M @ by_force, -P.T @ M @ by_row]])
 
     def _accelerations(self, q: Array, v: Array, x: Array, u: Array) -> tuple[Array, Array]:
         """(δv̇, δλ) for changes of positions, velocities, states and inputs."""
         free = self.instant.free
-        forces = self.force @ u - self._moved("r", q, v, x)[free]
-        rows = self.ports.held @ u - self._moved("Cddot", q, v, x)
+        forces = self.force @ u - self.moved("r", q, v, x)[free]
+        rows = self.ports.held @ u - self.moved("Cddot", q, v, x)
         out = self._saddle_inverse @ np.vstack([forces, rows])
         return out[: len(free)], out[len(free) :]
 
@@ -266,8 +284,7 @@ class Reduction:
         x = np.hstack([np.zeros((S, m + w)), np.eye(S)])
 
         def moved(part: str) -> Array:
-            terms = ((self.by_q, q), (self.by_v, v), (self.by_x, x))
-            return sum((np.abs(getattr(each, part)) @ size for each, size in terms), start=np.zeros((1, q.shape[1])))
+            return self.size_of(part, q, v, x)
 
         inverse = np.abs(self._saddle_inverse)
         # an inverse is as uncertain as what it is the inverse of
@@ -279,13 +296,29 @@ class Reduction:
         rate = rate + np.abs(self.shifted(v))
         return ROUND_OFF * np.vstack([qdot[self.selected], rate[self.moving], xdot])
 
-    def _moved(self, part: str, q: Array, v: Array, x: Array) -> Array:
+    def size_of(self, part: str, q: Array, v: Array, x: Array) -> Array:
+        """Sum of the magnitudes of what changes of these sizes, none negative, add to a part of the equations."""
+        terms = ((self._sizes(part), q), (np.abs(getattr(self.by_v, part)), v), (np.abs(getattr(self.by_x, part)), x))
+        return sum((size @ change for size, change in terms), start=np.zeros((1, q.shape[1])))
+
+    def _sizes(self, part: str) -> Array:
+        """Magnitudes of the derivatives of a part by positions. Of a stiffness in which larger terms cancel, as of a beam that lies askew,
+        those of its diagonal stand for them."""
+        out = np.abs(getattr(self.by_q, part))
+        if part == "r":
+            free = self.instant.free
+            own = np.sqrt(np.diagonal(out[free]))
+            out[free] = np.maximum(out[free], np.where(out[free] > 0.0, own[:, None] * own, 0.0))
+        return out
+
+    def moved(self, part: str, q: Array, v: Array, x: Array) -> Array:
+        """Change of a part of the equations with positions, velocities and states of elements."""
         return getattr(self.by_q, part) @ q + getattr(self.by_v, part) @ v + getattr(self.by_x, part) @ x
 
     def _combined(self, part: str, q: Array, v: Array, x: Array, rate: Array, lam: Array) -> Array:
         """Change of a part of the equations, or of the outputs."""
         more = getattr(self.by_rate, part) @ rate + getattr(self.by_force, part) @ lam
-        return self._moved(part, q, v, x) + more
+        return self.moved(part, q, v, x) + more
 
     def second_order(self) -> tuple[Array, Array, Array]:
         """(M, D, K), each (m, m), in the independent coordinates of a machine at rest: Zᵀ M Z, Zᵀ D Z, Zᵀ K Z."""

@@ -11,18 +11,18 @@ from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place
-from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, with_squares
+from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
+from nivel.analysis.linearise.kinks import kinks, note
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
-from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
+from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
-from nivel.analysis.linearise.steady import is_at_rest
-from nivel.analysis.linearise.validity import judged, nothing
+from nivel.analysis.linearise.validity import judged
+from nivel.analysis.linearise.vibrations_apart import graded
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start
-from nivel.analysis.statics.linear import symmetric, symmetric_modes
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import LineariseSettings
@@ -31,7 +31,6 @@ from nivel.results.analyses.linear_motion import Posed
 from nivel.system.system import Array
 
 NAMED = 6  # states in a sentence
-SYMMETRIC = 1e-9  # share by which a symmetric stiffness may be unsymmetric
 
 
 @dataclass(frozen=True)
@@ -69,9 +68,13 @@ def linearise(
     integrals = [k for k, fact in enumerate(instant.system.states) if fact.integral]
     space, states, inputs, kept = _opened(whole, states, inputs, len(places) + len(rates), integrals)
     noise = reduction.noise()[np.ix_(kept, kept)]
-    found = eigenvalues(space.A, _timed(states.scale, space.A, len(places), len(places) + len(rates)), noise)
-    if len(space.A) == 2 * len(rates) == len(whole.A) and is_at_rest(instant):
-        found = _undamped(found, *_held(instant, reduction).second_order())
+    apart = graded(reduction, whole, np.concatenate([places, rates]))
+    scale = _timed(states.scale, space.A, len(places), len(places) + len(rates))
+    drift = None if linear.drift is None else linear.drift[np.ix_(kept, kept)]
+    found = eigenvalues(space.A, scale, noise, None if apart is None else apart.kept(kept), drift)
+    bent = kinks(reduction)
+    steady = linear.steady and not any(each.jumps for each in bent)
+    found = found if steady else found.unknown()
     shift, turn = _shapes(instant, reduction, found, places)
     second = [rates[:, None] * each * rates for each in reduction.second_order()]
     posed = _posed(machine, source, moment, instant, settings)
@@ -100,8 +103,8 @@ def linearise(
         shift=shift,
         turn=turn,
         structural_zeros=_zeros(found, states),
-        steady=linear.steady,
-        notes=tuple(linear.notes),
+        steady=steady,
+        notes=(*linear.notes, *note(bent)),
         posed=posed,
     )
 
@@ -140,22 +143,6 @@ def _opened(
     out = StateSpace(space.A[np.ix_(kept, kept)], B[kept], space.C[:, kept], D)
     left = _States([states.names[k] for k in kept], [states.units[k] for k in kept], states.scale[kept])
     return out, left, list(inputs), kept
-
-
-def _held(instant: Instant, reduction: Reduction) -> Reduction:
-    """The equations of the machine while drivers hold all that they prescribe, as inputs or not: the others add zeros alone."""
-    if not len(reduction.ports.opened):
-        return reduction
-    ports = Ports(np.zeros((instant.n, 0)), np.zeros((instant.rows, 0)), np.zeros(0, dtype=np.intp))
-    return Reduction(instant, ports, nothing)
-
-
-def _undamped(found: Eigen, M: Array, D: Array, K: Array) -> Eigen:
-    """With the eigenvalues of symmetric matrices, where there is no damping and forces have a potential."""
-    size = float(np.max(np.abs(K), initial=0.0))
-    if not len(M) or np.any(D) or size == 0.0 or np.max(np.abs(K - K.T)) > SYMMETRIC * size:
-        return found
-    return with_squares(found, symmetric_modes(symmetric(K), symmetric(M))[0])
 
 
 def _timed(scale: Array, A: Array, m: int, moving: int) -> Array:

@@ -17,10 +17,14 @@ from nivel.system.system import Array
 
 # shares of scales below which a machine is at rest, and in equilibrium
 REST, BALANCE = 1e-9, 1e-6
-# A may change by this share of the largest entry of a row, and round-off changes it by this share of the largest of all
-SAME, ROUND_OFF = 1e-7, 1e-12
-# the machine is looked at again after turns and ways of so many radians and lengths, by steps of this size
+# A may change by this share of the largest entry of a row while the machine turns by one radian, and round-off by this share of all
+SAME, ROUND_OFF = 1e-4, 1e-12
+# the machine is looked at again after turns and ways of so many radians and lengths, by steps of this size at most
 LATER, STEP = (0.7, 1.9), 4e-3
+# what grows is not awaited for longer than so many of its time constants: it leaves a steady motion by the last digit that was given
+GROWN = 1.0
+# the fastest motion is followed by steps of this share of its time constant, and by so many steps
+FOLLOWED, MOST_STEPS = 0.2, 1500
 
 
 def is_at_rest(instant: Instant) -> bool:
@@ -37,29 +41,43 @@ def acceleration_of(instant: Instant) -> Array:
     return np.abs(instant.vdot / instant.length)
 
 
-def keeps_its_equations(
-    motion: MotionEquations, instant: Instant, find: Callable[[float, Array], Array | None]
-) -> bool:
-    """Whether A, which `find` makes of a time and a state, is the same at two later moments of the motion.
+def drift(motion: MotionEquations, instant: Instant, find: Callable[[float, Array], Array | None]) -> Array | None:
+    """How A, which `find` makes of a time and a state, changes until two later moments of the motion, entry by entry; None where it is not
+    the same there.
 
-    motion : equations that can be evaluated, in the coordinates of the instant.
+    motion : equations that can be evaluated, in the coordinates of the instant. The sooner the moments have to be, the less A may change.
     """
     own = instant
     speed = float(np.max(np.abs(own.y[own.positions : own.first_state] / own.length), initial=0.0))
     first = find(own.t, own.y)
+    if first is None or speed == 0.0 or not first.size:
+        return first
     t, y = own.t, own.y.copy()
-    if first is None or speed == 0.0:
-        return False
-    allowed = SAME * np.abs(first).max(axis=1, keepdims=True) + ROUND_OFF * np.abs(first).max(initial=0.0)
-    for until in LATER:
-        moved = _advanced(motion, t, y, own.t + until / speed, STEP / speed)
+    step, last = _times(first, speed)
+    row, whole = np.abs(first).max(axis=1, keepdims=True), np.abs(first).max()
+    changed = np.zeros_like(first)
+    for until in np.array(LATER) * last:
+        moved = _advanced(motion, t, y, own.t + until, step)
         if moved is None:
-            return False
+            return None
         t, y = moved
         later = find(t, y)
-        if later is None or later.shape != first.shape or np.any(np.abs(later - first) > allowed):
-            return False
-    return True
+        if later is None or later.shape != first.shape:
+            return None
+        changed = np.maximum(changed, np.abs(later - first))
+        if np.any(changed > SAME * speed * last * row + ROUND_OFF * whole):
+            return None
+    return np.where(changed > ROUND_OFF * whole, changed, 0.0)
+
+
+def _times(A: Array, speed: float) -> tuple[float, float]:
+    """(step, time) [s] to follow the motion by, and in which it makes a turn of one radian or a way of one length, or what of that can be
+    followed: without an instability that grows, and with steps that are few."""
+    values = np.linalg.eigvals(A)
+    growth, fastest = float(np.max(values.real, initial=0.0)), float(np.max(np.abs(values), initial=0.0))
+    last = 1.0 / max(speed, LATER[-1] * growth / GROWN)
+    step = min(STEP / speed, FOLLOWED / fastest) if fastest > 0.0 else STEP / speed
+    return step, min(last, MOST_STEPS * step / LATER[-1])
 
 
 @np.errstate(over="ignore", invalid="ignore")  # of stiff machines, whose motion these steps do not follow

@@ -13,7 +13,7 @@ from nivel.analysis.linearise.axes import Frames, candidates
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input, Output
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
-from nivel.analysis.linearise.steady import BALANCE, acceleration_of, is_at_rest, keeps_its_equations
+from nivel.analysis.linearise.steady import BALANCE, acceleration_of, drift, is_at_rest
 from nivel.analysis.run.prepared_state import Moment
 from nivel.kernels.record.record import NONE
 from nivel.system.system import Array
@@ -25,7 +25,7 @@ Found = tuple[Reduction, Array, Array, StateSpace]
 class Judged:
     """Linear equations, and `space` with the signs of the results: places, rates, -1 where a joint coordinate grows against its velocity.
 
-    steady : whether eigenvalues describe the motion. notes : what a reader has to know.
+    steady : whether eigenvalues describe the motion. notes : what a reader has to know. drift : by which A changes all the same.
     """
 
     reduction: Reduction
@@ -34,6 +34,7 @@ class Judged:
     space: StateSpace
     steady: bool
     notes: list[str]
+    drift: Array | None = None
 
 
 def judged(
@@ -60,9 +61,10 @@ def judged(
             then = Reduction(own, ports, nothing, found[0].chosen, frames.at(own))
             return _signed(then.state_space(), np.concatenate(found[1:3])).A
 
-        if keeps_its_equations(moment.prepared.motion, instant, later):
+        changed = drift(moment.prepared.motion, instant, later)
+        if changed is not None:
             said = "the machine moves steadily: A is the same at later moments of the motion"
-            return Judged(*found, True, [said, *frames.notes()])
+            return Judged(*found, True, [said, *frames.notes()], changed)
     found = equations(Frames())
     spinning = instant.place[instant.free[found[0].selected], 1] != NONE
     hint = (

@@ -10,6 +10,8 @@ def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -
     """The machine in these coordinates, with settings of no method, and the coordinates that were chosen."""
     simulation = machine.simulation.replace(
         integrator="rk4",
+        step=min(machine.simulation.step, machine.simulation.duration),
+        output_interval=None,
         formulation="newton-euler",
         coordinates=coordinates,
         stabilisation="direct",

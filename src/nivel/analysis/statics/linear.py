@@ -16,7 +16,7 @@ from scipy.linalg import (
     solve_triangular,
 )
 from scipy.sparse import bmat, csc_matrix, diags
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import ArpackNoConvergence, splu
 
 from nivel.analysis.statics.equations import Change, Sparse, Tangent
 from nivel.system.system import Array
@@ -33,6 +33,10 @@ UNSYMMETRIC = 1e-8
 REAL = 1e-7
 # Eigenvalues next to zero that are looked at where pivots do not tell.
 FEW = 6
+# Or so many, until they are stiffer than this share of the largest stiffness, next to which pivots tell.
+NEAR_ZERO, SOFT = (12, 48, 150), 1e-5
+# A stiffness φᵀ K φ below this share of |φ|ᵀ |K| |φ| is round-off.
+CANCELLED = 1e-13
 # Stiffness below this share of the largest is round-off.
 NO_STIFFNESS = 3e-14
 # Shifts, as shares of the largest ω² that stiffness and mass can make, with which a matrix without an inverse is tried.
@@ -139,7 +143,8 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     """Number of negative eigenvalues of K + shift on the motions that all constraints allow.
 
     Of small machines by these eigenvalues; of large ones by Sylvester's law of inertia, from the signs of the pivots of K + shift + s Cᵀ C,
-    in which constraints are springs of a large stiffness s, eliminated without exchange of rows.
+    in which constraints are springs of a large stiffness s, eliminated without exchange of rows. Where a pivot is negative, eigenvalues
+    next to zero are looked at one by one, since a rigid motion and a soft one may have lost their sign to round-off and to these springs.
     """
     size = tangent.K.shape[0]
     if not size:
@@ -151,10 +156,28 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     largest = float(np.abs(tangent.K).max()) if tangent.K.nnz else 0.0
     K = symmetric(tangent.K) + (shift + NO_STIFFNESS * largest) * diags(np.ones(size))
     signs = _pivot_signs(csc_matrix(K + STIFF * (tangent.C.T @ tangent.C)))
-    if signs is not None:
-        return int(np.sum(signs < 0))
-    values, _ = lowest(replace(tangent, K=csc_matrix(K)), FEW, tangent.M, nearest=True)
-    return int(np.sum(values < 0.0))
+    if signs is not None and not np.any(signs < 0):
+        return 0
+    near, reach = _negative_near_zero(replace(tangent, K=csc_matrix(K)))
+    further = _pivot_signs(csc_matrix(K + reach * diags(np.ones(size)) + STIFF * (tangent.C.T @ tangent.C)))
+    return near + (0 if further is None else int(np.sum(further < 0)))
+
+
+def _negative_near_zero(tangent: Tangent) -> tuple[int, float]:
+    """(how many eigenvalues of K are negative, to what distance from zero); those below the round-off of their terms, |φ|ᵀ |K| |φ|,
+    are zero."""
+    size = tangent.K.shape[0]
+    unit, largest = diags(np.ones(size)), float(np.abs(tangent.K).max())
+    alike, count, reach = replace(tangent, inertia=lambda: csc_matrix(unit)), 0, 0.0
+    for more in NEAR_ZERO:
+        _, shapes = _lanczos(alike, more, unit)
+        values = np.einsum("ik,ik->k", shapes, symmetric(tangent.K) @ shapes)
+        known = np.einsum("ik,ik->k", np.abs(shapes), np.abs(tangent.K) @ np.abs(shapes))
+        reach = float(np.max(np.abs(values), initial=0.0))
+        count = int(np.sum((values < -CANCELLED * known) & (np.abs(values) < reach)))
+        if reach > SOFT * largest or shapes.shape[1] < more:
+            break
+    return count, reach * (1.0 - 1e-6)
 
 
 def _pivot_signs(matrix: Sparse) -> Array | None:
@@ -193,7 +216,10 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
     if np.sum(values < 0.0) >= unstable:
         return values, vectors
     # what is most unstable may be far from zero: of 1/(ω² - shift) all that are negative
-    below, directions = _lanczos(tangent, unstable, M, "SA")
+    try:
+        below, directions = _lanczos(tangent, unstable, M, "SA")
+    except ArpackNoConvergence:
+        return values, vectors
     down, up = below < 0.0, values >= 0.0
     values = np.concatenate([below[down], values[up]])[:count]
     return values, np.hstack([directions[:, down], vectors[:, up]])[:, :count]

@@ -75,7 +75,8 @@ class LinearModel(Tabulated):
     """δẋ = A δx + B δu, δy = C δx + D δu about a state of a machine at `time` [s].
 
     states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
-    coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair.
+    coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair; no numbers
+    where the machine does not move steadily.
     notes : what a reader has to know; steady : whether eigenvalues describe the motion (at rest, or the same A later on).
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
     """
@@ -110,9 +111,9 @@ class LinearModel(Tabulated):
 
     @property
     def stable(self) -> bool:
-        """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off."""
+        """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off; not where there are none to read."""
         values = self.eigenvalues[~self.structural]
-        return bool(np.all(values.real <= ROUND_OFF * np.abs(values)))
+        return self.steady and bool(np.all(values.real <= ROUND_OFF * np.abs(values)))
 
     @property
     def participation(self) -> Array:
@@ -123,7 +124,9 @@ class LinearModel(Tabulated):
 
     @property
     def modes(self) -> tuple[Mode, ...]:
-        """Eigenvalues in ascending order of magnitude, complex pairs once."""
+        """Eigenvalues in ascending order of magnitude, complex pairs once; none where the machine does not move steadily."""
+        if not self.steady:
+            return ()
         out, share = [], self.participation
         for k, value in enumerate(self.eigenvalues):
             if value.imag < 0.0:

@@ -41,6 +41,8 @@ def linear_motion(model: LinearModel, number: int) -> Result:
     from nivel.results.result import Result
 
     modes = model.modes
+    if not model.steady:
+        raise ModelError(f"the model has no modes: {' '.join(model.notes)}")
     if not 1 <= number <= len(modes):
         raise ModelError(f"the model has no mode {number}: it has 1 to {len(modes)}")
     column = int(np.flatnonzero(model.eigenvalues.imag >= 0.0)[number - 1])

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
+from nivel.errors import Fault, ModelError
+from nivel.machine.units.quantity import read_quantity
+from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.dataset_file import write_dataset
@@ -25,16 +27,28 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 TURN = 2.0 * np.pi
+# a vibration meets a multiple of the speed to this share
+MET = 1e-12
 
 
 @dataclass(frozen=True)
 class Crossing:
-    """Where a vibration has `order` times the speed: between two values of the parameter, by interpolation."""
+    """Where a vibration has `order` times the speed: between two values of the parameter, by interpolation.
+
+    value : of the parameter, in its unit; speed [rad/s]; frequency [Hz].
+    """
 
     mode: int
     order: float
     value: float
+    speed: float
     frequency: float
+
+    def words(self, unit: str) -> str:
+        """In a sentence; unit : of the parameter."""
+        plain = f"{self.speed:.6g} rad/s"
+        at = plain if unit in ("", "rad/s") else f"{self.value:.6g} {unit} ({plain})"
+        return f"mode {self.mode} has {self.order:g} times the speed at {at}, {self.frequency:.6g} Hz"
 
 
 @dataclass(frozen=True)
@@ -66,16 +80,16 @@ class LinearSweep:
         """(values, n) [1/s], a column each mode; not a number where the machine does not move steadily."""
         from scipy.optimize import linear_sum_assignment
 
-        first = self.models[0]
-        order = np.arange(len(first.states))
-        out = np.full((len(self.models), len(order)), np.nan, dtype=np.complex128)
+        out = np.full((len(self.models), len(self.models[0].states)), np.nan, dtype=np.complex128)
+        order, before = np.arange(out.shape[1]), None
         for k, model in enumerate(self.models):
-            if k:
-                before, place = self.models[k - 1], [model.states.index(name) for name in self.models[k - 1].states]
-                cost = _distance(before, model, np.array(place))[order]
-                order = linear_sum_assignment(cost)[1]
-            if model.steady:
-                out[k] = model.eigenvalues[order]
+            if not model.steady:
+                continue
+            if before is not None:
+                place = np.array([model.states.index(name) for name in before.states])
+                order = linear_sum_assignment(_distance(before, model, place)[order])[1]
+            before = model
+            out[k] = model.eigenvalues[order]
         return out
 
     def to_xarray(self) -> xarray.Dataset:
@@ -105,17 +119,28 @@ class LinearSweep:
         ]
         return [(a, b) for (a, stable), (b, other) in pairwise(known) if stable != other]
 
+    @cached_property
+    def speeds(self) -> Array:
+        """(values,) [rad/s] of the parameter as a speed of rotation. Raises ModelError where its unit is none of such a speed."""
+        return self.values * speed_of(self.unit, self.parameter)
+
     def crossings(self, orders: Sequence[float]) -> list[Crossing]:
-        """Where vibrations meet multiples of the parameter as a speed [rad/s]: Campbell's diagram."""
+        """Where vibrations meet multiples of the parameter as a speed of rotation: Campbell's diagram."""
         found, out = self.eigenvalues, []
-        for mode in np.flatnonzero(np.nanmax(found.imag, axis=0) > 0.0):
-            frequency = found[:, mode].imag / TURN
+        if not orders:
+            return out
+        with np.errstate(invalid="ignore"):
+            waves = np.flatnonzero(np.nanmax(np.where(np.isfinite(found.imag), found.imag, 0.0), axis=0) > 0.0)
+        for mode in waves:
+            frequency = found[:, mode].imag
             for order in orders:
-                gap = frequency - order * self.values / TURN
-                for k in np.flatnonzero(np.isfinite(gap[:-1] * gap[1:]) & (gap[:-1] * gap[1:] < 0.0)):
-                    share = gap[k] / (gap[k] - gap[k + 1])
-                    value = float(self.values[k] + share * (self.values[k + 1] - self.values[k]))
-                    out.append(Crossing(int(mode) + 1, order, value, order * value / TURN))
+                gap = frequency - order * np.abs(self.speeds)
+                gap = np.where(np.abs(gap) <= MET * frequency, 0.0, gap)
+                for k, share in _changes_of_sign(gap, frequency > 0.0):
+                    speed, value = (
+                        float(each[k] + share * (each[k + 1] - each[k])) for each in (self.speeds, self.values)
+                    )
+                    out.append(Crossing(int(mode) + 1, order, value, speed, order * abs(speed) / TURN))
         return out
 
     def statements(self) -> list[str]:
@@ -162,3 +187,31 @@ def _distance(before: LinearModel, after: LinearModel, place: NDArray[np.intp]) 
     x, y = before.eigenvalues[:, None], after.eigenvalues
     apart = np.abs(x - y) / np.maximum(np.maximum(np.abs(x), np.abs(y)), 1e-300)
     return (1.0 - alike) + apart
+
+
+def _changes_of_sign(gap: Array, vibrates: NDArray[np.bool_]) -> list[tuple[int, float]]:
+    """(k, share) of the interval behind k at which `gap` passes zero, while there is a vibration at both ends."""
+    out = []
+    for k in range(len(gap) - 1):
+        a, b = gap[k], gap[k + 1]
+        if not (vibrates[k] and vibrates[k + 1] and np.isfinite(a) and np.isfinite(b)):
+            continue
+        # a value that meets the speed itself belongs to the interval that it begins, or to the last
+        if a * b < 0.0 or (a == 0.0 and b != 0.0) or (b == 0.0 and a != 0.0 and k == len(gap) - 2):
+            out.append((k, float(a / (a - b))))
+    return out
+
+
+def speed_of(unit: str, parameter: str) -> float:
+    """[rad/s] of one of this unit; without a unit numbers are rad/s. Raises ModelError where it is none of a speed of rotation."""
+    if not unit:
+        return 1.0
+    try:
+        return read_quantity(f"1 {unit}", "angular velocity", {})
+    except ExpressionError:
+        pass
+    try:
+        return TURN * read_quantity(f"1 {unit}", "frequency", {})
+    except ExpressionError:
+        message = f"orders are multiples of a speed of rotation, e.g. in rpm or rad/s, and {parameter} is in {unit}"
+        raise ModelError(Fault("", 0, 0, "linearise.orders", message)) from None

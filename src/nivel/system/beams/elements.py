@@ -134,9 +134,9 @@ def skew(v: Array) -> Array:
     return np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1).reshape(*v.shape, 3)
 
 
-def masses_of(beam: Beam) -> Masses:
+def masses_of(beam: Beam, *, shared: bool = True) -> Masses:
     """Mass of a beam at its nodes: angular velocities are interpolated in the axes of the unstressed sections, so that every rigid motion
-    of the unstressed beam has its right energy."""
+    of the unstressed beam has its right energy. Without `shared` the moments of inertia of nodes are positive (shares N² in place of N)."""
     section = beam.properties
     place, axes = beam.frames(beam.shares)
     p, count = beam.order, len(place)
@@ -148,12 +148,13 @@ def masses_of(beam: Beam) -> Masses:
     R = axes[nodes][:, p // 2][:, None] @ rotation(psi)
     Q = np.einsum("ngji,najk->ngaik", R, axes[nodes])
     lumps = section.mass * np.einsum("ng,ga->na", w, N)
-    turning = np.einsum("ng,ga,ngaji,jk,ngakl->nail", w, N, Q, section.inertia, Q)
+    share = N if shared else N**2 / np.sum(N**2, axis=1, keepdims=True)
+    turning = np.einsum("ng,ga,ngaji,jk,ngakl->nail", w, share, Q, section.inertia, Q)
     mass, inertia = np.zeros(count), np.zeros((count, 3, 3))
     np.add.at(mass, nodes, lumps)
     np.add.at(inertia, nodes, turning)
     first, second = np.array([(a, b) for a in range(p + 1) for b in range(a + 1, p + 1)]).T
-    shared = section.mass * np.einsum("ng,ga,gb->nab", w, N, N)[:, first, second]
+    common = section.mass * np.einsum("ng,ga,gb->nab", w, N, N)[:, first, second]
     moment = np.einsum("ng,ga,gb,ngaji,jk,ngbkl->nabil", w, N, N, Q, section.inertia, Q)[:, first, second]
     turn = np.einsum("nabji,nabjk->nabik", axes[nodes[:, second]][:, :, None], axes[nodes[:, first]][:, :, None])[
         :, :, 0
@@ -163,7 +164,7 @@ def masses_of(beam: Beam) -> Masses:
         mass,
         0.5 * (inertia + np.swapaxes(inertia, 1, 2)),
         pairs.reshape(-1, 2),
-        shared.ravel(),
+        common.ravel(),
         moment.reshape(-1, 3, 3),
         turn.reshape(-1, 3, 3),
     )

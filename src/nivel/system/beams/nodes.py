@@ -39,7 +39,7 @@ def lumps_of(beam: Beam) -> Segments:
     """What its nodes weigh by themselves: rigid segments, or the shares of the elements."""
     if beam.model == "segments":
         return segments_of(beam)
-    masses = masses_of(beam)
+    masses = masses_of(beam, shared=beam.shares_mass)
     return Segments(masses.mass, np.tile(beam.properties.mass_centre, (len(masses.mass), 1)), masses.inertia)
 
 

@@ -1,0 +1,49 @@
+"""Positions of kinematics are compared with the drivers' own functions of time, evaluated apart from the equations."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.analysis.trust.checks import followed
+
+
+def turned(value, **more):
+    body = nivel.Body(name="arm", mass=1.0, inertia=(1, 1, 1), position=(1, 0, 0))
+    hinge = nivel.Joint(name="hinge", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1))
+    driver = nivel.Driver(name="turn", coordinate="hinge", value=value, **more)
+    return nivel.Machine("arm", bodies=[body], joints=[hinge], drivers=[driver])
+
+
+def line(result):
+    return next(each for each in result.trust.items if each.name == "followed")
+
+
+@pytest.mark.parametrize(
+    "value", ["100*time", "3*sin(20*time) + 1", 0.4, nivel.Table((0.0, 0.5, 1.0), (0.0, 7.0, -9.0), "cubic")]
+)
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_a_driver_is_followed_through_many_turns(value, coordinates):
+    assert line(turned(value).kinematics(duration=1, positions=7, coordinates=coordinates)).verdict == "green"
+
+
+def test_a_driver_from_the_start_is_followed():
+    assert line(turned("2*time + 5", from_start=True).kinematics(duration=1, positions=7)).verdict == "green"
+
+
+@pytest.mark.parametrize(("off", "verdict"), [(1e-11, "green"), (1e-8, "amber"), (1e-3, "red"), (2 * np.pi, "red")])
+def test_a_driver_that_is_not_followed_is_told(off, verdict):
+    """The positions of another driver, which turns further by `off` in a second; a whole turn more is another position too."""
+    made = turned(f"(2 + {off!r})*time").kinematics(duration=1, positions=5)
+    layout = SimpleNamespace(coordinates={"joint_coordinate": ("hinge.angle",)})
+    system = SimpleNamespace(layout=layout, coordinate_units=("rad",))
+    subject = SimpleNamespace(
+        result=made,
+        machine=turned("2*time").record,
+        prepared=SimpleNamespace(motion=SimpleNamespace(system=system)),
+        scales=SimpleNamespace(size=1.0, size_kind="size"),
+    )
+    found = followed.look(subject)
+    assert found.missed == pytest.approx(off, rel=1e-3, abs=1e-13)
+    assert followed.say(found).verdict == verdict

@@ -52,12 +52,16 @@ FLEXIBLE = tuple(
         "flexible_tree",
         "flexible_independent",
         "mixed_trees",
+        "interfaces",
+        "pendulum",
+        "against_beams",
     )
 )
 HYDRAULICS = tuple(
     f"hydraulics/test_{name}.py"
     for name in (
         "characteristics",
+        "circuit_steps",
         "circuit_tangents",
         "volumes",
         "dynamics",
@@ -65,20 +69,31 @@ HYDRAULICS = tuple(
         "end_stops",
         "steps_in_parts",
         "boom",
+        "circuits_at_rest",
+        "start_of_several_cylinders",
+        "crane",
     )
 )
 IMPLICIT = _verification("alpha", "implicit_lagrange", "implicit_independent", "implicit_friction", "tolerance")
 # tests that touch the kernels of a file, the cheapest first: the entry with the longest beginning of its path is taken
 COVER = {
     "integrate/": ("integrate/test_orders.py", "integrate/test_chosen_steps.py", *_verification("tolerance", "events")),
-    "integrate/explicit/": ("integrate/test_orders.py", "integrate/test_chosen_steps.py", *_verification("tolerance", "events", "motion")),
+    "integrate/explicit/": (
+        "integrate/test_runge_kutta_tables.py", "integrate/test_orders.py", "integrate/test_chosen_steps.py",
+        *_verification("tolerance", "events", "motion"),
+    ),
     "integrate/loop/": (
         "integrate/test_loop.py", "integrate/test_chosen_steps.py",
         *_verification("events", "contact_location", "driver_corners", "force_corners", "switches", "geometric", "states", "tolerance"),
         "live/test_budget.py",
     ),
-    "integrate/multistep/": ("integrate/test_multistep.py", "integrate/test_orders.py", *_verification("stiff", "newton_convergence")),
-    "integrate/newmark/": (*IMPLICIT, *_verification("implicit_tolerance", "energy_momentum", "stiff_springs", "newton_policy")),
+    "integrate/multistep/": (
+        "integrate/test_multistep_weights.py", "integrate/test_multistep.py", "integrate/test_orders.py",
+        *_verification("stiff", "newton_convergence"),
+    ),
+    "integrate/newmark/": (*IMPLICIT, *_verification(
+        "implicit_tolerance", "energy_momentum", "stiff_springs", "newton_policy", "implicit_penalties", "stiff_dampers", "jams",
+    )),
     "integrate/radau/": _verification("radau", "implicit_tolerance", "implicit_friction"),
     "integrate/rosenbrock/": (*_verification("ros2"), *HYDRAULICS),
     "integrate/stabilise/": _verification("geometric", "formulations", "motion"),
@@ -88,12 +103,15 @@ COVER = {
         *(f"kernels/test_{name}.py" for name in ("rotation", "rotation_coordinates", "lu", "sparse_lu", "saddle_solvers", "trigonometry")),
         *_verification("joints", "motion", "rotations", "euler_angle_sensors"), *STATES,
     ),
-    "kernels/bodies/": (*_verification("joints", "motion", "mechanisms", "rolling", "driven_poses", "rails"), *STATES),
+    "kernels/bodies/": (
+        *_verification("joints", "motion", "mechanisms", "rolling", "couplings", "driven_poses", "driven_lengths", "rails"),
+        *_verification("special_joints", "compound_joints"), *STATES,
+    ),
     "kernels/bodies/floating": FLEXIBLE,
     "kernels/bodies/geometric": FLEXIBLE,
     "kernels/bodies/shared": (*_verification("rails", "eliminated_rails"), *FLEXIBLE),
     "kernels/bodies/rail": (*_verification("rails", "eliminated_rails"), *STATES),
-    "kernels/elements/": (*BEAMS, *_verification("friction", "frictions_together", "implicit_friction")),
+    "kernels/elements/": (*BEAMS, *_verification("friction", "frictions_together", "held_friction", "implicit_friction")),
     "kernels/forces/": (
         *_verification("springs", "everyday_forces", "contact", "element_references", "motors", "drives", "loads"), *STATES,
     ),
@@ -107,12 +125,16 @@ COVER = {
     "kernels/hydraulics/": HYDRAULICS,
     "kernels/output/": (*_verification("consistency", "motion", "redundant_loops"), "flexible/test_flexible_motion.py"),
     "kernels/record/": ("machine/test_time_functions.py", "system/test_programs.py", *_verification("drivers", "laws", "control"), *STATES),
-    "kernels/residual/": (*STATES, *_verification("implicit_points", "shifted_parts", "rails", "energy_momentum"), *IMPLICIT),
+    "kernels/residual/": (
+        *STATES,
+        *_verification("residual", "tangent_structure", "implicit_points", "shifted_parts", "rails", "energy_momentum"), *IMPLICIT,
+    ),
     "kernels/residual/flexible": ("flexible/test_flexible_energy_momentum.py", *FLEXIBLE),
     "kernels/residual/shared": ("flexible/test_flexible_energy_momentum.py", *_verification("rails", "energy_momentum"), *FLEXIBLE),
     "kernels/signals/": (*_verification("sensors", "control", "states", "events", "inputs"), "live/test_budget.py"),
     "kernels/solve/": (
-        "kernels/test_saddle_solvers.py", *_verification("independent", "formulations", "redundant_loops", "implicit_independent"), *STATES,
+        "kernels/test_saddle_solvers.py",
+        *_verification("independent", "formulations", "redundant_loops", "singular_positions", "implicit_independent"), *STATES,
     ),
     "kernels/solve/flexible": ("flexible/test_flexible_independent.py", "flexible/test_redundant_flexible.py", *FLEXIBLE),
     "kernels/tree/": (*_verification("relative", "relative_runs", "relative_turns", "eliminated_rails"), *STATES),

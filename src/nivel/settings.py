@@ -129,6 +129,7 @@ class StaticsSettingsDict(TypedDict, total=False):
     modes: Annotated[int | str | None, "--modes NUMBER", "Number of natural frequencies and modes about every state."]
     buckling: Annotated[int | str | None, "--buckling NUMBER", "Number of linearised buckling loads, from the first and the last state."]
     coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
+    verify: Annotated[bool | None, "--no-verify", "No states with other elements of beams, to estimate their error."]
 
 
 class KinematicsSettingsDict(TypedDict, total=False):
@@ -161,3 +162,4 @@ class LineariseSettingsDict(TypedDict, total=False):
     inputs: Annotated[Sequence[str] | str | None, "--inputs NAMES", "Inputs, e.g. hinge.angle; default: motors and drivers."]
     outputs: Annotated[Sequence[str] | str | None, "--outputs NAMES", "Outputs; default: sensors, or all joint coordinates."]
     coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
+    verify: Annotated[bool | None, "--no-verify", "No vibrations with other elements of beams, to estimate their error."]

@@ -135,3 +135,72 @@ def test_the_mesh_of_a_solid_is_judged_by_how_uneven_its_strain_is(size):
     fine = reduced(block(size=0.025, reduction="modes: 3, method: normal-modes"))[1].full[0]
     body, findings = reduced(block(size=size, reduction="modes: 3, method: normal-modes"))
     assert 0.4 < 0.5 * body.mesh_error.share[0] / (findings.full[0] / fine - 1.0) < 2.5
+
+
+def statics(folder, name, kept, **asked):
+    """Equilibrium and vibrations of the bar held at its root; lines that are not green by what they begin with, and frequencies [Hz]."""
+    flexible = {"file": str(folder / f"{name}.nc"), **({"modes": kept} if kept else {})}
+    machine = {
+        "name": name,
+        "gravity": [0, 0, 0],
+        "bodies": {"bar": {"flexible": flexible}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "interface": "root"}},
+        "markers": {"tip": {"body": "bar", "interface": "tip"}},
+        "forces": {"push": {"type": "force", "marker": "tip", "vector": [0, LOAD, 0]}},
+    }
+    result = simulating.machine(machine).statics(duration=0, **asked)
+    return result, [each for each in result.trust.items if each.name == "modes"]
+
+
+@pytest.mark.parametrize(("modes", "verdict"), [(None, None), (4, "red"), (8, "red")])
+def test_an_equilibrium_of_a_body_with_too_few_modes_is_red(folder, modes, verdict):
+    """The energy that is missing is the deflection that is, of F L³/(3 EI)."""
+    result, items = statics(folder, "fixed", modes)
+    assert [each.verdict for each in items] == ([verdict] if verdict else [])
+    body = read_body(folder / "fixed.nc")
+    body = body.keeping(np.sort(np.argsort(body.eigenvalues)[:modes])) if modes else body
+    tip = body.interface("tip")
+    place = tip.position + result.array("modal_coordinate") @ tip.phi.T
+    y = (result.array("position")[:, 0] + rotated(result.array("orientation")[:, 0], place))[0, 1]
+    lacks = LOAD * LENGTH**3 / (3.0 * EI) / y - 1.0
+    if items:
+        assert items[0].fraction == pytest.approx(lacks, rel=1e-3)
+    else:
+        assert abs(lacks) < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("name", "modes", "count"), [("fixed", None, 5), ("fixed", 8, 2), ("few", None, 4), ("few", None, 2)]
+)
+def test_vibrations_beyond_the_modes_of_a_body_are_told(folder, name, modes, count):
+    """Frequencies of a cantilever bent along y, and along z, where it is one and a half times as stiff."""
+    result, items = statics(folder, name, modes, modes=count)
+    roots = np.array([1.8751041, 4.6940911, 7.8547574])
+    exact = np.sort(np.concatenate([roots**2, 1.5 * roots**2]))[:count] * SPEED / (2.0 * np.pi)
+    off = np.abs(result.array("natural_frequency")[0] / exact - 1.0).max()
+    told = [each for each in items if "vibration" in each.text]
+    assert bool(told) == (off > 2e-2)
+    if told:
+        assert told[0].verdict == "red"
+        assert off < 10.0 * told[0].fraction
+
+
+@pytest.mark.parametrize(
+    ("root", "name", "told"), [(17.27876, "few", True), (1.8751041, "few", False), (7.8547574, "fixed", False)]
+)
+def test_a_load_that_vibrates_faster_than_the_modes_is_told_whatever_frames_show(folder, root, name, told):
+    """Frames of 20 ms show nothing of 355 Hz, of which a body whose modes end at 40 Hz has no resonance."""
+    force = f"{20 * LOAD}*sin({root**2 * SPEED!r}*time)"
+    flexible = {"file": str(folder / f"{name}.nc"), "damping_ratio": 0.05}
+    machine = {
+        "name": name,
+        "gravity": [0, 0, 0],
+        "bodies": {"bar": {"flexible": flexible}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "interface": "root"}},
+        "markers": {"tip": {"body": "bar", "interface": "tip"}},
+        "forces": {"push": {"type": "force", "marker": "tip", "vector": [0, force, 0]}},
+        "simulation": {"duration": 0.2, "step": 5e-4, "integrator": "generalised-alpha", "output_interval": 0.02},
+    }
+    lines = [each for each in simulating.simulate(machine).trust.items if "push.vector.y vibrates" in each.text]
+    assert bool(lines) == told
+    assert all(each.verdict != "green" for each in lines)

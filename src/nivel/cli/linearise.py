@@ -75,11 +75,11 @@ def _sweep(order: Order, over: str, orders: list[float]) -> None:
     if orders:
         speed_of(unit, path)
     name = order.load().name
+    settings: dict[str, Any] = {**order.settings, "verify": False}  # the models of a sweep are many
 
     def compute(listener: Listener) -> LinearSweep:
         models = [
-            order.load({path: f"{value!r} {unit}".strip()}).linearise(**order.settings, listener=listener)
-            for value in values
+            order.load({path: f"{value!r} {unit}".strip()}).linearise(**settings, listener=listener) for value in values
         ]
         return LinearSweep(path, unit, np.array(values), tuple(models))
 

@@ -104,6 +104,9 @@ KEYS: Final = {
     "accuracy_time": Key("accuracy", "time", "float | None"),
     "accuracy_refinement": Key("accuracy", "refinement", "str", ""),
     "accuracy_blind": Key("accuracy", "blind", "str", ""),
+    "elements_estimate": Key("elements", "error", "float | None"),
+    "elements_body": Key("elements", "body", "str", ""),
+    "elements_time": Key("elements", "time", "float | None"),
     "verified_until": Key("verified", "until", "float | None"),
     "verification_ended": Key("verified", "ended", "str", ""),
     "neglected_share": Key("neglected", "share", "float | None"),
@@ -165,14 +168,18 @@ class Trust:
             return (
                 f"of unknown error: two runs agree within {number(self.accuracy_estimate)} m, but {self.accuracy_blind}"
             )
-        where = f"; largest at {self.accuracy_body}" if self.accuracy_body else ""
-        when = f", t = {self.accuracy_time:.6g} s" if self.accuracy_time is not None else ""
+        by_elements = self.elements_estimate or 0.0
+        total, larger = self.accuracy_estimate + by_elements, by_elements > self.accuracy_estimate
+        body, time = (self.elements_body, self.elements_time) if larger else (self.accuracy_body, self.accuracy_time)
+        where = f"; largest at {body}" if body else ""
+        when = f", t = {time:.6g} s" if time is not None else ""
         until = (
             f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
         )
-        if self.accuracy_estimate < ROUND_OFF * self.size:
+        if total < ROUND_OFF * self.size:
             return f"exact for this model, except for round-off{until}"
-        return f"within {number(self.accuracy_estimate)} m of the exact motion of this model{until}{where}{when}"
+        cause = f"; {number(by_elements)} m of it by the elements of beams" if larger else ""
+        return f"within {number(total)} m of the exact motion of this model{until}{where}{when}{cause}"
 
     def lines(self) -> list[str]:
         """One line per item: its verdict and its statement."""

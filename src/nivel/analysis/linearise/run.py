@@ -13,6 +13,7 @@ from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
 from nivel.analysis.linearise.kinks import kinks, note
+from nivel.analysis.linearise.modal_notes import modal_notes
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
@@ -104,7 +105,7 @@ def linearise(
         turn=turn,
         structural_zeros=_zeros(found, states),
         steady=steady,
-        notes=(*linear.notes, *note(bent)),
+        notes=(*linear.notes, *note(bent), *modal_notes(machine, moment.prepared, found.values)),
         posed=posed,
     )
 

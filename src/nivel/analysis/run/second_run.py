@@ -130,12 +130,15 @@ def steps_between(samples: int) -> int:
 class SecondRun:
     """A second run of a plan in a thread; it waits for the first one to begin.
 
-    limit [s] : how long it may go on after the first; None: as long as that took, and at least LEAST_LIMIT.
+    limit [s] : how long it may go on after the first; None: as long as that took, and at least LEAST_LIMIT. beside : another second run,
+    with finer steps; this one then makes the same steps as the first, of a plan that is another.
     """
 
-    def __init__(self, plan: Plan, limit: float | None) -> None:
-        self.refinement = refine(plan.settings, _steps_to_meet(plan))
-        self.leader = Leader()
+    def __init__(self, plan: Plan, limit: float | None, beside: SecondRun | None = None, words: str = "") -> None:
+        own = refine(plan.settings, _steps_to_meet(plan)) if beside is None else Refinement(plan.settings, words, 0.0)
+        self.refinement = own
+        self.leader = Leader() if beside is None else beside.leader
+        self._follows = beside is None
         self._plan, self._limit = plan, limit
         self._sink = Memory()
         self._finished: RunOutcome | None = None
@@ -154,7 +157,7 @@ class SecondRun:
             settings = self.refinement.settings
             prepared = prepare(self._plan.methods)
             self._sink.begin(Header(prepared.motion.system.layout, {}))
-            chosen = settings.steps == 0
+            chosen = settings.steps == 0 and self._follows
             follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)
             self._finished = march(prepared, settings, [self._sink], progress=self._reach, pacing=follower)
         except Exception as fault:  # raised where the run is waited for

@@ -13,9 +13,11 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome, march
+from nivel.analysis.run.elements_run import ElementsRun, Found
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.analysis.trust.checks.accuracy import factor
+from nivel.analysis.trust.other_elements import with_elements
 from nivel.analysis.trust.report import assess
 from nivel.analysis.trust.subject import run_of
 from nivel.errors import SolveError
@@ -53,12 +55,15 @@ def simulate(
     listener.say("preparing")
     prepared = prepare(plan.methods)
     second = SecondRun(plan, verify_limit) if verify else None
+    elements = ElementsRun.beside(second, plan, verify_limit) if second is not None else None
     try:
         with terminable():
-            return _run(plan, prepared, sink, second, source, listener, begin, compile_seconds)
+            return _run(plan, prepared, sink, second, elements, source, listener, begin, compile_seconds)
     finally:
         if second is not None:
             second.cancel()
+        if elements is not None:
+            elements.run.cancel()
 
 
 def _run(
@@ -66,12 +71,13 @@ def _run(
     prepared: Prepared,
     sink: Memory | Store,
     second: SecondRun | None,
+    elements: ElementsRun | None,
     source: str,
     listener: Listener,
     begin: float,
     compile_seconds: float,
 ) -> Result:
-    """The run, with the second one beside it."""
+    """The run, with the second one beside it, and one with other elements of its beams."""
     machine, settings = plan.machine, plan.settings
     sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
     prepare_seconds = time.perf_counter() - begin
@@ -82,8 +88,9 @@ def _run(
     verified = None
     if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
         verified = second.wait(listener)
+    found = elements.wait(listener) if elements is not None and verified is not None else None
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return close_run(sink, plan, prepared, finished, verified, seconds)
+    return close_run(sink, plan, prepared, finished, verified, seconds, found)
 
 
 def close_run(
@@ -93,15 +100,19 @@ def close_run(
     finished: RunOutcome,
     verified: Verified | None,
     timing: dict[str, float],
+    found: Found | None = None,
 ) -> Result:
     """Close the sink of a run with its trust report and all that is known of how it ended.
 
-    verified : the second run, or None. timing : seconds besides the loop's. Raises SolveError, with the result, where the run failed.
+    verified : the second run, or None. found : the run with other elements, or None. timing : seconds besides the loop's.
+    Raises SolveError, with the result, where the run failed.
     """
     result, estimate = sink.result(), None
     if verified is not None:
         estimate = estimate_errors(result, verified.result, factor(verified.refinement.left))
     run = replace(run_of(plan, prepared, finished, result), second=verified, estimate=estimate)
+    if found is not None:
+        run = replace(run, elements=found.compared(result))
     message, advice, at = finished.failure or ("", "", 0.0)
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,
@@ -112,6 +123,8 @@ def close_run(
         "trust": assess(run).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }
+    if estimate is not None and run.elements is not None and run.elements.errors is not None:
+        estimate = with_elements(estimate, run.elements.errors)
     if estimate is not None:
         attributes[ESTIMATES] = estimate.to_json()
     closed = sink.close(attributes)

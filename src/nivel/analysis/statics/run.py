@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Any
@@ -25,7 +25,7 @@ from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
 from nivel.analysis.statics.free_coordinates import loaded_free
 from nivel.analysis.statics.labels import direction_in_words
-from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
+from nivel.analysis.statics.linear import PivotError, has_potential, lowest, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction, refuse_with_states
@@ -33,13 +33,22 @@ from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
+from nivel.analysis.trust.other_elements import (
+    Compared,
+    Stiffness,
+    element_errors,
+    errors_along_path,
+    other_elements,
+    with_elements,
+)
 from nivel.analysis.trust.report import assess
 from nivel.analysis.trust.subject import Equilibria
-from nivel.errors import SolveError
+from nivel.errors import ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
+from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.occurrence import Occurrence, to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
@@ -134,18 +143,106 @@ def statics(
     begin = time.perf_counter()
     walk = Walk()
     with terminable():
-        with interruptible() as interrupted:
-            for point in _follow(equations, start, settings, walk, listener):
-                _take(equations, writer, sink, walk, point, settings)
-                if listener.progress is not None:
-                    listener.progress(point.state.t)
-                if interrupted():
-                    walk.outcome = "interrupted"
-                    break
+        _walk(equations, start, settings, walk, writer, sink, listener)
         if settings.buckling and walk.outcome == "done":
             _find_buckling(equations, walk, settings.buckling)
         seconds["loop_seconds"] = time.perf_counter() - begin
-        return _close(machine, sink, prepared, walk, settings, seconds)
+        others = None
+        if settings.verify and walk.outcome == "done":
+            others = _with_other_elements(machine, settings, walk, (equations, start, writer), prepared, listener)
+        return _close(machine, sink, prepared, walk, settings, seconds, others)
+
+
+def _walk(
+    equations: StaticEquations,
+    start: Rest,
+    settings: StaticsSettings,
+    walk: Walk,
+    writer: FrameWriter,
+    sink: Memory | Store,
+    listener: Listener,
+) -> None:
+    """Find all equilibria and store them."""
+    with interruptible() as interrupted:
+        for point in _follow(equations, start, settings, walk, listener):
+            _take(equations, writer, sink, walk, point, settings)
+            if listener.progress is not None:
+                listener.progress(point.state.t)
+            if interrupted():
+                walk.outcome = "interrupted"
+                break
+
+
+MOST_NODES = 400  # of all beams: more are halved in number, not doubled
+
+
+def _with_other_elements(
+    machine: MachineRecord,
+    settings: StaticsSettings,
+    walk: Walk,
+    own: tuple[StaticEquations, Rest, FrameWriter],
+    prepared: Prepared,
+    listener: Listener,
+) -> Callable[[Result], Compared] | None:
+    """The same equilibria with other elements, and what follows from them for a result; None where there are no beams."""
+    pair = other_elements(machine, doubles=sum(len(beam.shares) for beam in machine.beams) <= MOST_NODES)
+    if pair is None:
+        return None
+    frame, names = Memory(), prepared.motion.system.layout.coordinates["body"]
+    frame.begin(Header(own[2].layout, {}))
+    frame.take(own[2].frame(own[1], Facts(0.0, 0.0, 0.0, 0, 0, None)))
+    drawn = dict(zip(names, frame.result().array("position")[0], strict=True))
+    loose = prepared.redundancy.non_unique_joints
+    unique = tuple(each.name for each in machine.joints if each.name not in loose)
+    stiffness = _stiffness(own[0], own[1], walk)
+    found, sink, why, its = Walk(), Memory(), "", None
+    listener.say(f"verifying with {pair.words} elements of beams")
+    silent = Listener()
+    try:
+        other, equations = prepare_statics(pair.machine, settings)
+        start = _start(equations, other)
+        writer = FrameWriter(equations, settings.modes)
+        sink.begin(Header(writer.layout, {}))
+        _walk(equations, start, settings, found, writer, sink, silent)
+        its = _stiffness(equations, start, found) if found.points else None
+    except (ModelError, SolveError, PivotError) as error:
+        why = str(error)
+    if found.outcome == "interrupted":
+        walk.outcome = "interrupted"
+        return None
+    why = why or (found.ended[0] if found.ended else "")
+    result = None if why else sink.result()
+
+    def compared(own_result: Result) -> Compared:
+        errors = None
+        if result is not None:
+            errors_of = errors_along_path if settings.arc_length else element_errors
+            errors = errors_of(own_result, result, pair.factor)
+        return Compared(
+            pair=pair,
+            result=result,
+            errors=errors,
+            why=why,
+            drawn=drawn,
+            unique=unique,
+            own=stiffness,
+            its=its,
+            by_arc=settings.arc_length,
+        )
+
+    return compared
+
+
+def _stiffness(equations: StaticEquations, start: Rest, walk: Walk) -> Stiffness | None:
+    """The lowest stiffness as drawn and in the last state; None where states of elements move, or nothing can."""
+    if equations.states_move:
+        return None
+    try:
+        last = walk.points[-1].found.tangent
+        drawn, loaded = (lowest(each, 1, each.M)[0] for each in (equations.tangent(start), last))
+    except (PivotError, StateError, np.linalg.LinAlgError):
+        return None
+    return Stiffness(float(drawn[0]), float(loaded[0])) if len(drawn) and len(loaded) else None
 
 
 def _start(equations: StaticEquations, prepared: Prepared) -> Rest:
@@ -289,11 +386,13 @@ def _close(
     walk: Walk,
     settings: StaticsSettings,
     seconds: dict[str, float],
+    others: Callable[[Result], Compared] | None,
 ) -> Result:
     result = sink.result()
     if walk.ended is None and (loaded := loaded_free(machine, result, prepared.motion.system.size)):
         walk.outcome, walk.ended = "failed", loaded
     message, advice = walk.ended or ("", "")
+    elements = others(result) if others is not None and walk.ended is None else None
     equilibria = Equilibria(
         result=result,
         outcome=walk.outcome,
@@ -304,6 +403,7 @@ def _close(
         at_rest=at_rest(machine),
         rigid=walk.rigid,
         without_potential=walk.without_potential,
+        elements=elements,
     )
     critical = [
         {
@@ -326,6 +426,9 @@ def _close(
         "trust": assess(equilibria).to_json(),
         "timing": json.dumps({"steps": len(walk.counts), "iterations": walk.iterations, **seconds}),
     }
+    errors = elements.errors if elements is not None else None
+    if errors is not None and np.all(np.diff(errors.time) > 0.0):
+        attributes[ESTIMATES] = with_elements(None, errors).to_json()
     reached = float(result.time[-1]) if len(result.time) else 0.0
     result = sink.close(attributes)
     if walk.ended is not None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from nivel.analysis.preparation.preparation import Prepared
     from nivel.analysis.run.dynamics import RunOutcome
     from nivel.analysis.run.second_run import Verified
+    from nivel.analysis.trust.other_elements import Compared
     from nivel.machine.machine_record import MachineRecord
     from nivel.results.estimate import Estimate
     from nivel.results.result import Result
@@ -99,13 +100,15 @@ class Computed:
 
 @dataclass(frozen=True, kw_only=True)
 class Run(Motion, Computed):
-    """A run that has ended. second : the second run, and `estimate` what follows from it for each number; None where there are none."""
+    """A run that has ended. second : the second run, and `estimate` what follows from it for each number; None where there are none.
+    elements : the run with other elements of beams, or None."""
 
     result: Result
     plan: Plan
     finished: RunOutcome
     second: Verified | None = None
     estimate: Estimate | None = None
+    elements: Compared | None = None
 
     @property
     def finer(self) -> Verified:
@@ -139,12 +142,13 @@ def run_of(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result)
 class Equilibria(Recorded, Computed):
     """States of equilibrium. critical : (kind, t [s], None or the times [s] between which it is where it was not found) of limit and
     bifurcation points, along the path. at_rest : sentences on what makes no force at rest. rigid : vibrations of no frequency.
-    without_potential : some force has none, as one that follows a body."""
+    without_potential : some force has none, as one that follows a body. elements : what was found with other elements of beams, or None."""
 
     critical: tuple[tuple[str, float, tuple[float, float] | None], ...] = ()
     at_rest: tuple[str, ...] = ()
     rigid: int = 0
     without_potential: bool = False
+    elements: Compared | None = None
 
     @cached_property
     def scales(self) -> Scales:

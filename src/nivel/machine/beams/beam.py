@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Annotated, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, model_validator
 
 from nivel.machine.beams.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
 from nivel.machine.beams.beam_section import (
@@ -82,7 +82,9 @@ class Beam(Checked):
         default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam"
     )
     elements: Annotated[Whole, Field(strict=True, ge=1, le=100_000)] = 10
-    order: Annotated[Whole, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
+    order: Annotated[Whole, Field(strict=True, ge=1, le=3)] = Field(
+        default=2, description="of an element: 1, 2 or 3; 1 where `elements` is given without it, and of another model"
+    )
     model: Literal["geometrically-exact", "segments", "ancf-cable", "ancf-beam"] = Field(
         default="geometrically-exact",
         description=(
@@ -104,6 +106,15 @@ class Beam(Checked):
     )
     velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")
     angular_velocity: AngularVelocityVector = Field(default=(0.0, 0.0, 0.0), description="as a rigid body, global axes")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_before_quadratic_elements(cls, data: Any) -> Any:
+        """Who gives `elements` alone means linear ones, as all once were by default; so are those of other models."""
+        if not isinstance(data, Mapping) or "order" in data:
+            return data
+        linear = "elements" in data or data.get("model", "geometrically-exact") != "geometrically-exact"
+        return {**data, "order": 1} if linear else data
 
     @property
     def line(self) -> Line:
@@ -195,7 +206,7 @@ class Beam(Checked):
         try:
             self.frames(np.linspace(0.0, 1.0, 33))
             if not stations:
-                yield from self._problems_of_turns()
+                yield from self.turning_problems()
             yield from self._problems_of_height()
         except NoCurveError as problem:
             yield Problem(("up",) if problem.up else places[problem.point or 0], str(problem))
@@ -212,8 +223,8 @@ class Beam(Checked):
             message = f"a section {height:.3g} m high on a beam {self.line.length:.3g} m long: a slip of a unit?"
             yield Problem(("section",), message)
 
-    def _problems_of_turns(self) -> Iterator[Problem]:
-        """Elements whose ends are turned too far against each other. Raises NoCurveError."""
+    def turning_problems(self) -> Iterator[Problem]:
+        """Elements whose ends are turned too far against each other, unstressed. Raises NoCurveError."""
         shares = self.shares[:: self.order]
         axes = self.frames(shares)[1]
         along = np.einsum("ni,ni->n", axes[:-1, :, 0], axes[1:, :, 0])

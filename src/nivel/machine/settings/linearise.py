@@ -44,6 +44,11 @@ class LineariseSettings(Record):
     coordinates: OfStatics = Field(
         default="auto", description="coordinates of the equations", absent="those of the machine"
     )
+    verify: bool = Field(
+        default=True,
+        description="vibrations with other elements of beams, to estimate their error",
+        option="--no-verify",
+    )
 
     @property
     def time(self) -> float:

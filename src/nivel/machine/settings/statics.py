@@ -44,6 +44,9 @@ class StaticsSettings(Checked):
     coordinates: OfStatics = Field(
         default="auto", description="coordinates of the equations", absent="those of the machine"
     )
+    verify: bool = Field(
+        default=True, description="states with other elements of beams, to estimate their error", option="--no-verify"
+    )
 
     @property
     def interval(self) -> float:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.trust.check import FRAMES as STATES
 from nivel.analysis.trust.check import STEPS, Check
-from nivel.analysis.trust.flexible_bodies import Bent, modal_bodies
-from nivel.analysis.trust.subject import Run
+from nivel.analysis.trust.flexible_bodies import Bent, ModalBody, modal_bodies
+from nivel.analysis.trust.subject import Equilibria, Run
+from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number
 
 Array = NDArray[np.float64]
@@ -67,18 +69,19 @@ def look_for_stiffening(run: Run) -> Bent | None:
     return found
 
 
-def look_for_bending(run: Run) -> Bent | None:
+def look_for_bending(subject: Run | Equilibria) -> Bent | None:
     """The largest displacement of a node against the extent of its body."""
-    found, result = None, run.result
+    found = [most_bent(subject.result, each) for each in modal_bodies(subject.machine)]
+    return max(found, key=lambda each: each.value, default=None)
+
+
+def most_bent(result: Readable, body: ModalBody) -> Bent:
+    """The largest displacement of a node of a body."""
     stride = max(1, len(result.time) // FRAMES)
-    for each in modal_bodies(run.machine):
-        q = result.array("modal_coordinate")[::stride, each.first : each.last]
-        moved = np.linalg.norm(np.einsum("aij,tj->tai", each.modes, q, optimize=True), axis=2).max(axis=1)
-        frame = int(np.argmax(np.nan_to_num(moved)))
-        value = float(moved[frame]) / max(each.extent, 1e-300)
-        if found is None or value > found.value:
-            found = Bent(each.name, value, float(result.time[frame * stride]))
-    return found
+    q = result.array("modal_coordinate")[::stride, body.first : body.last]
+    moved = np.linalg.norm(np.einsum("aij,tj->tai", body.modes, q, optimize=True), axis=2).max(axis=1)
+    frame = int(np.argmax(np.nan_to_num(moved)))
+    return Bent(body.name, float(moved[frame]) / max(body.extent, 1e-300), float(result.time[frame * stride]))
 
 
 def _turned(theta: Array, axis: Array) -> Array:
@@ -90,5 +93,5 @@ def _turned(theta: Array, axis: Array) -> Array:
 
 CHECKS = (
     Check("stiffening", Run, look_for_stiffening, say_stiffening, 260, (STEPS,), "Stiffening", STIFFENING, quiet=True),
-    Check("bending", Run, look_for_bending, say_bending, 270, (STEPS,), "Bending", BENDING, quiet=True),
+    Check("bending", (Run, Equilibria), look_for_bending, say_bending, 270, (STATES,), "Bending", BENDING, quiet=True),
 )

@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.trust.check import STEPS, Check
+from nivel.analysis.trust.check import FRAMES as STATES
+from nivel.analysis.trust.check import STEPS, Check, Need
 from nivel.analysis.trust.checks.beam_mesh import THRESHOLD as MESH
 from nivel.analysis.trust.flexible_bodies import Bent, ModalBody, numbered_bodies
-from nivel.analysis.trust.subject import Run
+from nivel.analysis.trust.subject import Equilibria, Run
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number
@@ -36,6 +37,10 @@ Array = NDArray[np.float64]
 FRAMES = 4000  # that are looked at, at most
 STRAIGHT = 1e-4  # of its size: a body that bends by less is compared with one that bends by as much
 FITS = 1e-3  # misfit, as a share, with which the forces at one interface explain the motion of a body
+NEAR_LEFT = (
+    0.8  # of the lowest frequency that is left out: vibrations above it may be of modes that the body does not have
+)
+LEAST_PART = 1e-2  # of the energy of a vibration: a body with less hardly takes part in it
 DAMPED_MOST = 0.99  # of critical
 NEAR = 1e-3  # of the size of a body: an interface so near to a marker is the one it is at
 THRESHOLD = Threshold(
@@ -85,6 +90,18 @@ class Lacking:
 
 
 @dataclass(frozen=True)
+class Unsure:
+    """A vibration whose frequency [Hz] is too high by the share `share` of it, 1 at most, by modes that the body lacks, of which the lowest
+    is at `lowest` [Hz]."""
+
+    body: str
+    number: int
+    frequency: float
+    share: float
+    lowest: float
+
+
+@dataclass(frozen=True)
 class _Motion:
     """Of a body in its own axes: a (t, 3) less gravity, alpha, omega; modal p, pdot, pddot (t, n)."""
 
@@ -103,6 +120,15 @@ def say(found: Lacking) -> Item:
         f"{number(found.share)} of its strain energy at t = {found.time:.6g} s; use more `modes`"
     )
     return THRESHOLD.item("modes", said, found.share, found.time, found.body)
+
+
+def say_unsure(found: Unsure) -> Item:
+    """Which frequency modes that are left out would lower, and by how much."""
+    said = (
+        f"Modes: the frequency of vibration {found.number}, {number(found.frequency)} Hz, is too high by about {number(found.share)} of "
+        f"it, because {found.body} leaves out modes from {number(found.lowest)} Hz on; use more `modes`"
+    )
+    return THRESHOLD.item("modes", said, found.share, None, found.body)
 
 
 def say_mesh(found: Bent) -> Item:
@@ -162,17 +188,17 @@ def _held(whole: MachineRecord, body: ModalBody, interfaces: list[Interface]) ->
                 yield Held(joint.name, at, 1.0 if k == 0 else -1.0)
 
 
-def look(run: Run) -> Lacking | None:
+def look(subject: Run | Equilibria) -> Lacking | None:
     """The body that lacks most."""
-    found = [_lacking(run.result, each) for each in modal_bases(run.machine, run.prepared)]
+    found = [_lacking(subject.result, each) for each in _bases(subject)]
     return max((each for each in found if each is not None), key=lambda each: each.share, default=None)
 
 
-def look_at_mesh(run: Run) -> Bent | None:
+def look_at_mesh(subject: Run | Equilibria) -> Bent | None:
     """The largest energy that meshes of bodies make wrong, as a share of their own."""
-    found, result = None, run.result
+    found, result = None, subject.result
     frames = slice(None, None, max(1, len(result.time) // FRAMES))
-    for each in modal_bases(run.machine, run.prepared):
+    for each in _bases(subject):
         motion, mesh = _motion(result, each, frames), each.mesh
         scale = _own_energy(each, motion)
         if mesh is None or not scale > 0.0:
@@ -189,14 +215,12 @@ def look_at_mesh(run: Run) -> Bent | None:
 def _lacking(result: Readable, basis: Basis) -> Lacking | None:
     frames = slice(None, None, max(1, len(result.time) // FRAMES))
     time, left = result.time[frames], basis.left
-    if len(time) < 2 or not len(left.eigenvalues):
+    at_rest = "acceleration" not in result.variables
+    if (len(time) < 2 and not at_rest) or not len(left.eigenvalues):
         return None
     motion = _motion(result, basis, frames)
-    load = _inertia(motion, left.I3, left.I4, left.I8) - motion.pddot @ left.mass.T - motion.p @ left.stiffness.T
-    if np.any(left.phi):
-        forces = _forces(result, basis, motion, frames)
-        load = load + np.einsum("tia,iaj->tj", forces, left.phi)
-    q = response(time, load, np.sqrt(left.eigenvalues), basis.damping_ratio)
+    load = _load(basis, motion, _reactions(result, basis, frames))
+    q = load / left.eigenvalues if at_rest else response(time, load, np.sqrt(left.eigenvalues), basis.damping_ratio)
     parts = 0.5 * left.eigenvalues * q**2
     missed = np.nan_to_num(parts.sum(axis=1))
     k = int(np.argmax(missed))
@@ -208,14 +232,64 @@ def _lacking(result: Readable, basis: Basis) -> Lacking | None:
     return Lacking(basis.body.name, float(missed[k]) / scale, float(time[k]), frequency, motion.p.shape[1])
 
 
+def _load(basis: Basis, motion: _Motion, known: Array) -> Array:
+    """(t, k) on the modes that are left out; known : (t, i, 6) forces at the interfaces."""
+    left = basis.left
+    load = _inertia(motion, left.I3, left.I4, left.I8) - motion.pddot @ left.mass.T - motion.p @ left.stiffness.T
+    if np.any(left.phi):
+        load = load + np.einsum("tia,iaj->tj", _forces(basis, motion, known), left.phi)
+    return load
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def look_at_vibrations(subject: Equilibria) -> Unsure | None:
+    """The vibration about the last equilibrium whose frequency the modes that bodies leave out would lower most.
+
+    Of unit modal mass a mode of the frequency ω_k that bears the load f in a vibration of ω takes f²/(ω_k² - ω²) of ω² (Rayleigh).
+    """
+    result = subject.result
+    if "vibration_stiffness" not in result.variables or not len(result.time):
+        return None
+    last = slice(len(result.time) - 1, len(result.time))
+    squares = result.array("vibration_stiffness", last)[0]
+    moving = np.flatnonzero(squares > 0.0)
+    out = list[Unsure]()
+    for basis in _bases(subject):
+        left, k = basis.left, result.coordinates["body"].index(basis.body.name)
+        if not len(left.eigenvalues) or not len(moving):
+            continue
+        theta = result.array("orientation", last)[:, k] * np.array([1.0, -1.0, -1.0, -1.0])
+        axes = np.repeat(theta, len(moving), axis=0)
+        shift, turn = (rotated(axes, result.array(name, last)[0, moving, k]) for name in ("mode_shift", "mode_turn"))
+        bent = result.array("mode_bending", last)[0, moving, basis.body.first : basis.body.last]
+        omega2, none = squares[moving, None], np.zeros_like(shift)
+        motion = _Motion(-omega2 * shift, -omega2 * turn, none, bent, np.zeros_like(bent), -omega2 * bent)
+        load = _load(basis, motion, np.zeros((len(moving), len(basis.phi), 6)))
+        lowest = float(left.eigenvalues.min())
+        lowered = (load**2 / np.maximum(left.eigenvalues - omega2, 1e-300)).sum(axis=1) / squares[moving]
+        share = np.where(squares[moving] < NEAR_LEFT**2 * lowest, 0.5 * lowered, 1.0)
+        # a body that hardly takes part in a vibration says nothing of it
+        part = squares[moving] * (bent**2).sum(axis=1) + (bent**2) @ basis.body.eigenvalues
+        share = np.where(part > LEAST_PART * squares[moving], share, 0.0)
+        frequency = np.sqrt(squares[moving]) / (2.0 * np.pi)
+        for j, k in enumerate(moving):
+            its = min(float(np.nan_to_num(share[j], nan=np.inf, posinf=np.inf)), 1.0)
+            out.append(Unsure(basis.body.name, int(k) + 1, float(frequency[j]), its, lowest**0.5 / (2.0 * np.pi)))
+    return max(out, key=lambda each: each.share, default=None)
+
+
 def _motion(result: Readable, basis: Basis, frames: slice) -> _Motion:
     body = result.coordinates["body"].index(basis.body.name)
     own = slice(basis.body.first, basis.body.last)
     theta = result.array("orientation", frames)[:, body] * np.array([1.0, -1.0, -1.0, -1.0])
+    p = result.array("modal_coordinate", frames)[:, own]
+    if "acceleration" not in result.variables:  # at rest
+        none, still = np.zeros((len(p), 3)), np.zeros_like(p)
+        return _Motion(rotated(theta, none - basis.gravity), none, none, p, still, still)
     a = result.array("acceleration", frames)[:, body] - basis.gravity
-    vectors = (a, *(result.array(name, frames)[:, body] for name in ("angular_acceleration", "angular_velocity")))
-    modal = (result.array(f"modal_{name}", frames)[:, own] for name in ("coordinate", "rate", "acceleration"))
-    return _Motion(*(rotated(theta, each) for each in vectors), *modal)
+    alpha, omega = (result.array(name, frames)[:, body] for name in ("angular_acceleration", "angular_velocity"))
+    pdot, pddot = (result.array(f"modal_{name}", frames)[:, own] for name in ("rate", "acceleration"))
+    return _Motion(rotated(theta, a), rotated(theta, alpha), rotated(theta, omega), p, pdot, pddot)
 
 
 def _inertia(motion: _Motion, I3: Array, I4: Array, I8: Array) -> Array:
@@ -224,10 +298,9 @@ def _inertia(motion: _Motion, I3: Array, I4: Array, I8: Array) -> Array:
     return spun - motion.a @ I3 - motion.alpha @ I4
 
 
-def _forces(result: Readable, basis: Basis, motion: _Motion, frames: slice) -> Array:
-    """(t, i, 6) forces and torques at the interfaces in use, axes of the body: those of joints, and what the balance of the body asks for
-    besides, at one interface where that is enough."""
-    known = _reactions(result, basis, frames)
+def _forces(basis: Basis, motion: _Motion, known: Array) -> Array:
+    """(t, i, 6) forces and torques at the interfaces in use, axes of the body: those `known`, of joints, and what the balance of the body
+    asks for besides, at one interface where that is enough."""
     equations, right = _balance(basis, motion)
     rest = right - np.einsum("eia,tia->te", equations, known)
     size = float(np.linalg.norm(right))
@@ -309,7 +382,17 @@ def response(time: Array, load: Array, omega: Array, ratio: float) -> Array:
     return np.imag(z) / np.imag(s)
 
 
+def _bases(subject: Run | Equilibria) -> list[Basis]:
+    return modal_bases(subject.machine, subject.prepared) if subject.machine.is_flexible else []
+
+
+MOVING: Final = Need(
+    "steps, or states of equilibrium",
+    lambda subject: STATES.met(subject) and (isinstance(subject, Equilibria) or STEPS.met(subject)),
+)
+
 CHECKS = (
-    Check("body_mesh", Run, look_at_mesh, say_mesh, 290, (STEPS,), line="mesh", quiet=True),
-    Check("modes", Run, look, say, 300, (STEPS,), "Modes", THRESHOLD, quiet=True),
+    Check("body_mesh", (Run, Equilibria), look_at_mesh, say_mesh, 290, (MOVING,), line="mesh", quiet=True),
+    Check("modes", (Run, Equilibria), look, say, 300, (MOVING,), "Modes", THRESHOLD, quiet=True),
+    Check("vibration_modes", Equilibria, look_at_vibrations, say_unsure, 302, (STATES,), line="modes", quiet=True),
 )

@@ -52,7 +52,7 @@ def _fields(record: Record) -> dict[str, Any]:
     plain = {}
     for name, field in type(record).model_fields.items():
         value = getattr(record, name)
-        if name == "type" or value != field.get_default(call_default_factory=True):
+        if name == "type" or name in type(record).always or value != field.get_default(call_default_factory=True):
             plain[field.alias or name] = _plain(value)
     kind = {"type": plain.pop("type")} if "type" in plain else {}
     in_lines = isinstance(record, MachineRecord | Body | SimulationSettings) or any(map(_is_tall, plain.values()))

@@ -59,7 +59,7 @@ def _note(model: LinearModel, pair: Pair, linearised: Callable[[], LinearModel])
         return f"mesh: by the elements of {names} every vibration is off by less than {number(float(off.max()))} of it"
     first = vibrations[int(wrong[0])]
     share = off[int(wrong[0])]
-    by = f"by {number(float(share))} of it" if np.isfinite(share) else "by more than can be told"
+    by = f"by {number(float(share))} of it" if np.isfinite(share) else "by an unknown share"
     less = f"; those below by less than {number(float(off[: wrong[0]].max()))}" if wrong[0] else ""
     advice = "use twice as many `elements`" + (", or `order: 2`" if pair.order == 1 else "")
     return (

@@ -61,6 +61,7 @@ class Beam(Checked):
 
     collection: ClassVar[str] = "beams"
     tagged = {"section": 1}  # noqa: RUF012
+    always = frozenset({"order"})  # without it `elements` would mean linear ones
 
     name: Name
     from_: Position = Field(key="from", description="where it starts, global")
@@ -224,7 +225,7 @@ class Beam(Checked):
             yield Problem(("section",), message)
 
     def turning_problems(self) -> Iterator[Problem]:
-        """Elements whose ends are turned too far against each other, unstressed. Raises NoCurveError."""
+        """Elements over which the unstressed beam turns by more than can be followed. Raises NoCurveError."""
         shares = self.shares[:: self.order]
         axes = self.frames(shares)[1]
         along = np.einsum("ni,ni->n", axes[:-1, :, 0], axes[1:, :, 0])

@@ -67,6 +67,7 @@ class Record(BaseModel, metaclass=RecordClass):
     tagged: ClassVar[Mapping[str, int]] = {}
     # keys that mean a field too, and its name
     spellings: ClassVar[Mapping[str, str]] = {}
+    always: ClassVar[frozenset[str]] = frozenset()  # fields that a file is given also with their defaults
 
     @checked_arguments
     def __init__(self, /, **data: Any) -> None:
@@ -99,7 +100,7 @@ class Record(BaseModel, metaclass=RecordClass):
         own = {name for each in type(self).__mro__ if issubclass(each, Record) for name in vars(each)}
         return [
             *type(self).model_fields,
-            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "model_config"}),
+            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "always", "model_config"}),
         ]
 
     def __str__(self) -> str:

@@ -524,6 +524,6 @@ EVERYTHING = {
         {"name": "law", "when": LAW},
         {"name": "ramp", "when": {"of": "gap.distance", "points": [0, 1], "values": [-1, 1]}, "direction": "falling"},
     ],
-    "assembly": {"largest_gap": "1 cm"},
+    "assembly": {"largest_gap": "1 cm", "parallel": "1e-5 deg"},
     "simulation": {"duration": 3, "stabilisation": "baumgarte", "baumgarte": {"alpha": 5, "beta": 5}},
 }

@@ -20,6 +20,7 @@ from nivel.machine.uses.coordinate_reference import Kind, resolve
 from nivel.system.hydraulics.circuit import CircuitTable
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import Placed, seen_from
+from nivel.system.joints.parallel_axes import Directions
 from nivel.system.laws.functions import FunctionTable, Signal
 from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
@@ -73,6 +74,7 @@ class SystemBuilder:
     def __post_init__(self) -> None:
         names = [body.name for body in self.machine.bodies]
         self._bodies = {name: k for k, name in enumerate((*names, GROUND))}
+        self.directions = Directions(self.machine.assembly.parallel)
 
     @contextmanager
     def noting(self) -> Iterator[None]:

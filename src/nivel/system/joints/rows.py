@@ -134,6 +134,11 @@ class RowTable:
 def add_joint(builder: SystemBuilder, rows: RowTable, joint: Joint) -> None:
     """Markers, joint coordinates and rows of a joint."""
     placed = joint_frames(builder.machine, joint)
+    if composition_of(joint).parallel:
+        placed = (
+            builder.directions.straightened(builder.machine, placed[0]),
+            builder.directions.straightened(builder.machine, placed[1]),
+        )
     first, second = (builder.place(each) for each in placed)
     views: Views = {"first": (first, second), "second": (second, first)}
     if isinstance(joint, OnBeam):

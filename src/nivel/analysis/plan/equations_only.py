@@ -8,10 +8,13 @@ from nivel.machine.machine_record import MachineRecord
 
 def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -> tuple[MachineRecord, str]:
     """The machine in these coordinates, with settings of no method, and the coordinates that were chosen."""
-    simulation = machine.simulation.replace(
+    given = machine.simulation
+    step, interval = min(given.step, given.duration), given.output_interval
+    simulation = given.replace(
         integrator="rk4",
-        step=min(machine.simulation.step, machine.simulation.duration),
-        output_interval=None,
+        step=step,
+        # one below a step that nobody gave is that of an integrator that chooses its own
+        output_interval=None if interval is None or interval < step else interval,
         formulation="newton-euler",
         coordinates=coordinates,
         stabilisation="direct",

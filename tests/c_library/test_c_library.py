@@ -74,6 +74,12 @@ def pendulum(tmp_path_factory):
     return library, block
 
 
+def test_a_machine_is_whole_lines_of_the_cache(pendulum):
+    """`aligned_alloc(alignment, size)` is only right where the size is a multiple of the alignment."""
+    library, _ = pendulum
+    assert library.simple_pendulum_size() % 64 == 0
+
+
 def outputs(library, machine):
     return library.simple_pendulum_outputs(machine)[:20]
 

@@ -171,6 +171,11 @@ EXAMPLE = Template("""/* Steps the machine for a second, and prints its outputs 
 #include "$name.h"
 #include <stdio.h>
 #include <stdlib.h>
+#ifdef _WIN32 /* whose C library has no aligned_alloc */
+#include <malloc.h>
+#define aligned_alloc(alignment, size) _aligned_malloc(size, alignment)
+#define free(block) _aligned_free(block)
+#endif
 
 int main(void) {
   void *machine = aligned_alloc(64, ${name}_size());

@@ -16,7 +16,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
 from nivel.analysis.run.preparation import prepare
-from nivel.c_library.image import WORD, Image, UnknownAddressError
+from nivel.c_library.image import LINE, WORD, Image, UnknownAddressError
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
@@ -124,7 +124,8 @@ def _write(
         "name": name,
         "NAME": name.upper(),
         "version": nivel.__version__,
-        "size": image.words.nbytes + WORD * (1 + len(inputs)),
+        "size": -(-(image.words.nbytes + WORD * (1 + len(inputs))) // LINE)
+        * LINE,  # `aligned_alloc` wants multiples of it
         "step": repr(step),
         "width": len(outputs),
         "count": len(words),

@@ -8,6 +8,8 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 
+from nivel.native.with_numba import known_parts
+
 WORD = ir.IntType(64)
 
 
@@ -15,16 +17,8 @@ def array_of(
     context: Any, builder: Any, kind: types.Array, data: Any, shape: Sequence[Any], strides: Sequence[Any]
 ) -> Any:
     """The array of this kind whose items begin at the pointer `data`; strides in bytes."""
-    array = context.make_array(kind)(context, builder)
-    context.populate_array(
-        array,
-        data=data,
-        shape=shape,
-        strides=strides,
-        itemsize=ir.Constant(WORD, item_size(context, kind)),
-        meminfo=None,
-    )
-    return array._getvalue()
+    size = ir.Constant(WORD, item_size(context, kind))
+    return known_parts.array_of(context, builder, kind, data, shape, strides, itemsize=size)
 
 
 def item_size(context: Any, kind: types.Array) -> int:

@@ -12,9 +12,11 @@ These settings change the process, which therefore is a worker and nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+import numba
 from llvmlite import binding, ir
 from numba import njit, types
 from numba.core import codegen, compiler_lock
@@ -23,7 +25,7 @@ from numba.core.runtime.nrt import rtsys
 
 from nivel.native.function import OPTIONS
 from nivel.native.signature import BROKEN, Signature
-from nivel.native.with_numba import functions
+from nivel.native.with_numba import front_end, functions, known_parts
 from nivel.native.with_numba.arrays import WORD
 from nivel.native.with_numba.calls import _IN_C, from_c, function_type
 from nivel.native.with_numba.kinds import RESULTS, arguments_of
@@ -31,12 +33,35 @@ from nivel.native.with_numba.kinds import RESULTS, arguments_of
 _njit: Any = njit
 
 
+# version of Numba whose inside is known here; another one is slower, and left as it is
+KNOWN = "0.68."
+# instructions from which on a function that several places call is not put into them
+LARGE = 1500
+
+
 class NeedsNumbaError(Exception):
     """Code that calls functions of Numba or of Python when it runs."""
 
 
+class Part:
+    """A function of intermediate code. size : number of its instructions. calls : names of what it calls, once for each place."""
+
+    def __init__(self, function: Any) -> None:
+        instructions = [each for block in function.blocks for each in block.instructions]
+        self.name, self.size = function.name, len(instructions)
+        self.inlined = "alwaysinline" in function.attributes
+        self.calls = [each.callee.name for each in instructions if isinstance(each, ir.CallInstr)]
+
+
 class Translation(codegen.CPUCodeLibrary):
     """The intermediate code of one function, and which others it needs."""
+
+    parts: Sequence[Part] = ()
+
+    def add_ir_module(self, ir_module: Any) -> None:
+        """Note how large functions are, and which others they call."""
+        self.parts = [*self.parts, *(Part(each) for each in ir_module.functions if each.blocks)]
+        super().add_ir_module(ir_module)
 
     def add_llvm_module(self, ll_module: Any) -> None:
         """Take the code as it is."""
@@ -50,12 +75,12 @@ class Translation(codegen.CPUCodeLibrary):
         """There is no machine code; nobody here calls a function."""
         return 1
 
-    def closure(self) -> Iterator[Any]:
-        """The modules of this function and of all that it needs."""
+    def closure(self) -> Iterator[Translation]:
+        """This function and all that it needs."""
         found, left = {self: None}, [self]
         while left:
             library = left.pop()
-            yield library._final_module
+            yield library
             for each in library._linking_libraries:
                 if each not in found:
                     found[each] = None
@@ -78,6 +103,9 @@ def install() -> Any:
         rtsys.initialize(context)
         binding.set_option("nivel", "-unroll-runtime=false")
         context._internal_codegen = Translator("nivel")
+        if numba.__version__.startswith(KNOWN):
+            front_end.install()
+            known_parts.install()
         functions.MORE |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     return context
 
@@ -108,13 +136,47 @@ def linked(function: Any, signature: Signature, symbol: str, **options: Any) -> 
     dispatcher.compile(RESULTS[signature.result](*arguments))
     compiled = dispatcher.overloads[arguments]
     module = binding.parse_assembly(str(_in_c(context, compiled.fndesc, signature, symbol)))
-    for each in compiled.library.closure():
-        module.link_in(each.clone())
+    libraries = [*compiled.library.closure()]
+    for each in libraries:
+        module.link_in(each._final_module.clone())
+    called = large_parts(
+        [part for each in libraries if isinstance(each, Translation) for part in each.parts],
+        compiled.fndesc.mangled_name,
+    )
     for each in (*module.functions, *module.global_variables):
         if not each.is_declaration and each.name != symbol:
             each.linkage = "internal"
+        if each.name in called:
+            each.add_function_attribute("noinline")
     module.verify()
     return module
+
+
+def large_parts(parts: Iterable[Part], first: str) -> set[str]:
+    """Names of functions that stay functions: those that are large, with all that is put into them, and called from several places.
+
+    LLVM would put some of them into each of these places, and optimise every copy. first : name of what is called from outside.
+    """
+    found = {part.name: part for part in parts}
+    sizes: dict[str, int] = {}
+    places: Counter[str] = Counter()
+
+    def size(part: Part) -> int:
+        if part.name not in sizes:
+            sizes[part.name] = part.size + sum(
+                size(found[name]) for name in part.calls if name in found and found[name].inlined
+            )
+        return sizes[part.name]
+
+    def count(part: Part) -> None:
+        for name in part.calls:
+            if name in found:
+                places[name] += 1
+                if found[name].inlined or places[name] == 1:
+                    count(found[name])
+
+    count(found[first])
+    return {name for name, part in found.items() if not part.inlined and places[name] > 1 and size(part) > LARGE}
 
 
 def optimised(module: Any, machine: Any) -> bytes:

@@ -85,7 +85,7 @@ def install():
     from nivel.native.signature import Signature
     from nivel.native.with_numba.laws import law_of
 
-    function.leaf = function.stage = function.shared = noted
+    function.leaf = function.part = function.stage = function.shared = noted
     # entries and laws are called by numbers that stand for their addresses
     function.caller = lambda *_: lambda address, *arguments: FUNCTIONS[int(address)](*arguments)
     Entry.plain = cached_property(lambda self: noted(self.py_func))

@@ -18,10 +18,10 @@ from nivel.kernels.solve.saddle import solve_rows, subtract_rows
 from nivel.kernels.tree.flexible_whitening import accelerate_flexible, hand_efforts_inwards
 from nivel.motion.flexible_tree import factorise_flexible
 from nivel.motion.tree_motion import WIDTH, write_positions
-from nivel.native.function import leaf, stage
+from nivel.native.function import part, stage
 
 
-@leaf
+@part
 def factorise_shifted_modes(machine, s):
     """Factors of the tree with the modal masses of s, in the state last evaluated. Returns a status."""
     record = record_at(machine)
@@ -54,7 +54,7 @@ def load_shifted_modes(machine, r, s):
                 modal.effort[first + j] = -own.damping[f, j] * r[v + j] - own.stiffness[f, j] * moved
 
 
-@leaf
+@part
 def solve_shifted_modes(machine, y, r, s):
     """Overwrite r (ny,) with x, the solution of (1 - s J) x = r, with the factors for s. y : state whose Euler parameters turn. Returns a
     status."""

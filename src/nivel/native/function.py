@@ -1,6 +1,8 @@
 """Functions that are compiled as parts of entries.
 
 leaf     small arithmetic; LLVM decides about inlining.
+part     as long as a pass over a tree, and called from several places of an entry: a function there, not put into these places. (A leaf is
+         put into all its callers where a stage calls it, as Numba hands the order down.)
 stage    a part of one evaluation; always inlined, so that what one part has read of the record serves the next (a quarter of a step).
 shared   what several entries have in common: put into each of them before that is compiled. A stage would be compiled once by itself and
          again within the entry, which a body of half an evaluation makes felt; such functions may take the parts that differ as arguments.
@@ -46,6 +48,11 @@ class Function:
 def leaf(function: Callable[..., Any]) -> Callable[..., Any]:
     """Decorator, see the module."""
     return Function(function)
+
+
+def part(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Decorator, see the module."""
+    return Function(function, forceinline=False)
 
 
 def stage(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -17,10 +17,10 @@ from nivel.motion.compliance import apply_compliance
 from nivel.motion.flexible_compliance import project_flexible, respond_flexible
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.native.entry import entry
-from nivel.native.function import leaf, stage
+from nivel.native.function import part, stage
 
 
-@leaf
+@part
 def prepare_flexible(machine, number, s):
     """Factors `number` for s, and those of the tree. Returns a status."""
     status = factorise_shifted_modes(machine, s)

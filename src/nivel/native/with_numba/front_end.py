@@ -96,10 +96,10 @@ def _post_process(run: Callable[..., Any]) -> Callable[..., Any]:
 
 def _find_values(find: Callable[..., Any]) -> Callable[..., Any]:
     """Variables that are assigned once, before all their uses, are values. The others have a place in memory, which Numba gives to all that
-    more than one block uses."""
+    more than one block uses. Where references are counted, a variable is also used where it ends, which may be elsewhere."""
 
     def find_values(self: Any) -> None:
-        if self.func_ir.func_id.is_generator:
+        if self.func_ir.func_id.is_generator or self.context.enable_nrt:
             find(self)
             return
         defined: dict[str, int] = {}

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -17,8 +18,8 @@ X = np.array([3.0, 4.0, 5.0, -1.0, 0.5, 2.0, 7.0, -6.0, 1.5, 8.0, -2.5, 9.0])
 @pytest.mark.parametrize(("m", "n"), [(0, 1), (1, 0), (0, 0)])
 def test_items_of_boxes(m, n):
     a, b = X.reshape(2, 3, 2).copy(), X.reshape(2, 3, 2).copy()
-    record = Handle(toys.Boxes(a))
-    assert toys.boxes(record.address, m, n) == pytest.approx(toys.of_boxes.py_func(b, m, n), rel=1e-13)
+    record, python = Handle(toys.Boxes(a)), cast("Any", toys.of_boxes).py_func
+    assert toys.boxes(record.address, m, n) == pytest.approx(python(b, m, n), rel=1e-13)
     np.testing.assert_allclose(record.record.value, b, rtol=1e-13)
 
 
@@ -40,7 +41,7 @@ def same_as_in_python(entry, m, n):
     np.testing.assert_allclose(x, y, rtol=1e-13)
 
 
-def part(name, size, *calls, inlined=False):
+def part(name, size, *calls, inlined=False) -> Any:
     return SimpleNamespace(name=name, size=size, calls=calls, inlined=inlined)
 
 

@@ -23,6 +23,8 @@ RELUCTANT = 1e-3
 MOST_WEIGHT = 1e3
 # The second solution takes the round-off of the first one away.
 SOLUTIONS = 2
+# Bodies lighter than this share of the largest mass count as heavy as that, where velocities cannot be found otherwise.
+LIGHTEST = 1e-2
 # Changes below this share of the largest velocity are round-off.
 ROUND_OFF = 1e-12
 
@@ -73,17 +75,21 @@ def given_velocities(machine: MachineRecord) -> NDArray[np.bool_]:
 
 
 def _ways(machine: MachineRecord, system: System, wishes: Wishes) -> tuple[Array, ...]:
-    """(B, 6, 6) changes of velocities for numbers of equal cost: first where given ones are kept, then, if any is, where they are not."""
+    """(B, 6, 6) changes of velocities for numbers of equal cost: first where given ones are kept, then, if any is, where they are not; the
+    same with light bodies as heavy as LIGHTEST, which in their own scale hide the others where masses differ by many orders."""
     given = given_velocities(machine)
-    free = _whitened(system, ~np.repeat(given, 3, axis=1))
     reluctant = np.repeat(given, 3, axis=1) * (RELUCTANT / np.minimum(wishes.weight, MOST_WEIGHT)[:, None])
-    return (free, free + reluctant[:, :, None] * np.eye(6)) if given.any() else (free,)
+    ways: list[Array] = []
+    for lightest in (0.0, LIGHTEST):
+        free = _whitened(system, ~np.repeat(given, 3, axis=1), lightest)
+        ways += [free, free + reluctant[:, :, None] * np.eye(6)] if given.any() else [free]
+    return tuple(ways)
 
 
-def _whitened(system: System, free: NDArray[np.bool_]) -> Array:
+def _whitened(system: System, free: NDArray[np.bool_], lightest: float) -> Array:
     """(B, 6, 6) L⁻ᵀ of the mass matrix L Lᵀ of the velocities that are `free` (B, 6), lengths in units of the machine; zero for the others.
 
-    The largest mass of the machine counts as one.
+    The largest mass of the machine counts as one; lightest : share of it that every body has at least.
     """
     bodies, count = system.record.bodies, system.body_count
     M = np.zeros((count, 6, 6))
@@ -97,6 +103,8 @@ def _whitened(system: System, free: NDArray[np.bool_]) -> Array:
     M[:, :3, :] *= system.size
     M[:, :, :3] *= system.size
     M /= np.max(np.abs(M), initial=np.finfo(float).tiny)
+    if lightest:
+        M *= np.maximum(1.0, lightest / np.abs(M).max(axis=(1, 2), keepdims=True))
     both = free[:, :, None] & free[:, None, :]
     L = np.linalg.cholesky(np.where(both, M, np.eye(6)))
     return np.where(both, np.swapaxes(np.linalg.inv(L), 1, 2), 0.0)

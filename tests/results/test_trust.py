@@ -1,6 +1,7 @@
 """Every number of a trust report is what the histories say, and every threshold decides on the side it should."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 import synthetic_run as pendulum
 from nivel.analysis.trust.checks.accuracy import MARGIN, Accuracy, Verified, error_from_finer
 from nivel.analysis.trust.checks.neglected import Cost
+from nivel.analysis.trust.checks.quantities import QuantityError
 from nivel.analysis.trust.checks.redundancy import Redundancy
 from nivel.analysis.trust.report import assess, blindness, thresholds_of
 from nivel.analysis.trust.subject import Scales, Subject
@@ -79,7 +81,7 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
         "inf": np.inf,
     }[factor]
     reference = pendulum.judged(run())
-    histories, accuracy, neglected = {}, None, None
+    histories, accuracy, neglected, quantities = {}, None, None, []
     match name:
         case "energy":
             histories["energy_error"] = spike(1, 0, 77, -fraction * reference.energy_scale)
@@ -91,11 +93,17 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
             accuracy = estimated(fraction * reference.size, "arm", float(TIME[77]))
         case "neglected":
             neglected = Cost(fraction, "arm", ("I5", "I9"), TIME[77])
-    given = {"accuracy": accuracy} if accuracy else {"neglected": neglected} if neglected else {}
+        case "quantities":
+            quantities = [
+                QuantityError("speeds", "velocity of arm", 3.0 * fraction, fraction, 1.0, "m/s", 4.0 * fraction)
+            ]
+    given = (
+        {"accuracy": accuracy} if accuracy else {"neglected": neglected} if neglected else {"quantities": quantities}
+    )
     trust = pendulum.judged(run(**histories), **given)
     found = item(trust, name)
     assert found.verdict == verdict
-    assert found.time == TIME[77]
+    assert found.time == (None if quantities else TIME[77])
     assert (found.green, found.amber) == (limits.green, limits.amber)
     assert trust.verdict == verdict
     np.testing.assert_allclose(found.fraction, fraction, rtol=1e-12)
@@ -175,7 +183,8 @@ def test_a_machine_that_cannot_move_is_amber():
 
 def test_every_threshold_is_printed_and_has_a_reason():
     neglected = Cost(1e-9, "arm", ("I5",), 1.0)
-    trust = pendulum.judged(run(), accuracy=estimated(1e-9, "arm", 1.0), neglected=neglected)
+    quantities = [QuantityError("pressures", "pump.pressure", 2e4, 1e3, 1e7, "Pa", 3e4)]
+    trust = pendulum.judged(run(), accuracy=estimated(1e-9, "arm", 1.0), neglected=neglected, quantities=quantities)
     for name, threshold in THRESHOLDS.items():
         assert str(threshold) in item(trust, name).text
         assert len(threshold.reason) > 60
@@ -190,6 +199,30 @@ def test_json_out_and_in_changes_nothing(value):
     json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is not JSON"))
     assert str(Trust.from_json(text)) == str(trust)
     assert repr(Trust.from_json(text)) == repr(trust)
+
+
+def test_the_headline_tells_the_worst_number_beside_positions():
+    pressures = QuantityError("pressures", "pump.pressure", 2e4, 1e3, 1e7, "Pa", 3e4)
+    speeds = QuantityError("speeds", "velocity of arm", 1e-6, 1e-7, 1.0, "m/s", 1e-6)
+    near = estimated(3.1e-6, "arm", 7.2)
+    trust = pendulum.judged(run(), accuracy=near, quantities=[speeds, pressures])
+    motion = "within 3.1e-6 m of the exact motion of this model; largest at arm, t = 7.2 s"
+    assert trust.headline == f"{motion}; pressures within 0.3 bar (pump.pressure most)"
+    # what is round-off of its range is not told
+    trust = pendulum.judged(run(), accuracy=near, quantities=[replace(speeds, error=1e-10, largest=1e-10)])
+    assert trust.headline == motion
+
+
+def test_a_headline_does_not_contradict_a_red_line():
+    wrong = QuantityError("user states", "state.b", 1.2, 0.7, 1.9, "1", 1.2)
+    exact = estimated(0.0, "arm", 0.0)
+    assert pendulum.judged(run(), accuracy=exact).headline == "exact for this model, except for round-off"
+    off = pendulum.judged(run(), accuracy=exact, quantities=[wrong])
+    assert off.headline == "user states off by up to 1.2 (state.b most); bodies exact, except for round-off"
+    assert off.verdict == "red"
+    energy = spike(1, 0, 7, 1e3)
+    trust = pendulum.judged(run(energy_error=energy), accuracy=estimated(1e-9, "arm", 1.0))
+    assert trust.headline == "of unknown error: two runs agree within 1e-9 m, but the line Energy is red"
 
 
 def test_json_of_a_later_version_is_read():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -26,11 +26,13 @@ ROUND_OFF = 2.220446049250313e-16
 class Estimate:
     """Estimated errors of all numbers of a result up to some times.
 
-    time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time.
+    time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time. mean : of each variable (…), the root
+    of the mean square of its errors; not kept in a file.
     """
 
     time: Array
     values: Mapping[str, Array]
+    mean: Mapping[str, Array] = field(default_factory=dict)
 
     def at(self, name: str, time: Array) -> Array:
         """Errors (n, …) of the variable `name` at times (n,) [s]; not a number after the last estimate."""
@@ -64,14 +66,15 @@ def estimate_errors(result: Readable, finer: Readable, factor: float) -> Estimat
     width = sum(int(np.prod(shape_of(each, result.coordinates))) for each in result.variables.values())
     count = int(np.clip(NUMBERS // max(width, 1), 1, min(TIMES, len(first))))
     ends = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
-    values = {}
+    values, mean = {}, {}
     for name in result.variables:
         a, b = result.array(name)[first], finer.array(name)[second]
         if name == "orientation":
             b = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -b, b)
         off = np.maximum(factor * np.abs(a - b), ROUND_OFF * np.abs(a))
+        mean[name] = np.sqrt(np.mean(off**2, axis=0))
         values[name] = np.maximum.accumulate(off, axis=0)[ends]
-    return Estimate(result.time[first][ends], values)
+    return Estimate(result.time[first][ends], values, mean)
 
 
 def _rounded(values: Array) -> Any:

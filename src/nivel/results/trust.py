@@ -12,6 +12,8 @@ import numpy as np
 
 Verdict = Literal["green", "amber", "red"]
 ROUND_OFF: Final = 1e-14  # of the size: an error below it is none
+ERRORS: Final = ("accuracy", "parts", "quantities", "verified")  # lines whose numbers are estimates of errors
+ROUNDED: Final = 1e-9  # of the range of a number beside positions: what equations and sums round to
 
 
 @dataclass(frozen=True)
@@ -161,25 +163,45 @@ class Trust:
 
     @property
     def headline(self) -> str:
-        """How exact the run is, in a sentence: what a second run says, or that there was none."""
+        """How exact the run is, in a sentence: what a second run says of bodies and of the number that is worst beside, or that there was
+        none. Where a line is red the first thing said is not a small number."""
         if self.accuracy_estimate is None:
             return "not verified"
+        agree = f"two runs agree within {number(self.accuracy_estimate)} m"
         if self.accuracy_blind:
-            return (
-                f"of unknown error: two runs agree within {number(self.accuracy_estimate)} m, but {self.accuracy_blind}"
-            )
+            return f"of unknown error: {agree}, but {self.accuracy_blind}"
+        if doubt := self._doubt():
+            return f"of unknown error: {agree}, but the line {doubt} is red"
+        until = (
+            f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
+        )
         by_elements = self.elements_estimate or 0.0
         total, larger = self.accuracy_estimate + by_elements, by_elements > self.accuracy_estimate
         body, time = (self.elements_body, self.elements_time) if larger else (self.accuracy_body, self.accuracy_time)
         where = f"; largest at {body}" if body else ""
         when = f", t = {time:.6g} s" if time is not None else ""
-        until = (
-            f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
-        )
-        if total < ROUND_OFF * self.size:
-            return f"exact for this model, except for round-off{until}"
         cause = f"; {number(by_elements)} m of it by the elements of beams" if larger else ""
-        return f"within {number(total)} m of the exact motion of this model{until}{where}{when}{cause}"
+        motion = f"within {number(total)} m of the exact motion of this model{until}{where}{when}{cause}"
+        exact = total < ROUND_OFF * self.size and "unexamined" not in self.found
+        rest = self._worst_of_rest()
+        if not rest:
+            return f"exact for this model, except for round-off{until}" if exact else motion
+        name, error = rest["quantity"], amount(rest["largest"], rest["units"])
+        bodies = f"bodies exact, except for round-off{until}" if exact else f"bodies {motion}"
+        red = {item.name for item in self.items if item.verdict == "red"}
+        if exact or (red and "accuracy" not in red):
+            return f"{name} {'off by up to' if red else 'within'} {error} ({rest['name']} most); {bodies}"
+        return f"{motion}; {name} within {error} ({rest['name']} most)"
+
+    def _doubt(self) -> str:
+        """The title of a red line that is no estimate of an error; empty where there is none."""
+        red = [item for item in self.items if item.verdict == "red" and item.name not in ERRORS]
+        return red[0].text.partition(":")[0] if red else ""
+
+    def _worst_of_rest(self) -> Mapping[str, Any]:
+        """The number beside positions that is wrong most on its own scale; empty where all are exact except for round-off."""
+        worst = max(self.found.get("quantities", ()), key=lambda each: each["error"] / each["extent"], default={})
+        return worst if worst and worst["error"] > ROUNDED * worst["extent"] else {}
 
     def lines(self) -> list[str]:
         """One line per item: its verdict and its statement."""
@@ -187,6 +209,13 @@ class Trust:
 
     def __str__(self) -> str:
         return "\n".join(self.lines())
+
+
+def amount(value: float, units: str) -> str:
+    """A number with its units as in a sentence: pressures in bar, nothing for plain numbers."""
+    if units == "Pa" and abs(value) >= 100.0:
+        return f"{number(value / 1e5)} bar"
+    return number(value) if units == "1" else f"{number(value)} {units}"
 
 
 def worst(items: Iterable[Item]) -> Verdict:

@@ -52,6 +52,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
     facts = INTEGRATORS[integrator]
     clock, counter = np.zeros(names.CLOCKS), np.zeros(names.COUNTS, dtype=np.int64)
     clock[names.STEP], clock[names.END], clock[names.INTERVAL] = step, end, 1e-9
+    clock[names.STEP_TICKS], clock[names.TICK_RATE] = step, 1.0
     clock[names.BOUND] = end
     clock[names.TOLERANCE], clock[names.LARGEST] = tolerance, step if fixed else largest
     counter[names.MOST_ITERATIONS], counter[names.NEWTON] = 50, int(newton)

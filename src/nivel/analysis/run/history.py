@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.failures.lockup import can_be_asked
+from nivel.analysis.plan.refusals import WHOLE
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.trust.checks.indeterminate_friction import STILL
@@ -32,7 +35,9 @@ from nivel.integrate.loop.run import (
     PARTS,
     SHOWN,
     STEP,
+    STEP_TICKS,
     SWITCHED,
+    TICK_RATE,
     TOLERANCE,
     VALUE_ROWS,
     Run,
@@ -40,13 +45,14 @@ from nivel.integrate.loop.run import (
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.output.observe import observe
-from nivel.kernels.record.record import WATCH
+from nivel.kernels.record.record import WATCH, Sampled
 from nivel.kernels.signals.sampling import sample
 from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
 from nivel.system.signals.control import ONCE
+from nivel.system.signals.ticks import ratio_of
 from nivel.system.system import Array, System
 
 BUFFER_BYTES = 1_000_000
@@ -76,7 +82,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     values = _watch(system, chosen=settings.steps == 0)
     count[SWITCHED] = values > len(system.record.watched.event)
     return Run(
-        clock=_clock(settings, _open_limit(prepared, settings)),
+        clock=_clock(prepared, settings),
         counter=count,
         y=y,
         rate=np.zeros_like(y),
@@ -102,15 +108,28 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     )
 
 
-def _clock(settings: RunSettings, open_limit: float) -> Array:
+def _clock(prepared: Prepared, settings: RunSettings) -> Array:
     clock = np.zeros(CLOCKS)
+    step = _step_ratio(prepared.motion.system.record.sampled, settings.step)
+    clock[STEP_TICKS], clock[TICK_RATE] = step.numerator, step.denominator
     clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
     clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
     clock[SHOWN], clock[HORIZON] = -np.inf, np.inf
-    clock[OPEN_LIMIT] = open_limit
+    clock[OPEN_LIMIT] = _open_limit(prepared, settings)
     if settings.corrector is not None:
         clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
     return clock
+
+
+def _step_ratio(sampled: Sampled, step: float) -> Fraction:
+    """A step [s] as a ratio of whole numbers: a whole part of the time between samples, where there are samples."""
+    for each, rate in zip(sampled.ticks, sampled.rate, strict=True):
+        if 0.0 < each < ONCE:
+            period = Fraction(each) / Fraction(rate)
+            count = max(1, round(period / Fraction(step)))
+            if abs(period / count - Fraction(step)) <= WHOLE * step:
+                return period / count
+    return ratio_of(step)
 
 
 def _pace(prepared: Prepared, settings: RunSettings) -> Array:
@@ -177,7 +196,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
 def _begin_states(prepared: Prepared, y: Array) -> None:
     """States that begin with what a function gives at t = 0, from there on: energies are referred to them."""
     motion, sampled = prepared.motion, prepared.motion.system.record.sampled
-    begins = (sampled.period >= ONCE) & (sampled.offset == 0.0)
+    begins = (sampled.ticks >= ONCE) & (sampled.first == 0.0)
     if not begins.any():
         return
     motion.evaluate(0.0, y)

@@ -30,7 +30,6 @@ from nivel.integrate.loop.run import (
     REACHED,
     RESTART,
     SHOWN,
-    START,
     STEP,
     STOPPED,
     SWITCHED,
@@ -38,7 +37,7 @@ from nivel.integrate.loop.run import (
     call_step,
     run_at,
 )
-from nivel.integrate.loop.samples import find_bound, take_samples
+from nivel.integrate.loop.samples import find_bound, take_samples, time_of
 from nivel.integrate.loop.step_control import fastest_turn
 from nivel.integrate.loop.switches import change_sides, has_switches, note_sides
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK, OPEN
@@ -50,14 +49,6 @@ from nivel.kernels.solve.saddle import contradicts, exceeds
 from nivel.kernels.tree.tree import has_passed
 from nivel.native.entry import entry
 from nivel.native.function import leaf
-
-
-@leaf
-def time_of(run, n):
-    """Time after n fixed steps; not a running sum, so it carries no round-off from step to step. The last step ends at the end."""
-    if n == run.counter[ALL_STEPS]:
-        return run.clock[END]
-    return run.clock[START] + n * run.clock[STEP]
 
 
 @leaf

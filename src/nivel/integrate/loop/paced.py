@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVENTS, FRAMES, START, STEP, TIME, run_at
+from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVENTS, FRAMES, TIME, run_at
+from nivel.integrate.loop.samples import time_of
 from nivel.kernels.core.arrays import A1, F1, F2, I1, U1
 from nivel.kernels.core.handle import reader
 from nivel.kernels.core.status import BUDGET_SPENT
@@ -119,7 +120,7 @@ def set_inputs(machine, history, session, heard):
     clock, control = live.clock, live.control
     row = live.tape[control[DONE] % np.int64(live.tape.shape[0])]
     begin = run.clock[TIME]
-    end = run.clock[START] + (run.counter[DONE_STEPS] + control[SUBSTEPS]) * run.clock[STEP]
+    end = time_of(run, run.counter[DONE_STEPS] + control[SUBSTEPS])
     for i in range(live.function.shape[0]):
         first = live.value[i]
         if control[FROM_TAPE] == 1:

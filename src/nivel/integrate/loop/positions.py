@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.loop.loop import at_end, finite, is_due, time_of, write_frame
+from nivel.integrate.loop.loop import at_end, finite, is_due, write_frame
 from nivel.integrate.loop.run import (
     ACCEPTED,
     BUDGET,
@@ -22,6 +22,7 @@ from nivel.integrate.loop.run import (
     TIME,
     run_at,
 )
+from nivel.integrate.loop.samples import time_of
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_CLOSED, NOT_FINITE, OK
 from nivel.kernels.output.observe import accept
 from nivel.kernels.record.hook import call_correct, call_evaluate

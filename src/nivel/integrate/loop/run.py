@@ -12,7 +12,8 @@ from nivel.native.signature import Signature
 # entries of Run.clock
 TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LENGTH, SHOWN, ACCEPTED, OPEN_LIMIT, BOUND, HORIZON = 9, 10, 11, 12, 13, 14
-CLOCKS = 15
+STEP_TICKS, TICK_RATE = 15, 16
+CLOCKS = 17
 # entries of Run.counter
 DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED = 0, 1, 2, 3, 4, 5, 6, 7
 ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
@@ -43,7 +44,8 @@ class Run(NamedTuple):
     # TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames [s]; TOLERANCE, LARGEST step, ...;
     # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame;
     # ACCEPTED, time of the state `previous`; OPEN_LIMIT, share of the scales of the constraints beyond which positions are not accepted;
-    # BOUND, time of the next sample or corner, or of the end; HORIZON, time that no step begins at or after
+    # BOUND, time of the next sample or corner, or of the end; HORIZON, time that no step begins at or after;
+    # STEP_TICKS / TICK_RATE, the length of fixed steps as a ratio of whole numbers
     clock: F1
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,

@@ -5,7 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.loop.crossing import read_values
-from nivel.integrate.loop.run import BEFORE, BOUND, CORNER, DONE_STEPS, END, RESTART, TIME, run_at
+from nivel.integrate.loop.run import (
+    ALL_STEPS,
+    BEFORE,
+    BOUND,
+    CORNER,
+    DONE_STEPS,
+    END,
+    RESTART,
+    START,
+    STEP_TICKS,
+    TICK_RATE,
+    TIME,
+    run_at,
+)
 from nivel.integrate.loop.switches import change_sides, has_switches, release_sides, restore_sides
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import NEAR
@@ -15,12 +28,20 @@ from nivel.native.function import leaf
 
 
 @leaf
+def time_of(run, n):
+    """Time after n fixed steps, rounded once: it carries no round-off from step to step. The last step ends at the end."""
+    if n == run.counter[ALL_STEPS]:
+        return run.clock[END]
+    return run.clock[START] + n * run.clock[STEP_TICKS] / run.clock[TICK_RATE]
+
+
+@leaf
 def find_bound(machine, run):
     """clock[BOUND] := the time of the next sample or corner, or the end of the run where that is earlier: no step goes beyond it."""
     sampled = record_at(machine).sampled
     run.clock[BOUND] = run.clock[END]
-    for k in range(sampled.period.shape[0]):
-        if sampled.period[k] > 0.0:
+    for k in range(sampled.ticks.shape[0]):
+        if sampled.ticks[k] > 0.0:
             run.clock[BOUND] = min(run.clock[BOUND], next_sample(sampled, run, k))
     corners, t = run.corners, run.clock[TIME]
     while run.counter[CORNER] < corners.shape[0] and corners[run.counter[CORNER]] <= t + NEAR * np.abs(t):
@@ -31,8 +52,8 @@ def find_bound(machine, run):
 
 @leaf
 def next_sample(sampled, run, k):
-    """Time of the next sample of entry k [s]: a product, not a running sum, so that times carry no round-off from sample to sample."""
-    return sampled.offset[k] + run.samples[k] * sampled.period[k]
+    """Time of the next sample of entry k [s]: the decimal number that a user writes for it, so that `time >= 0.9` holds at 3 · 0.3 s."""
+    return (sampled.first[k] + run.samples[k] * sampled.ticks[k]) / sampled.rate[k]
 
 
 @leaf
@@ -41,7 +62,7 @@ def find_due(sampled, run):
     t, found = run.clock[TIME], False
     for k in range(sampled.state.shape[0]):
         sampled.due[k] = 0
-        if sampled.period[k] > 0.0:
+        if sampled.ticks[k] > 0.0:
             at = next_sample(sampled, run, k)
             if t >= at - NEAR * np.abs(at):
                 sampled.due[k] = 1

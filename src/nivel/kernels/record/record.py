@@ -249,8 +249,12 @@ class Sampled(NamedTuple):
     )
     function: U1  # (samples,) its next value
     event: U1  # (samples,) event that takes a sample, or NONE
-    period: F1  # (samples,) [s] between samples; zero: at the event only, or a signal, which is computed at all of them
-    offset: F1  # (samples,) [s] time of the first sample
+    # Sample n is taken at (first + n · ticks)/rate [s], which is rounded once.
+    first: F1  # (samples,) [ticks] time of the first sample
+    ticks: (
+        F1  # (samples,) [ticks] between samples; zero: at the event only, or a signal, which is computed at all of them
+    )
+    rate: F1  # (samples,) [1/s] ticks in a second
     at_rest: U1  # (1,) 1: in statics, where the rate of such a state is what a sample would change it by
     # work
     came: U1  # (events,) whether the event came in the last step

@@ -11,6 +11,7 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
 from nivel.system.signals.control import ONCE, SampleTable, add_samples
 from nivel.system.signals.state_facts import StateFact
+from nivel.system.signals.ticks import ticks
 from nivel.system.tables import index_array
 
 
@@ -53,14 +54,16 @@ def sampled_states(builder: SystemBuilder) -> Sampled:
     add_samples(builder, table)
     count = len(table.rows)
     state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7
+    times = np.array([ticks(*each) for each in zip(offset, period, strict=True)]).reshape(count, 3)
     return Sampled(
         state=index_array(state, 1),
         output=index_array(output, 1),
         at_once=index_array(at_once, 1),
         function=index_array(function, 1),
         event=index_array(event, 1),
-        period=np.array(period, dtype=float),
-        offset=np.array(offset, dtype=float),
+        first=times[:, 0].copy(),
+        ticks=times[:, 1].copy(),
+        rate=times[:, 2].copy(),
         at_rest=np.zeros(1, dtype=np.uint32),
         came=np.zeros(len(events), dtype=np.uint32),
         due=np.zeros(count, dtype=np.uint32),

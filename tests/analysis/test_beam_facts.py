@@ -99,7 +99,10 @@ def test_a_beam_is_said_in_a_few_lines():
         assert words in text
     assert "rod.7" not in text
     assert len(text.splitlines()) < 20
-    assert json.loads(json.dumps(dataclasses.asdict(facts)))["beams"][0]["name"] == "rod"
+    assert (
+        json.loads(json.dumps(dataclasses.asdict(facts) | {"settings": facts.settings.as_dict()}))["beams"][0]["name"]
+        == "rod"
+    )
 
 
 def test_a_machine_without_beams_says_nothing_of_them():

@@ -71,7 +71,7 @@ def test_a_sampled_set_point_does_not_depend_on_the_step():
     """A step of the set-point at the fifth sample: with the end of step 95 of 10/19 ms, or 150 of 1/3 ms, a unit too early."""
     ends = []
     for step in ("10/19 ms", "1/3 ms", "0.5 ms", "0.25 ms"):
-        result = nivel.load(FAULTS / "late-sample.yaml").simulate(step=step)
+        result = nivel.load(FAULTS / "late-sample.yaml").simulate(verify=True, step=step)
         assert result.trust.verdict == "green", step
         ends.append(result.array("hinge.angle"))
     for other in ends[1:]:

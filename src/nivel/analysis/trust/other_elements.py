@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.other_elements import changed, doubled
@@ -150,21 +149,29 @@ def _filled(off: Array, axis: int) -> Array:
 def with_elements(estimate: Estimate | None, errors: ElementErrors) -> Estimate:
     """The estimated errors of a run, and those that its elements add; they are known as far as both are."""
     running = {name: np.maximum.accumulate(each, axis=0) for name, each in errors.values.items()}
+    mean = {name: np.sqrt(np.mean(each**2, axis=0)) for name, each in errors.values.items()}
     if estimate is None:
         ends = np.unique(np.linspace(0, len(errors.time) - 1, min(50, len(errors.time))).round().astype(int))
-        return Estimate(errors.time[ends], {name: each[ends] for name, each in running.items()})
+        return Estimate(errors.time[ends], {name: each[ends] for name, each in running.items()}, mean)
     time = estimate.time[estimate.time <= errors.time[-1] * (1.0 + 1e-9)]
     place = np.minimum(np.searchsorted(errors.time, time * (1.0 - 1e-12)), len(errors.time) - 1)
     values = {name: each[: len(time)] for name, each in estimate.values.items()}
     for name, each in running.items():
         if name in values and values[name].shape[1:] == each.shape[1:]:
             values[name] = values[name] + each[place]
-    return Estimate(time, values)
+    both = {
+        name: each + mean[name] if name in running and mean[name].shape == each.shape else each
+        for name, each in estimate.mean.items()
+    }
+    return Estimate(time, values, both)
 
 
 def errors_along_path(result: Readable, other: Readable, factor: float) -> ElementErrors | None:
     """Errors of places against the nearest state of a path whose states have other times: states count by places over the size and time
     over the duration."""
+    # here, as runs of rigid bodies need no SciPy
+    from scipy.interpolate import CubicSpline
+
     names, others = result.coordinates["body"], other.coordinates["body"]
     both = [k for k, name in enumerate(names) if name in others]
     if len(other.time) < 4 or not both:

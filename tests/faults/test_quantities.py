@@ -1,0 +1,58 @@
+"""Errors of pressures, states and other numbers beside positions: what the headline says of them, and that it is no less than the truth."""
+
+from pathlib import Path
+
+import numpy as np
+
+import nivel
+
+FAULTS = Path(__file__).parent
+
+
+def quantities(trust):
+    return {each["quantity"]: each for each in trust.found["quantities"]}
+
+
+def test_states_that_lag_behind_are_red_and_told_first():
+    """a = cos 1000 t, b = -sin 1000 t, by rk4 with steps of 1 ms: wrong by more than their amplitude where no body moves."""
+    result = nivel.load(FAULTS / "t3-states.yaml").simulate(verify=True)
+    true = max(
+        np.abs(result.array("state.a") - np.cos(1000.0 * result.time)).max(),
+        np.abs(result.array("state.b") + np.sin(1000.0 * result.time)).max(),
+    )
+    stated = quantities(result.trust)["user states"]["largest"]
+    assert true / 3.0 < stated < 3.0 * true
+    assert result.trust.verdict == "red"
+    assert result.trust.headline.startswith("user states off by up to")
+    assert "bodies exact" in result.trust.headline
+
+
+def test_a_red_line_takes_the_headline_its_small_number():
+    """A box that passes through a plate within a step: two runs agree, the energy does not."""
+    trust = nivel.load(FAULTS / "t7-plate.yaml").simulate(verify=True).trust
+    assert trust.verdict == "red"
+    assert trust.headline.startswith("of unknown error: ")
+
+
+def test_pressures_of_a_water_hammer_are_in_the_headline():
+    """At the closed end of a hose, 14.69 bar off by the reference of a finer step."""
+    settings = {"integrator": "extrapolated-euler", "step": "1 ms", "output_interval": "1 ms"}
+    result = nivel.load(FAULTS / "hammer-green-big.yaml").simulate(verify=True, **settings)
+    stated = quantities(result.trust)["pressures"]["largest"] / 1e5
+    assert 14.69 / 3.0 < stated < 3.0 * 14.69
+    assert "pressures" in result.trust.headline
+    assert result.trust.verdict != "green"
+
+
+def test_a_function_of_a_signal_that_is_not_in_the_result_is_named():
+    """A wall that a sensor's distance switches: no line knows where it is narrow."""
+    result = nivel.load(FAULTS / "t5-gap.yaml").simulate(verify=True, integrator="radau")
+    line = next(item for item in result.trust.items if item.name == "unexamined")
+    assert "wall.vector.x" in line.text
+    assert not result.trust.headline.startswith("exact")
+
+
+def test_constant_numbers_have_no_range_to_be_wrong_by():
+    """A speed that stays as it is, to round-off: its own magnitude is the scale."""
+    trust = nivel.load(FAULTS / "t5-gap.yaml").simulate(verify=True, duration=0.1).trust
+    assert all(item.verdict == "green" for item in trust.items if item.name == "quantities")

@@ -1,0 +1,42 @@
+"""Starts that are not what the machine file says: amber, with what was changed and by how much."""
+
+from pathlib import Path
+
+import pytest
+
+import nivel
+from simulating import hinge, machine, solid
+
+FAULT = Path(__file__).parent / "t10-start.yaml"
+
+
+def lines(trust):
+    return [item for item in trust.items if item.name == "start"]
+
+
+def test_a_moved_body_and_a_changed_velocity_are_amber():
+    """8 rad/s given and 6.94 taken, a body moved by 86 mm."""
+    result = nivel.load(FAULT).simulate(verify=False)
+    moved, changed = lines(result.trust)
+    assert (moved.verdict, changed.verdict) == ("amber", "amber")
+    assert "b was moved by 0.0862 m" in moved.text
+    assert "1.06 rad/s" in changed.text
+    assert result.array("a.angular_velocity")[0, 2] == pytest.approx(8.0 - 1.06, abs=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ({"angular_velocity": [0, 0, 8], "velocity": [0, 4, 0]}, []),  # ω r = 8 · 0.5
+        ({"angular_velocity": [0, 0, 8], "velocity": [0, 4.004, 0]}, []),  # rounded
+        ({"angular_velocity": [0, 0, 8]}, []),  # the velocity follows
+        ({"angular_velocity": [0, 0, 8], "velocity": [0, 1, 0]}, ["amber"]),
+        ({}, []),
+    ],
+)
+def test_velocities_that_fit_the_joints_are_green(given, expected):
+    pendulum = machine(
+        {"bodies": {"rod": solid(1.0, position=[0.5, 0, 0], **given)}, "joints": {"pin": hinge("ground", "rod")}}
+    )
+    trust = pendulum.simulate(verify=False, duration=0.01).trust
+    assert [item.verdict for item in lines(trust)] == expected

@@ -274,7 +274,7 @@ joints:
   e: {type: screw, bodies: [ground, a], point: [0, 0, 0], axis: [0, 0, 1], pitch: 2}
 couplings:
   l: {type: linear, coordinates: [c.angle, c.displacement], factors: [1, 2]}
-  r: {type: rack, joints: [c, c], radius: 0.3}
+  r: {type: rack, joints: [c.angle, c.displacement], radius: 0.3}
 drivers:
   d: {coordinate: e.displacement, value: 0.1*time}
   z: {marker: m, along: z, relative_to: n, value: 1}

@@ -62,7 +62,9 @@ FAILURES = ["direct.are_open", "direct.name_lost", "step_control.too_small"]
 HARD_NEWTON = [f"friction_turns.{name}" for name in ("freeze", "next_seed", "release", "turn_some")]
 HARD_NEWTON += ["residual_newton.is_round_off"]
 FOR_TESTS = ["tangent_entries.solve_shifted"]
-LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS}
+# joints of other packages move by an address, which plain Python has not: test_extending_page runs them
+BY_ADDRESS = [f"joints.{name}" for name in ("call_motion", "carry_child", "joint_at")]
+LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS, *BY_ADDRESS}
 
 
 def settings_of(path):

@@ -31,7 +31,7 @@ def kinds(run, crank, turn):
     """A result of every kind, and a column of its table: its name, numbers and unit."""
     efforts = crank.inverse(actuators="hinge", motion=turn)
     pendulum = nivel.load(PENDULUM)
-    linear = pendulum.linearise()
+    linear = pendulum.linearise(about="equilibrium")
     rest = pendulum.statics()
     return {
         "run": (run, "bob.position.x", run.array("bob.position")[:, 0], "m"),

@@ -26,8 +26,8 @@ ROUND_OFF = 2.220446049250313e-16
 class Estimate:
     """Estimated errors of all numbers of a result up to some times.
 
-    time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time. mean : of each variable (…), the root
-    of the mean square of its errors; not kept in a file.
+    time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time. mean : of each variable (…), the mean
+    of its errors; not kept in a file.
     """
 
     time: Array
@@ -72,7 +72,7 @@ def estimate_errors(result: Readable, finer: Readable, factor: float) -> Estimat
         if name == "orientation":
             b = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -b, b)
         off = np.maximum(factor * np.abs(a - b), ROUND_OFF * np.abs(a))
-        mean[name] = np.sqrt(np.mean(off**2, axis=0))
+        mean[name] = np.mean(off, axis=0)
         values[name] = np.maximum.accumulate(off, axis=0)[ends]
     return Estimate(result.time[first][ends], values, mean)
 

@@ -195,7 +195,8 @@ class Trust:
 
     def _doubt(self) -> str:
         """The title of a red line that is no estimate of an error; empty where there is none."""
-        red = [item for item in self.items if item.verdict == "red" and item.name not in ERRORS]
+        known = (*ERRORS, "mesh") if self.elements_estimate is not None else ERRORS
+        red = [item for item in self.items if item.verdict == "red" and item.name not in known]
         return red[0].text.partition(":")[0] if red else ""
 
     def _worst_of_rest(self) -> Mapping[str, Any]:

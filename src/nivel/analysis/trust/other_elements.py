@@ -149,7 +149,7 @@ def _filled(off: Array, axis: int) -> Array:
 def with_elements(estimate: Estimate | None, errors: ElementErrors) -> Estimate:
     """The estimated errors of a run, and those that its elements add; they are known as far as both are."""
     running = {name: np.maximum.accumulate(each, axis=0) for name, each in errors.values.items()}
-    mean = {name: np.sqrt(np.mean(each**2, axis=0)) for name, each in errors.values.items()}
+    mean = {name: np.mean(each, axis=0) for name, each in errors.values.items()}
     if estimate is None:
         ends = np.unique(np.linspace(0, len(errors.time) - 1, min(50, len(errors.time))).round().astype(int))
         return Estimate(errors.time[ends], {name: each[ends] for name, each in running.items()}, mean)

@@ -22,7 +22,7 @@ SOFT, HEAVY = 1e9, 2500.0
 class Material(Checked):
     """A linear elastic, isotropic material."""
 
-    spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
+    _spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
 
     youngs_modulus: Stress
     poisson_ratio: Scalar

@@ -66,7 +66,7 @@ class Record(BaseModel, metaclass=RecordClass):
     # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
     tagged: ClassVar[Mapping[str, int]] = {}
     # keys that mean a field too, and its name
-    spellings: ClassVar[Mapping[str, str]] = {}
+    _spellings: ClassVar[Mapping[str, str]] = {}
     always: ClassVar[frozenset[str]] = frozenset()  # fields that a file is given also with their defaults
 
     @checked_arguments
@@ -132,10 +132,10 @@ class Record(BaseModel, metaclass=RecordClass):
 
 def respelt(data: Any, record: type[Record]) -> Any:
     """`data` with the names of fields in place of their other spellings; a key that is given both ways stays unknown."""
-    if not record.spellings or not isinstance(data, Mapping):
+    if not record._spellings or not isinstance(data, Mapping):
         return data
     return {
-        new if (new := record.spellings.get(key, key)) == key or new not in data else key: data[key] for key in data
+        new if (new := record._spellings.get(key, key)) == key or new not in data else key: data[key] for key in data
     }
 
 

@@ -31,7 +31,7 @@ SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder", "extrusion", "mesh")
 class Material(Record):
     """An elastic material."""
 
-    spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
+    _spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
 
     youngs_modulus: Pressure
     poisson_ratio: PoissonRatio

@@ -18,11 +18,12 @@ Array = NDArray[np.float64]
 THRESHOLD = Threshold(
     1e-2,
     1e-1,
-    "Root of the mean square of the error of a number over the run, as a share of its own range. Below a hundredth it is hardly visible "
-    "in a curve; above a tenth the curve is a different one. The line says the largest error too, at an impact often a peak a step early.",
+    "Mean magnitude of the error of a number over the run, as a share of its own range. Below a hundredth it is hardly visible in a curve; "
+    "above a tenth the curve is a different one. The line says the largest error too: a jump that comes a step early is one.",
 )
-# Of its largest magnitude, and of the largest range in the same units: a number that changes by less is at rest, and has no range of its
-# own. Numbers of one kind in one machine, as pressures, are compared with each other; those whose meaning is the user's are not.
+# Of its largest magnitude, of that which size, speed and weight of the machine give it, and of the largest range in the same units: a
+# number that changes by less is at rest, and has no range of its own. Numbers of one kind in one machine, as pressures, are compared with
+# each other; those whose meaning is the user's are not.
 AT_REST, OWN = 1e-3, 1e-6
 # Of the largest magnitude in the same units: errors below are what sums and solutions of equations round to.
 ROUNDED = 1e-9
@@ -42,7 +43,7 @@ class Group:
 
 @dataclass(frozen=True)
 class QuantityError:
-    """The number of a group that is wrong most on its own scale. error : its largest one; mean : the root of the mean square; extent : its
+    """The number of a group that is wrong most on its own scale. error : its largest one; mean : their mean magnitude; extent : its
     range in the run; largest : the largest error of all numbers of the group in these `units`."""
 
     quantity: str
@@ -128,32 +129,37 @@ def _errors(run: Run, estimate: Estimate, group: Group) -> Iterator[QuantityErro
         variable = result.variables[name]
         alike = [each for each in names if result.variables[each].units == variable.units]
         largest = max(float(np.max(extents[each], initial=0.0)) for each in alike)
-        rounded = ROUNDED * max(_least(run, variable.units), *(sizes[each] for each in alike))
+        natural = _natural(run, variable.units)
+        rounded = ROUNDED * max(natural, *(sizes[each] for each in alike))
         magnitude = _joined(variable, np.max(np.abs(result.array(name)), axis=0, initial=0.0))
-        extent = np.maximum(extents[name], AT_REST * magnitude)
+        extent = np.maximum(extents[name], AT_REST * np.maximum(magnitude, natural))
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))
         mean = _joined(variable, estimate.mean[name])
         error = _joined(variable, estimate.values[name][-1])
         for k in np.flatnonzero(error > rounded):
             label = _label(variable, int(k), run)
             units = variable.units or ("rad/s" if label.endswith("angle") else "m/s" if name == "joint_rate" else "1")
-            own, scale = float(error[k]), max(float(extent[k]), rounded)
+            own = float(error[k])
+            scale = max(float(extent[k]), rounded) or own
             yield QuantityError(group.name, label, own, float(mean[k]), scale, units, own)
 
 
-def _least(run: Run, units: str) -> float:
-    """Magnitude [units] below which a number of a machine is nothing."""
-    size, speed = run.scales.size, run.scales.speed
+def _natural(run: Run, units: str) -> float:
+    """Magnitude [units] that the size, the speed and the weight of a machine give its numbers; 0 where they give none."""
+    size = run.scales.size
+    # a machine at rest has the largest speed that counts as none
+    speed = run.scales.speed / (AT_REST if run.scales.at_rest else 1.0)
     weight = 9.81 * float(np.sum(run.prepared.motion.system.record.bodies.mass))
     known = {
         "m/s": speed,
         "rad/s": speed / size,
         "m/s^2": 9.81,
         "rad/s^2": 9.81 / size,
-        "N": weight,
-        "N m": weight * size,
         "Pa": 1e5,
+        "m^3/s": 1e-3,
+        "kg/s": 1.0,
     }
+    known |= {"N": weight, "N m": weight * size, "J": weight * size, "W": weight * speed, "A": 1.0, "V": 1.0}
     return known.get(units, 1.0 if units in ("1", "", "rad", "m") else 0.0)
 
 
@@ -176,4 +182,4 @@ def _label(variable: Variable, k: int, run: Run) -> str:
     return f"{variable.name} of {of}"
 
 
-CHECKS = (Check("quantities", (Run,), look, say, 330, (ESTIMATE,), "Quantities", THRESHOLD),)
+CHECKS = (Check("quantities", (Run,), look, say, 325, (ESTIMATE,), "Quantities", THRESHOLD),)

@@ -46,10 +46,10 @@ class Changed:
 
 
 def look_for_moves(run: Run) -> Moved | None:
-    """The farthest move to close joints; start values of joints move bodies too, as was asked for."""
+    """The farthest move to close joints; start values of joints and drivers move bodies too, as was asked for."""
     assembly, size = _assembly(run), run.scales.size
     gap, row = assembly.get("gap", 0.0), assembly.get("gap_row", "")
-    if not gap > ROUND_OFF * max(size, 1.0):
+    if not gap > ROUND_OFF * max(size, 1.0) or row.partition(".")[0] in {driver.name for driver in run.machine.drivers}:
         return None
     moves = [Moved(name, d, a, max(d / size, a), gap, row) for name, d, a in assembly.get("moved", ())]
     return max(moves, key=lambda each: each.share, default=None)

@@ -235,10 +235,13 @@ class Machine(Model):
             )
 
     @checked_arguments
-    def export_c(self, folder: str | PathLike[str], *, listener: Listener | None = None) -> Files:
+    def export_c(
+        self, folder: str | PathLike[str], *, select: Sequence[str] | str = (), listener: Listener | None = None
+    ) -> Files:
         """Write the machine as a C library: what a run with its settings does step by step, for programs without Python.
 
-        folder : a new one, for header, source, machine code of this processor, an example and a Makefile.
+        folder : a new one, for header, source, machine code of this processor, an example and a Makefile. select : names of outputs, as
+        of columns of a table; by default sensors, joint coordinates with their rates, and inputs; "*" : every number of a frame.
         Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
         """
         plan = self._plan({})
@@ -246,7 +249,7 @@ class Machine(Model):
         from nivel.c_library.writer import write_c_library
 
         with self._faults_in_file():
-            return write_c_library(plan, Path(folder))
+            return write_c_library(plan, Path(folder), (select,) if isinstance(select, str) else select)
 
     @checked_arguments
     def start(

@@ -38,7 +38,7 @@ def build(folder, *targets):
 @pytest.mark.parametrize(("file", "settings"), [*(pytest.param(*case, id=name) for name, case in CASES.items()), *DEAR])
 def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
     machine = nivel.load(EXAMPLES / file).with_settings(settings)
-    written = machine.export_c(tmp_path / "c")
+    written = machine.export_c(tmp_path / "c", select="*")
     header = (written.folder / f"{written.name}.h").read_text(encoding="utf-8")
     assert f"Written by nivel {nivel.__version__}." in header
     done = subprocess.run([build(written.folder) / "example"], check=True, capture_output=True, text=True, timeout=120)
@@ -58,7 +58,9 @@ def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
 def pendulum(tmp_path_factory):
     """The library of the pendulum as Python sees it: functions, and a maker of blocks."""
     folder = (
-        nivel.load(EXAMPLES / "mechanisms" / "simple-pendulum.yaml").export_c(tmp_path_factory.mktemp("c") / "c").folder
+        nivel.load(EXAMPLES / "mechanisms" / "simple-pendulum.yaml")
+        .export_c(tmp_path_factory.mktemp("c") / "c", select="*")
+        .folder
     )
     library = ctypes.CDLL(str(build(folder, "libsimple_pendulum.so") / "libsimple_pendulum.so"))
     library.simple_pendulum_size.restype = ctypes.c_size_t
@@ -101,6 +103,24 @@ def test_a_saved_state_goes_on_as_it_did(pendulum):
     assert outputs(library, machine) != runs[0][1]
 
 
+def test_a_saved_state_goes_on_in_another_block(pendulum):
+    """The block that it was saved from is gone by then."""
+    library, block = pendulum
+    machine, copy, other = block(), block(), block()
+    library.simple_pendulum_start(machine)
+    for _ in range(50):
+        library.simple_pendulum_step(machine)
+    library.simple_pendulum_save(machine, copy)
+    for _ in range(50):
+        library.simple_pendulum_step(machine)
+    wanted = outputs(library, machine)
+    ctypes.memset(machine, 0xFF, library.simple_pendulum_size())
+    library.simple_pendulum_restore(other, copy)
+    for _ in range(50):
+        assert library.simple_pendulum_step(other) == 0
+    assert outputs(library, other) == wanted
+
+
 def test_machines_beside_each_other_do_not_meet(pendulum):
     library, block = pendulum
     alone, first, second = block(), block(), block()
@@ -114,6 +134,108 @@ def test_machines_beside_each_other_do_not_meet(pendulum):
             library.simple_pendulum_step(second)
     assert outputs(library, first) == outputs(library, alone)
     assert library.simple_pendulum_time(second) == pytest.approx(library.simple_pendulum_time(first) / 2)
+
+
+def test_two_exports_are_the_same_files(tmp_path):
+    machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
+    first = machine.export_c(tmp_path / "first").folder
+    kept = [np.zeros(7 * k) for k in range(3000)]  # memory is elsewhere now
+    second = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").export_c(tmp_path / "second").folder
+    names = {path.relative_to(first) for path in first.rglob("*") if path.is_file()}
+    assert len(kept) + len(names) > 3010
+    assert names == {path.relative_to(second) for path in second.rglob("*") if path.is_file()}
+    assert [name for name in names if (first / name).read_bytes() != (second / name).read_bytes()] == []
+
+
+def test_outputs_are_sensors_joint_coordinates_and_inputs_or_those_selected(tmp_path):
+    """And the header says the size of a block and the unit of every output."""
+    crane = nivel.load(demo_file("loader-crane")).with_values({"simulation.duration": 1.0})
+    written = crane.export_c(tmp_path / "usual")
+    joints = {
+        "slewing.angle",
+        "luffing.angle",
+        "folding.angle",
+        "telescope.displacement",
+        "hook.angle_1",
+        "hook.angle_2",
+    }
+    usual = {"time", *joints, *(f"{name}.rate" for name in joints), *(f"{name}.value" for name in written.inputs)}
+    assert {name for name in written.outputs if not name.startswith("sensor.")} == usual
+    header = (written.folder / "loader_crane.h").read_text(encoding="utf-8")
+    assert f"#define LOADER_CRANE_SIZE {written.size}\n" in header
+    assert "LOADER_CRANE_LUFFING_ANGLE_RATE, /* rad/s */" in header
+    assert "LOADER_CRANE_NO_VOLUME = 18, /* the volume ... has no fluid left in it, or no room for it */" in header
+    chosen = crane.export_c(tmp_path / "chosen", select=["hydraulics.lift.pressure_A", "kinetic_energy"])
+    assert chosen.outputs == ("time", "hydraulics.lift.pressure_A", "kinetic_energy")
+    with pytest.raises(nivel.ModelError, match="kinetic_energy"):
+        crane.export_c(tmp_path / "unknown", select="kinetic_enrgy")
+
+
+BALL = """\
+format: 1
+name: ball
+gravity: [0, 0, -9.81]
+bodies:
+  ball: {mass: 1 kg, inertia: [0.1, 0.1, 0.1]}
+joints:
+  fall: {type: translational, bodies: [ground, ball], point: [0, 0, 0], axis: [0, 0, 1], start: {displacement: 0.5}}
+inputs:
+  push: {range: [-10, 10], units: N}
+forces:
+  push: {type: motor, coordinate: fall, effort: push.value}
+events:
+  low: {when: fall.displacement, direction: falling, stop: true}
+  root: {when: 1 + sqrt(1 + push.value)}
+simulation: {duration: 1 s, step: 1 ms}
+"""
+
+
+@pytest.fixture(scope="module")
+def ball(tmp_path_factory):
+    """A ball that falls until an event ends its motion, and has an event without a value where its input is below -1."""
+    folder = tmp_path_factory.mktemp("ball")
+    (folder / "ball.yaml").write_text(BALL, encoding="utf-8")
+    written = nivel.load(folder / "ball.yaml").export_c(folder / "c")
+    library = ctypes.CDLL(str(build(written.folder, "libball.so") / "libball.so"))
+    library.ball_time.restype = ctypes.c_double
+    library.ball_set_input.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_double)
+    memory = ctypes.create_string_buffer(written.size + 64)
+    machine = ctypes.c_void_p(-(-ctypes.addressof(memory) // 64) * 64)
+
+    def message(status):
+        text = ctypes.create_string_buffer(200)
+        library.ball_message(machine, status, text, ctypes.c_size_t(len(text)))
+        return text.value.decode()
+
+    yield library, machine, message
+    del memory
+
+
+ENDED, EVENT_NOT_FINITE = 5, 12
+
+
+def test_an_event_that_stops_the_motion_is_no_failure(ball):
+    library, machine, message = ball
+    assert library.ball_start(machine) == 0
+    steps = 0
+    while (status := library.ball_step(machine)) == 0 and steps < 1000:
+        steps += 1
+    assert status == ENDED
+    assert library.ball_time(machine) == pytest.approx(math.sqrt(2 * 0.5 / 9.81), rel=1e-12)
+    assert "an event ended the motion at t = 0.319275 s" in message(status)
+    reached = library.ball_time(machine)
+    assert library.ball_step(machine) == ENDED
+    assert library.ball_time(machine) == reached
+
+
+def test_a_failure_is_a_sentence_with_the_name_of_what_failed(ball):
+    library, machine, message = ball
+    library.ball_start(machine)
+    for _ in range(100):
+        library.ball_step(machine)
+    assert library.ball_set_input(machine, 0, -2.0) == 0
+    assert library.ball_step(machine) == EVENT_NOT_FINITE
+    assert message(EVENT_NOT_FINITE) == "stopped at t = 0.1 s: the value of the event root is no longer a number"
 
 
 def test_what_a_library_cannot_be_is_refused(tmp_path):
@@ -131,7 +253,7 @@ def test_what_a_library_cannot_be_is_refused(tmp_path):
 def test_a_crane_steered_from_c_is_that_steered_from_python(tmp_path):
     """Inputs by place and by name, changed between steps and set to the same again, a saved and a restored state: equal to the last bit."""
     machine = nivel.load(demo_file("loader-crane"))
-    written = machine.export_c(tmp_path / "c")
+    written = machine.export_c(tmp_path / "c", select="*")
     assert written.inputs == ("slew_lever", "lift_lever", "jib_lever", "extension_lever")
     library = ctypes.CDLL(str(build(written.folder, "libloader_crane.so") / "libloader_crane.so"))
     library.loader_crane_size.restype = ctypes.c_size_t

@@ -22,16 +22,18 @@ class UnknownAddressError(Exception):
 class Image:
     """The memory of the records of these handles.
 
-    words : (·,) uint64. inner : place of a word → byte of the memory whose address belongs there. outer : place of a word → the symbol
-    whose address belongs there.
+    words : (·,) uint64, addresses among them 0. inner : place of a word → byte of the memory whose address belongs there. outer : place of
+    a word → the symbol whose address belongs there. Memory stands in the order in which the records name it, so the image of a machine is
+    the same in every process.
     """
 
     def __init__(self, handles: Sequence[Handle], symbols: Mapping[int, str]) -> None:
         self._segments = _segments(handles)
         self._starts = [begin for begin, _ in self._segments]
-        self._places, size = [], 0
-        for begin, end in self._segments:
-            self._places.append(size)
+        self._places, size = [0] * len(self._segments), 0
+        for k in dict.fromkeys(bisect_right(self._starts, begin) - 1 for begin, _ in _pieces(handles)):
+            begin, end = self._segments[k]
+            self._places[k] = size
             size += -(-(end - begin) // LINE) * LINE
         self.words = np.zeros(size // WORD, dtype=np.uint64)
         memory = self.words.view(np.uint8)
@@ -41,6 +43,7 @@ class Image:
         self.outer: dict[int, str] = {}
         for handle in handles:
             self._relocate(handle, symbols)
+        self.words[[*self.inner, *self.outer]] = 0
 
     def byte_of(self, address: int) -> int:
         """Where in the image stands what is at this address now."""
@@ -80,15 +83,18 @@ def _words(array: Any) -> int:
     return 5 + 2 * array.ndim
 
 
-def _segments(handles: Sequence[Handle]) -> list[tuple[int, int]]:
-    """First and last address of every stretch of memory in use; arrays may be parts of others."""
-    pieces = []
+def _pieces(handles: Sequence[Handle]) -> Iterator[tuple[int, int]]:
+    """First and last address of every block of descriptors and every array, in the order of the records."""
     for handle in handles:
         arrays = [*_arrays(handle.record)]
-        pieces.append((int(handle.address), int(handle.address) + WORD * sum(map(_words, arrays))))
-        pieces += [(array.ctypes.data, array.ctypes.data + array.nbytes) for array in arrays if array.nbytes]
+        yield int(handle.address), int(handle.address) + WORD * sum(map(_words, arrays))
+        yield from ((array.ctypes.data, array.ctypes.data + array.nbytes) for array in arrays if array.nbytes)
+
+
+def _segments(handles: Sequence[Handle]) -> list[tuple[int, int]]:
+    """First and last address of every stretch of memory in use, in the order of addresses; arrays may be parts of others."""
     out: list[tuple[int, int]] = []
-    for begin, end in sorted(pieces):
+    for begin, end in sorted(_pieces(handles)):
         if out and begin < out[-1][1]:
             out[-1] = (out[-1][0], max(end, out[-1][1]))
         else:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from string import Template
 
-HEADER = Template("""/* $name: a machine as a C library. Nothing is needed but libc and libm; nothing is allocated. SI units.
+HEADER = Template("""/* $name: a machine as a C library. Nothing is needed but libc and libm; nothing is allocated.
    Written by nivel $version.
 
-   A machine lives in a block of ${name}_size() bytes, aligned to 64. Blocks are independent of each other. */
+   A machine lives in a block of ${NAME}_SIZE bytes, aligned to ${NAME}_ALIGNMENT. Blocks are independent of each other. */
 #ifndef ${NAME}_H
 #define ${NAME}_H
 #include <stddef.h>
@@ -15,26 +15,40 @@ HEADER = Template("""/* $name: a machine as a C library. Nothing is needed but l
 extern "C" {
 #endif
 
+#define ${NAME}_SIZE $size
+#define ${NAME}_ALIGNMENT $alignment
 /* seconds of a step */
 #define ${NAME}_STEP $step
 
-/* places of the outputs */
+/* what `start` and `step` return */
 enum {
-$enumeration,
-${NAME}_OUTPUTS
+  ${NAME}_OK = 0,
+  ${NAME}_ENDED = 5, /* no failure: an event of the machine has ended the motion; further steps change nothing */
+  /* failures */
+$failures
+};
+
+/* places of the outputs, and their units */
+enum {
+$enumeration
+  ${NAME}_OUTPUTS
 };
 extern const char *const ${name}_output_names[${NAME}_OUTPUTS];
+extern const char *const ${name}_output_units[${NAME}_OUTPUTS];
 
 size_t ${name}_size(void);
-/* Puts the machine at its start into the block, and evaluates it there. 0, or the number of a failure. */
+/* Puts the machine at its start into the block, and evaluates it there. Returns a status. */
 int ${name}_start(void *machine);
-/* One step. 0, or the number of a failure; the state is then that of the last step that was done. */
+/* One step. Returns a status; after a failure the state is that of the last step that was done. */
 int ${name}_step(void *machine);
 /* The time reached [s]. */
 double ${name}_time(const void *machine);
 /* Outputs at this time, ${NAME}_OUTPUTS of them. */
 const double *${name}_outputs(const void *machine);
-${inputs_declared}/* Copies the whole state, inputs among it, into another block of the same size, and back again. */
+/* Writes what a status means into `text`, of `size` characters: a sentence with the time, and with the name of what failed. */
+void ${name}_message(const void *machine, int status, char *text, size_t size);
+$inputs_declared/* Copies the whole state, inputs among it, and goes on from it in a block of this machine, the same one or another, also in
+   another process. */
 void ${name}_save(const void *machine, void *copy);
 void ${name}_restore(void *machine, const void *copy);
 
@@ -47,8 +61,8 @@ void ${name}_restore(void *machine, const void *copy);
 # of a machine that has inputs
 INPUTS_DECLARED = Template("""/* places of the inputs */
 enum {
-$input_enumeration,
-${NAME}_INPUTS
+$input_enumeration
+  ${NAME}_INPUTS
 };
 extern const char *const ${name}_input_names[${NAME}_INPUTS];
 /* least and greatest value of each */
@@ -67,9 +81,6 @@ const char *const ${name}_input_names[${NAME}_INPUTS] = {
 $input_names};
 const double ${name}_input_ranges[${NAME}_INPUTS][2] = {
 $input_ranges};
-/* bytes of the kind and of the value of the function of each input */
-static const uint32_t input_places[${NAME}_INPUTS][2] = {
-$input_places};
 
 int ${name}_find_input(const char *name) {
   for (int k = 0; k < ${NAME}_INPUTS; ++k)
@@ -77,97 +88,76 @@ int ${name}_find_input(const char *name) {
   return -1;
 }
 
-static int is_set(const void *machine, int input) {
-  return input >= 0 && input < ${NAME}_INPUTS && *(const uint32_t *)((const char *)machine + input_places[input][0]) == $constant &&
-         *count((void *)machine, $touched + 8 * (1 + (size_t)input));
-}
-
 double ${name}_input(const void *machine, int input) {
-  return is_set(machine, input) ? *(const double *)((const char *)machine + input_places[input][1]) : 0.0 / 0.0;
+  if (input < 0 || input >= ${NAME}_INPUTS || !nivel_is_set(&model, machine, (size_t)input)) return NAN;
+  return *(const double *)((const char *)machine + inputs[input].value);
 }
 
 int ${name}_set_input(void *machine, int input, double value) {
-  if (input < 0 || input >= ${NAME}_INPUTS) return -1;
-  if (!(value >= ${name}_input_ranges[input][0] && value <= ${name}_input_ranges[input][1])) return -1;
-  uint32_t *kind = (uint32_t *)((char *)machine + input_places[input][0]);
-  double *kept = (double *)((char *)machine + input_places[input][1]);
-  if (*kind != $constant || *kept != value) *count(machine, $touched) = 1;
-  *kind = $constant;
-  *kept = value;
-  *count(machine, $touched + 8 * (1 + (size_t)input)) = 1;
-  return 0;
-}
-
-/* What depends on inputs that were changed since the last step. */
-static int read_inputs(void *machine) {
-  typedef int64_t evaluation(uint64_t, double, void *, int64_t, void *, int64_t);
-  if (!*count(machine, $touched)) return 0;
-  *count(machine, $touched) = 0;
-  *count(machine, $restart) = 1;
-  evaluation *evaluate = (evaluation *)(uintptr_t)address($evaluate);
-  return (int)evaluate(address((char *)machine + $machine), *(double *)((char *)machine + $time), (char *)machine + $y, $y_size,
-                       (char *)machine + $rate, $y_size);
+  return input < 0 || input >= ${NAME}_INPUTS ? -1 : nivel_set_input(&model, machine, (size_t)input, value);
 }
 """)
 
 SOURCE = Template("""#include "$name.h"
-#include <stdint.h>
-#include <string.h>
+#include "nivel_machine.h"
 
 /* machine code of the kernels; entries call each other by addresses */
-extern int64_t $advance(uint64_t, uint64_t, uint64_t, uint64_t, uint64_t);
 $declarations
+static void *const codes[] = {
+$codes};
 
 /* words of the block that are not zero */
-static const uint32_t places[$count] = {
+static const uint32_t places[] = {
 $places};
-static const uint64_t words[$count] = {
+static const uint64_t words[] = {
 $words};
 /* words that are addresses: of bytes of the block, and of machine code */
-static const uint32_t inner[$inner_count][2] = {
+static const nivel_place inner[] = {
 $inner};
-static const struct { uint32_t word; const char *code; } outer[$outer_count] = {
+static const nivel_place outer[] = {
 $outer};
+static const uint32_t outputs[] = {
+$output_places};
+static const nivel_input inputs[] = {
+$input_places};
+static const char *const names[] = {
+$names};
+static const nivel_failure failures[] = {
+$failure_table};
 
-const char *const ${name}_output_names[$width] = {
+static const nivel_model model = {
+$numbers,
+  places, words, inner, outer, outputs, inputs, failures, names, codes};
+
+const char *const ${name}_output_names[${NAME}_OUTPUTS] = {
 $output_names};
-
-static uint64_t address(const void *pointer) { return (uint64_t)(uintptr_t)pointer; }
-static int64_t *count(void *machine, size_t byte) { return (int64_t *)((char *)machine + byte); }
-
-${inputs_defined}
-static int go_on(void *machine, int64_t steps) {
-  *count(machine, $budget) = steps;
-  *count(machine, $frame_count) = 0;
-  *count(machine, $event_count) = 0;
-  int64_t status = $advance(address($evaluate), address($correct), address($take_step), address((char *)machine + $machine),
-                            address((char *)machine + $history));
-  return status == $spent ? 0 : (int)status;
-}
-
-size_t ${name}_size(void) { return $size; }
+const char *const ${name}_output_units[${NAME}_OUTPUTS] = {
+$output_units};
+$inputs_defined
+size_t ${name}_size(void) { return ${NAME}_SIZE; }
 
 int ${name}_start(void *machine) {
-  uint64_t *block = machine;
-  memset(block, 0, $size);
-  for (size_t k = 0; k < $count; ++k) block[places[k]] = words[k];
-  for (size_t k = 0; k < $inner_count; ++k) block[inner[k][0]] = address((char *)machine + inner[k][1]);
-  for (size_t k = 0; k < $outer_count; ++k) block[outer[k].word] = address(outer[k].code);
-  return go_on(machine, 0);
+  nivel_load(&model, machine);
+  return nivel_go(&model, machine, 0);
 }
 
-int ${name}_step(void *machine) { $step_body }
+int ${name}_step(void *machine) { return nivel_go(&model, machine, 1); }
 
-double ${name}_time(const void *machine) { return *(const double *)((const char *)machine + $time); }
+double ${name}_time(const void *machine) { return *nivel_clock(&model, machine, NIVEL_TIME); }
 
-const double *${name}_outputs(const void *machine) { return (const double *)((const char *)machine + $frames); }
+const double *${name}_outputs(const void *machine) { return nivel_outputs(&model, machine); }
 
-void ${name}_save(const void *machine, void *copy) { memcpy(copy, machine, $size); }
+void ${name}_message(const void *machine, int status, char *text, size_t size) { nivel_say(&model, machine, status, text, size); }
 
-void ${name}_restore(void *machine, const void *copy) { memcpy(machine, copy, $size); }
+void ${name}_save(const void *machine, void *copy) { memcpy(copy, machine, ${NAME}_SIZE); }
+
+void ${name}_restore(void *machine, const void *copy) {
+  memmove(machine, copy, ${NAME}_SIZE);
+  nivel_relocate(&model, machine);
+}
 """)
 
-EXAMPLE = Template("""/* Steps the machine for a second, and prints its outputs as a table. */
+EXAMPLE = Template("""/* Steps the machine for a second, or until an event ends its motion, and prints its outputs as a table. */
 #include "$name.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -178,23 +168,32 @@ EXAMPLE = Template("""/* Steps the machine for a second, and prints its outputs 
 #endif
 
 int main(void) {
-  void *machine = aligned_alloc(64, ${name}_size());
-  int failure = ${name}_start(machine);
+  char text[256];
+  void *machine = aligned_alloc(${NAME}_ALIGNMENT, ${NAME}_SIZE);
+  int status = ${name}_start(machine);
   for (int k = 0; k < ${NAME}_OUTPUTS; ++k) printf(k ? ",%s" : "%s", ${name}_output_names[k]);
-  while (!failure) {
-    for (int k = 0; k < ${NAME}_OUTPUTS; ++k) printf(k ? ",%.17g" : "\\n%.17g", ${name}_outputs(machine)[k]);
-    if (${name}_time(machine) > 1.0 - 0.5 * ${NAME}_STEP) break;
-    failure = ${name}_step(machine);
+  for (;;) {
+    if (status == ${NAME}_OK || status == ${NAME}_ENDED)
+      for (int k = 0; k < ${NAME}_OUTPUTS; ++k) printf(k ? ",%.17g" : "\\n%.17g", ${name}_outputs(machine)[k]);
+    if (status != ${NAME}_OK || ${name}_time(machine) > 1.0 - 0.5 * ${NAME}_STEP) break;
+    status = ${name}_step(machine);
   }
   printf("\\n");
+  if (status != ${NAME}_OK) {
+    ${name}_message(machine, status, text, sizeof text);
+    fprintf(stderr, "%s\\n", text);
+  }
   free(machine);
-  return failure;
+  return status == ${NAME}_OK || status == ${NAME}_ENDED ? 0 : 1;
 }
 """)
 
-MAKEFILE = Template("""all: lib$name.a lib$name.so example
+MAKEFILE = Template("""CC = $compiler
+AR = $archiver
 
-$name.o: $name.c $name.h
+all: lib$name.a lib$name.so example
+
+$name.o: $name.c $name.h nivel_machine.h
 	$$(CC) -O2 -fPIC -c $name.c
 
 lib$name.a: $name.o

@@ -25,7 +25,8 @@ BESIDE = "\0"  # stands for `--csv` without a file
     "--select",
     multiple=True,
     metavar="NAMES",
-    help="Write only these columns, separated by commas: hinge.angle, crank.position, crank, '*.force'. May be repeated.",
+    help="Write only these columns, or outputs of a machine, separated by commas: hinge.angle, crank.position, crank, '*.force'; '*' is "
+    "everything. May be repeated.",
 )
 @force_option
 @click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
@@ -37,22 +38,24 @@ def command(
 
     A table has enough digits to read the numbers back exactly. The run of a result may still be going on, or may have been killed.
 
-    A C library simulates the machine with the fixed step of its simulation settings. `make` builds it and an example.
+    A C library simulates the machine with the fixed step of its simulation settings. `make` builds it and an example. Its outputs are
+    sensors, joint coordinates with their rates, and inputs, or what --select names.
     """
+    names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
     if folder is not None:
-        if target is not None or select or force:
-            raise click.UsageError("--c takes a machine; --csv, --select and --force belong to results")
-        _write_c_library(source, folder, overrides)
+        if target is not None or force:
+            raise click.UsageError("--c takes a machine; --csv and --force belong to results")
+        _write_c_library(source, folder, names, overrides)
         return
     if overrides:
         raise click.UsageError("--set changes a machine; it belongs to --c")
-    _write_table(source, target, select, force)
+    _write_table(source, target, names, force)
 
 
-def _write_c_library(machine: str, folder: str, overrides: dict[str, str]) -> None:
+def _write_c_library(machine: str, folder: str, select: list[str], overrides: dict[str, str]) -> None:
     from nivel.api import load
 
-    written = load(machine, overrides).export_c(folder)
+    written = load(machine, overrides).export_c(folder, select=select)
     sizes = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine"
     click.echo(
         f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",
@@ -60,7 +63,7 @@ def _write_c_library(machine: str, folder: str, overrides: dict[str, str]) -> No
     )
 
 
-def _write_table(result: str, target: str | None, select: tuple[str, ...], force: bool) -> None:
+def _write_table(result: str, target: str | None, names: list[str], force: bool) -> None:
     import sys
 
     from nivel.files.target import check_target
@@ -70,7 +73,6 @@ def _write_table(result: str, target: str | None, select: tuple[str, ...], force
     if target is None:
         raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER of a machine")
     opened = Result.open(result)
-    names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
     if target == "-":
         write_table(opened, columns(opened, names), sys.stdout)
         sys.stdout.flush()

@@ -1,0 +1,204 @@
+"""Machines as programs without Python have them: image of the records, outputs, inputs, failures, and the machine code that they need."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from nivel.analysis.plan.compilation import run_entries
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.run.dynamics import Loop, start_loop
+from nivel.analysis.run.preparation import prepare
+from nivel.c_library.failures import Failure, failures_of
+from nivel.c_library.image import LINE, WORD, Image, UnknownAddressError
+from nivel.errors import Fault, ModelError
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.run import ALL_STEPS, END, EVERY
+from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.block import Handle
+from nivel.kernels.record.function import CONSTANT
+from nivel.machine import Input, Table
+from nivel.native.entry import Entry
+from nivel.results.frames.csv_table import columns
+from nivel.results.memory import Memory
+from nivel.results.result import Result
+
+# as many frames as a step may leave: its own, and that of the start
+FRAMES_KEPT = 2
+# steps without end, in which times are still exact products of the step
+ENDLESS = 2**52
+# what is an output where nothing is selected, besides sensors and inputs
+USUAL = ("joint_coordinate", "joint_rate")
+EVERYTHING = "*"
+
+
+@dataclass(frozen=True)
+class Output:
+    """A number of a frame. place : in the frame."""
+
+    name: str
+    units: str
+    place: int
+
+
+@dataclass(frozen=True)
+class InputPlace:
+    """An input. kind, value : bytes of the image where its function has them. rest : its value while it is not set, at the start."""
+
+    name: str
+    units: str
+    kind: int
+    value: int
+    low: float
+    high: float
+    rest: float
+    description: str
+
+
+@dataclass(frozen=True)
+class Exported:
+    """A machine prepared for a run of fixed steps without an end. outputs : the time first."""
+
+    plan: Plan
+    prepared: Prepared
+    loop: Loop
+    image: Image
+    entries: tuple[Entry, ...]
+    outputs: tuple[Output, ...]
+    inputs: tuple[InputPlace, ...]
+    failures: tuple[Failure, ...]
+
+    @property
+    def identifier(self) -> str:
+        """The name of the machine as C writes names."""
+        name = re.sub(r"\W", "_", self.plan.machine.name.lower(), flags=re.ASCII)
+        return name if not name[:1].isdigit() else f"m_{name}"
+
+    @cached_property
+    def codes(self) -> tuple[str, ...]:
+        """Symbols of the machine code that it reaches, the four that the loop is called with first.
+
+        Families of forces call no entries except by addresses in the image.
+        """
+        loop = self.loop
+        first = (advance.symbol, loop.evaluate.symbol, loop.correct.symbol, loop.step.symbol)
+        return (*first, *sorted({*self.image.outer.values()} - {*first}))
+
+    @property
+    def used(self) -> list[Entry]:
+        """The entries of these symbols."""
+        return [each for each in self.entries if each.symbol in {*self.codes}]
+
+    @property
+    def size(self) -> int:
+        """Bytes of a block: the image, what is kept of inputs, outputs; whole lines of the cache."""
+        size = self.image.words.nbytes + WORD * (1 + len(self.inputs) + len(self.outputs))
+        return -(-size // LINE) * LINE
+
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The numbers of `nivel_model`, in its order."""
+        image, run = self.image, self.loop.history.record
+        place = {
+            name: image.byte_of(getattr(run, name).ctypes.data) for name in ("clock", "counter", "frames", "y", "rate")
+        }
+        return {
+            "image": image.words.nbytes,
+            "size": self.size,
+            "count": len(image.words.nonzero()[0]),
+            "inner_count": len(image.inner),
+            "outer_count": len(image.outer),
+            "output_count": len(self.outputs),
+            "input_count": len(self.inputs),
+            "failure_count": len(self.failures),
+            "machine": image.byte_of(int(self.loop.machine.address)),
+            "history": image.byte_of(int(self.loop.history.address)),
+            **place,
+            "y_size": len(run.y),
+            "failed": image.byte_of(self.loop.machine.record.control.failure.ctypes.data),
+            "constant": CONSTANT,
+            "advance": 0,
+            "evaluate": 1,
+            "correct": 2,
+            "step": 3,
+        }
+
+
+def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
+    """Prepare a machine. what : `a C library`, for messages. select : names of outputs as `columns` takes them; empty: sensors, joint
+    coordinates with their rates and inputs; "*": every number of a frame.
+
+    Raises ModelError where the integrator chooses its steps, or a Python law takes part.
+    """
+    if plan.settings.steps == 0:
+        raise refusal(
+            f"{what} takes steps of one length, and {plan.settings.integrator} chooses them; "
+            "take --integrator rk4, or --step-control fixed"
+        )
+    prepared = prepare(plan.methods)
+    loop = _endless(start_loop(prepared, plan.settings))
+    entries = tuple(dict.fromkeys(run_entries(plan)))
+    twins = [prepared.motion.twin] if prepared.motion.twin is not None else []
+    try:
+        image = Image([loop.machine, *twins, loop.history], {entry.address: entry.symbol for entry in entries})
+    except UnknownAddressError:
+        raise refusal(f"Python laws cannot go into {what}; write them as expressions") from None
+    outputs = _outputs(plan, prepared, select)
+    inputs = tuple(
+        _input_place(each, function, loop, image)
+        for each, function in zip(plan.machine.inputs, prepared.motion.system.input_functions, strict=True)
+    )
+    failures = tuple(failures_of(prepared.motion.system))
+    return Exported(plan, prepared, loop, image, entries, outputs, inputs, failures)
+
+
+def refusal(message: str) -> ModelError:
+    """An error of the machine as a whole."""
+    return ModelError(Fault("", 0, 0, "", message))
+
+
+def _endless(loop: Loop) -> Loop:
+    """The loop with a frame after each step and room for no more than that, and without an end."""
+    run = loop.history.record
+    run.counter[EVERY], run.counter[ALL_STEPS], run.clock[END] = 1, ENDLESS, 1e300
+    kept = run._replace(frames=run.frames[:FRAMES_KEPT].copy())
+    return loop._replace(history=Handle(kept))
+
+
+def _outputs(plan: Plan, prepared: Prepared, select: Sequence[str]) -> tuple[Output, ...]:
+    """Numbers of a frame, named as in results: the time, and what is selected."""
+    sink = Memory()
+    attributes = run_attributes(plan.machine, "", prepared, plan.settings)
+    sink.begin(Header(prepared.motion.system.layout, attributes))
+    frame = sink.result()
+    names = columns(frame)
+    if not select:
+        chosen = _usual(frame, names, plan.machine.inputs) or names
+    elif EVERYTHING in select:
+        chosen = names
+    else:
+        chosen = columns(frame, select)
+    place = {name: k for k, name in enumerate(names, start=1)}
+    return (Output("time", "s", 0), *(Output(name, frame.units(name), place[name]) for name in chosen))
+
+
+def _usual(frame: Result, names: Sequence[str], inputs: Sequence[Input]) -> list[str]:
+    """Sensors, joint coordinates and their rates, and inputs."""
+    usual = {*USUAL, *(f"{each.name}.value" for each in inputs)}
+    owner = ((name, frame.selection(name).variable) for name in names)
+    return [name for name, variable in owner if variable in usual or variable.startswith("sensor.")]
+
+
+def _input_place(each: Input, function: int, loop: Loop, image: Image) -> InputPlace:
+    functions = loop.machine.record.functions
+    kinds, values = (image.byte_of(array.ctypes.data) for array in (functions.kind, functions.value))
+    (low, high), course = each.range, each.course
+    rest = float(np.interp(0.0, course.times, course.values)) if isinstance(course, Table) else float(course)
+    kind, value = kinds + functions.kind.itemsize * function, values + WORD * function
+    return InputPlace(each.name, each.units, kind, value, low, high, min(max(rest, low), high), each.description)

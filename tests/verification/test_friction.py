@@ -161,10 +161,11 @@ def test_stick_slip_against_the_piecewise_solution(formulation):
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] > 0.7, errors
 
 
-def test_stick_slip_closed_form_with_a_sharp_curve():
-    """Stribeck's speed of 1e-5 m/s is none for the block: first slip, rest and second slip at their closed times."""
+@pytest.mark.parametrize("stribeck", [0, 1e-5])
+def test_stick_slip_closed_form_with_a_sharp_curve(stribeck):
+    """Stribeck's speed of 1e-5 m/s is none for the block, and 0 is none: first slip, rest and second slip at their closed times."""
     sharp = stick_slip.Drawn(**{**DRAWN.__dict__, "stribeck": 0.0})
-    friction = {"model": "stiction", "coefficient": 0.25, "static_coefficient": 0.4, "stribeck_speed": 1e-5}
+    friction = {"model": "stiction", "coefficient": 0.25, "static_coefficient": 0.4, "stribeck_speed": stribeck}
     r = simulate(drawn(friction, sharp.speed, sharp.stiffness), duration=1.0, step=1e-4, output_interval=1e-3)
     assert 2 * sharp.slip_duration + sharp.first_slip + sharp.stick_duration < 1.0
     np.testing.assert_allclose(r.array("rail.displacement"), sharp.closed_form(r.time), atol=3e-4)
@@ -174,7 +175,8 @@ def test_stick_slip_closed_form_with_a_sharp_curve():
     assert np.abs(r.array("rail.displacement.rate")[resting]).max() < 1e-9
 
 
-def test_the_time_of_coming_to_rest_after_an_abrupt_fall_of_friction_converges():
+@pytest.mark.parametrize("stribeck", [0, 1e-6])
+def test_the_time_of_coming_to_rest_after_an_abrupt_fall_of_friction_converges(stribeck):
     """The tension k s = μ_d N + (μ_s - μ_d) N cos ωτ + (v/ω) k sin ωτ after breaking away gives the block's speed v - ṡ, which an event
     sees fall to 1 mm/s. The switch from rest to slip falls somewhere in a step: order one."""
     pull, load = DRAWN, DRAWN.load
@@ -187,7 +189,7 @@ def test_the_time_of_coming_to_rest_after_an_abrupt_fall_of_friction_converges()
     begin = pull.static * load / (pull.stiffness * pull.speed)
     rest = 2.0 * (np.pi - np.arctan(more * omega / pull.speed)) / omega
     exact = begin + brentq(lambda tau: speed(tau) - 1e-3, 0.5 * rest, rest)
-    friction = {"model": "stiction", "coefficient": 0.25, "static_coefficient": 0.4, "stribeck_speed": 1e-6}
+    friction = {"model": "stiction", "coefficient": 0.25, "static_coefficient": 0.4, "stribeck_speed": stribeck}
     slow = {"slow": {"when": "rail.displacement_rate - 1 mm/s", "direction": "falling", "stop": True}}
     sections = {**drawn(friction, pull.speed, pull.stiffness), "events": slow}
     errors = []

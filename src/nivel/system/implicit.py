@@ -74,7 +74,7 @@ def residual_tables(
         rate=np.zeros(len(stiction)),
         begun=np.zeros(len(stiction)),
         span=np.zeros(1),
-        tally=np.zeros(3),
+        tally=np.zeros(3 + len(stiction)),
         frozen=np.full(len(stiction), np.nan),
         acceleration=np.zeros((bodies + 1, 6)),
         wrench=np.zeros((bodies + 1, 6)),

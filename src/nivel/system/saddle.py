@@ -94,5 +94,5 @@ def friction_tables(
         lam=np.zeros(row_count),
         anchor=np.zeros(count),
         jacobian=np.zeros((count, count)),
-        work=np.zeros((3, count)),
+        work=np.zeros((4, count)),
     )

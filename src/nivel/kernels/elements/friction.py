@@ -4,8 +4,11 @@ The efforts F on the joint coordinates change the reactions, and these the effor
 the coordinates, λ = λ₀ + R F, accelerations c̈ = c̈₀ + S F, S = C_f P M⁻¹ C_fᵀ (P projects onto the constraints). R and S come from one
 solution with the factor that is there already per element; then F is iterated, from where the last evaluation ended, without any
 solve. Coulomb's regularised law and LuGre give |F| from the load; with stiction F is what stops the coordinate within the time TAU,
-as long as it is no larger than static friction: the joint really stands still. A motion that drivers prescribe no effort stops: while
-it goes on, F is all that the load gives, against it; while they hold it, F is left to them.
+as long as it is no larger than static friction: the joint really stands still. Where more is wanted, the coordinate slides, and F is
+kinetic friction. So which of the two it is follows from the load, and not from a speed that is never exactly zero. With several
+frictions all are asked to hold first; those that cannot slide, and the others are asked again, until all that are left hold.
+A motion that drivers prescribe no effort stops: while it goes on, F is all that the load gives, against it; while they hold it, F is
+left to them.
 """
 
 from __future__ import annotations
@@ -29,9 +32,14 @@ COULOMB, STICTION, LUGRE = 0, 1, 2
 KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
 ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD, REST = 7, 8, 9, 10, 11, 12
 
+# rows of `work`; SLIDES: 1 where static friction does not hold a friction with stiction
+DEFECT, AHEAD, CHANGE, SLIDES = 0, 1, 2, 3
+
 # Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
 SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
 TOLERANCE, ENOUGH = 1e-12, 1e-7
+# What would hold a coordinate and is more than static friction by this share of it is not round-off.
+MORE = 1e-6
 # Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
 # acceleration that is left is this share of what the change of effort would do.
 ANCHOR = 1e-3
@@ -160,8 +168,8 @@ def normal_load(machine, k):
 
 @stage
 def coefficient(n, speed):
-    """μ(v) = μ_d + (μ_s - μ_d) exp(-(v/v_s)²)."""
-    if n[STATIC] == n[KINETIC]:
+    """μ(v) = μ_d + (μ_s - μ_d) exp(-(v/v_s)²) of surfaces that slide; with v_s = 0 it is μ_d."""
+    if n[STATIC] == n[KINETIC] or n[STRIBECK] == 0.0:
         return n[KINETIC]
     ratio = speed / n[STRIBECK]
     return n[KINETIC] + (n[STATIC] - n[KINETIC]) * np.exp(-ratio * ratio)
@@ -232,6 +240,19 @@ def driven(machine, k):
 
 
 @stage
+def holding(machine, k, tau, anchor):
+    """Effort, its viscous part left out, that makes c̈ = -ċ/τ of coordinate k for the present efforts of the others."""
+    record = record_at(machine)
+    friction, rate = record.friction, record.coordinates.rate[record.friction.columns[k, COORDINATE]]
+    acceleration = friction.free[k] + rate / tau
+    for other in range(friction.columns.shape[0]):
+        if other != k:
+            acceleration += friction.S[k, other] * friction.force[other]
+    wanted = (anchor * friction.anchor[k] - acceleration / yielding(friction, k)) / (1.0 + anchor)
+    return wanted + friction.number[k, VISCOUS] * rate
+
+
+@stage
 def effort(machine, k, tau, anchor):
     """Effort of friction k for the present multipliers and efforts of the others."""
     record = record_at(machine)
@@ -241,17 +262,14 @@ def effort(machine, k, tau, anchor):
         return sliding_effort(machine, k)
     rate = coordinates.rate[q]
     viscous = n[VISCOUS] * rate
-    largest = coefficient(n, rate * n[ARM]) * normal_load(machine, k) * n[ARM]
+    load = normal_load(machine, k) * n[ARM]
+    largest = coefficient(n, rate * n[ARM]) * load
     way = driven(machine, k)
     if not np.isnan(way):
         return -way * largest - viscous
-    # what makes c̈ = -ċ/τ, if it is within the cone
-    acceleration = friction.free[k] + rate / tau
-    for other in range(friction.columns.shape[0]):
-        if other != k:
-            acceleration += friction.S[k, other] * friction.force[other]
-    wanted = (anchor * friction.anchor[k] - acceleration / yielding(friction, k)) / (1.0 + anchor) + viscous
-    return min(max(wanted, -largest), largest) - viscous
+    if friction.work[SLIDES, k] == 0.0:
+        largest = n[STATIC] * load
+    return min(max(holding(machine, k, tau, anchor), -largest), largest) - viscous
 
 
 @stage
@@ -317,7 +335,7 @@ def newton(machine, anchor, scale):
     record = record_at(machine)
     friction = record.friction
     n = friction.columns.shape[0]
-    r, ahead, d, J = friction.work[0], friction.work[1], friction.work[2], friction.jacobian
+    r, ahead, d, J = friction.work[DEFECT], friction.work[AHEAD], friction.work[CHANGE], friction.jacobian
     before, _, _ = residual(machine, anchor, r)
     for j in range(n):
         kept = friction.force[j]
@@ -339,6 +357,38 @@ def newton(machine, anchor, scale):
             friction.force[k] -= share * d[k]
         share *= 0.5
     sweep(machine, anchor)
+
+
+@stage
+def iterate(machine):
+    """Efforts that agree with what they cause, from where they are; returns (largest defect, its friction, largest effort)."""
+    record = record_at(machine)
+    largest, worst, scale = np.inf, 0, 0.0
+    for iteration in range(SWEEPS + STEPS + ANCHORED_STEPS):
+        anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
+        largest, worst, scale = residual(machine, anchor, record.friction.work[DEFECT])
+        if largest <= TOLERANCE * scale:
+            break
+        if iteration < SWEEPS:
+            sweep(machine, anchor)
+        else:
+            newton(machine, anchor, scale)
+    return largest, worst, scale
+
+
+@stage
+def let_slide(machine):
+    """Have those frictions slide that would need more than static friction to hold; returns how many more that are."""
+    record = record_at(machine)
+    friction, more = record.friction, 0
+    for k in range(friction.columns.shape[0]):
+        n = friction.number[k]
+        if friction.columns[k, MODEL] == STICTION and n[STATIC] > n[KINETIC] and friction.work[SLIDES, k] == 0.0:
+            largest = n[STATIC] * normal_load(machine, k) * n[ARM]
+            if np.abs(holding(machine, k, record.control.stick[0], 0.0)) > (1.0 + MORE) * largest:
+                friction.work[SLIDES, k] = 1.0
+                more += 1
+    return more
 
 
 @stage
@@ -368,16 +418,10 @@ def apply(machine, number, t):
     start(machine)
     for k in range(count):
         friction.anchor[k] = friction.force[k]
-    largest, worst, scale = np.inf, 0, 0.0
-    for iteration in range(SWEEPS + STEPS + ANCHORED_STEPS):
-        anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
-        largest, worst, scale = residual(machine, anchor, friction.work[0])
-        if largest <= TOLERANCE * scale:
-            break
-        if iteration < SWEEPS:
-            sweep(machine, anchor)
-        else:
-            newton(machine, anchor, scale)
+        friction.work[SLIDES, k] = 0.0
+    largest, worst, scale = iterate(machine)
+    while let_slide(machine) > 0:
+        largest, worst, scale = iterate(machine)
     if not largest <= ENOUGH * scale:
         control.failure[0] = worst
         return FRICTION_DIVERGES

@@ -3,14 +3,14 @@
 Efforts with stiction are unknowns as well, each with a row of its own. Where the coordinate sticks, F is what stops it within τ; where it
 slides, the friction that its load makes:
 
-    F + b ċ - clip(F + b ċ - m (c̈ + ċ/τ) - ε (F - F₀), -L, L) = 0        L = μ(ċ) N(λ)
+    F + b ċ - clip(w, -L, L) = 0        w = F + b ċ - m (c̈ + ċ/τ) - ε (F - F₀),   L = μ_s N(λ) where |w| ≤ μ_s N, else μ(ċ) N
 
 the law of `nivel.kernels.elements.friction` for any mass m, as a projection (Alart, Curnier 1991), in which Newton's iteration decides by
-F and c̈
-together which of the two it is: with one friction it decides right at once. m is the mass that F moves; ε has F stay near that of the
-accepted state, F₀, where several frictions hold one motion. b is viscous friction. Where the multipliers of constraints close velocities at
-the ends of steps, c̈ and ċ of what sticks are means of a step (ċ that at its end in steps longer than τ): accelerations at the ends are a
-little open, and two frictions of a loop would contradict each other.
+F and c̈ together which of the two it is: with one friction it decides right at once. With the fall from μ_s to μ(ċ) there may be neither:
+what has begun to slide RELEASES times in one iteration holds no more than μ(ċ) N until its end. m is the mass that F moves; ε has F stay
+near that of the accepted state, F₀, where several frictions hold one motion. b is viscous friction. Where the multipliers of constraints
+close velocities at the ends of steps, c̈ and ċ of what sticks are means of a step (ċ that at its end in steps longer than τ):
+accelerations at the ends are a little open, and two frictions of a loop would contradict each other.
 """
 
 from __future__ import annotations
@@ -44,6 +44,10 @@ NEAR = 1e-4
 # Where Stribeck's curve falls so steeply that within τ it would change the speed by this share of itself, the matrix does not know of it:
 # with it pivots would vanish, and the iteration go to the wrong side of the fall.
 STEEP = 0.5
+# Times that a friction begins to slide in one iteration, after which static friction holds it no longer.
+RELEASES = 2.0
+# entries of `residual.tally`: turns; then of each friction how often it has begun to slide
+TURNS, RELEASED = 0, 3
 
 
 @stage
@@ -65,6 +69,8 @@ def second_derivative(machine, q):
 @stage
 def is_steep(n, speed, load, mass, tau):
     """Whether Stribeck's curve is too steep for the matrix at this speed of the surfaces and this load times the arm."""
+    if n[STATIC] == n[KINETIC] or n[STRIBECK] == 0.0:
+        return False
     ratio = speed / n[STRIBECK]
     fall = 2.0 * (n[STATIC] - n[KINETIC]) * np.abs(ratio) / n[STRIBECK] * np.exp(-ratio * ratio)
     return fall * load * n[ARM] * tau > STEEP * mass
@@ -84,6 +90,21 @@ def greatest(machine, k, number, rate):
 
 
 @stage
+def find_branch(machine, k, number, wanted, limit):
+    """1 or -1 where friction k slides, whose greatest effort is then `limit`, 0 where it holds."""
+    record = record_at(machine)
+    n, own = record.friction.number[k], record.residual
+    if own.tally[TURNS] == 0.0:
+        own.tally[RELEASED + number] = 0.0
+    if own.tally[RELEASED + number] < RELEASES:
+        limit = n[STATIC] * real(normal_load(machine, k)) * n[ARM]
+    branch = 1.0 if wanted > limit else (-1.0 if wanted < -limit else 0.0)
+    if branch != 0.0 and own.branch[number] == 0.0:
+        own.tally[RELEASED + number] += 1.0
+    return branch
+
+
+@stage
 def hold(machine, k, place):
     """Fill the row of friction k, whose effort is multiplier `place` of the residual. Returns the effort."""
     record = record_at(machine)
@@ -100,8 +121,7 @@ def hold(machine, k, place):
     way = driven(machine, k)
     branch = own.bidden[number] if np.isnan(way) else -way
     if np.isnan(branch):
-        wanted = real(dry - missed)
-        branch = 1.0 if wanted > real(limit) else (-1.0 if wanted < -real(limit) else 0.0)
+        branch = find_branch(machine, k, number, real(dry - missed), real(limit))
     row = missed if branch == 0.0 and np.isnan(way) else dry - branch * limit
     if tau == np.inf:
         # forces do not jump where speeds do, see `nivel.integrate.loop.corners`

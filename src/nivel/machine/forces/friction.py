@@ -11,6 +11,7 @@ from nivel.machine.core.coefficient import (
     DampingPerLoad,
     NotNegativeForce,
     NotNegativeLength,
+    NotNegativeSpeed,
     PositiveForce,
     PositiveNumber,
     PositiveSpeed,
@@ -37,8 +38,9 @@ class Friction(ForceElement):
     model: Literal["coulomb", "stiction", "lugre"]
     coefficient: PositiveNumber = Field(description="of kinetic friction")
     static_coefficient: Maybe[PositiveNumber] = Field(default=None, description="default `coefficient`")
-    stribeck_speed: Maybe[PositiveSpeed] = Field(
-        default=None, description="at which static friction has mostly become kinetic"
+    stribeck_speed: Maybe[NotNegativeSpeed] = Field(
+        default=None,
+        description="at which static friction has mostly become kinetic; 0, with stiction: as soon as it slides",
     )
     transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="of the coulomb model: friction goes as tanh(speed / transition_speed)"
@@ -72,6 +74,11 @@ class Friction(ForceElement):
         if self.static > self.coefficient and self.stribeck_speed is None:
             message = "`stribeck_speed` is missing: at about this speed static friction has become kinetic"
             yield Problem((), message)
+        if self.static > self.coefficient and self.stribeck_speed == 0.0 and self.model != "stiction":
+            message = (
+                f"`stribeck_speed` must be greater than zero: `model: {self.model}` would never have static friction"
+            )
+            yield Problem(("stribeck_speed",), f"{message}; `model: stiction` allows zero")
         if self.model == "coulomb" and self.transition_speed is None:
             message = "`transition_speed` is missing: below it the coulomb model lets the joint creep"
             yield Problem((), message)

@@ -42,7 +42,7 @@ def add_friction(builder: SystemBuilder, force: Friction) -> None:
     numbers = [
         force.coefficient,
         force.static,
-        force.stribeck_speed or 1.0,
+        1.0 if force.stribeck_speed is None else force.stribeck_speed,
         force.transition_speed or 1.0,
         force.viscous,
         force.bristle_stiffness or 0.0,

@@ -287,10 +287,12 @@ class Machine(Model):
         with every other, one dimension each; or `rows`, the first of all lists, the second of all, along the dimension `variant`.
         samples : so many variants of a Latin hypercube between two bounds, ``{"bodies.rod.mass": (1, 3)}``, or over distributions of
         `scipy.stats`; seed : of its random numbers. save : names of results; default all joint coordinates and sensors.
-        processes : as many as there are processors by default. All other settings are those of `simulate`, for all variants.
+        processes : as many as there are processors by default. verify : a second run beside each variant tells how exact it is; without
+        it the dataset says that it is not verified. All other settings are those of `simulate`, for all variants.
 
-        A variant that fails or is refused has its `reason` in the dataset, and NaN where nothing was computed. `outcome`, `end_time` and
-        `verdict` stand there for every variant. Ctrl-C ends the sweep; what was computed is returned.
+        A variant that fails or is refused has its `reason` in the dataset, and NaN where nothing was computed. `outcome`, `end_time`,
+        `verdict`, `verified`, `headline` and `estimated_error` [m] stand there for every variant; attributes have the verdict on all of
+        them. Ctrl-C ends the sweep; what was computed is returned.
         Raises ModelError where values or names are not known, or no variant can be run.
         """
         given = _given(settings)
@@ -708,7 +710,14 @@ def _sweep(
     plan = made[0]._plan(made[0].origin.settings_outside)
     build(_entries_of(plan, made[0].record), listener)
     with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
-        return sweep(made, variants, settings.save, processes=settings.processes or processors(), listener=hearer)
+        return sweep(
+            made,
+            variants,
+            settings.save,
+            verify=settings.verify,
+            processes=settings.processes or processors(),
+            listener=hearer,
+        )
 
 
 def _given(settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -85,6 +85,7 @@ class SweepSettingsDict(TypedDict, total=False):
     seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
     save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
     processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
+    verify: Annotated[bool | None, "--verify", "A second run beside each variant, to estimate its error; default: not verified."]
 
 
 class MachineSweepSettingsDict(TypedDict, total=False):
@@ -95,6 +96,7 @@ class MachineSweepSettingsDict(TypedDict, total=False):
     seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
     save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
     processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
+    verify: Annotated[bool | None, "--verify", "A second run beside each variant, to estimate its error; default: not verified."]
     duration: Annotated[float | str | None, "--duration TIME", "Simulated time, e.g. 8 or '8 s'."]
     step: Annotated[float | str | None, "--step TIME", "Time step, e.g. '1 ms'; first step of integrators that choose their steps."]
     output_interval: Annotated[float | str | None, "--output-interval TIME", "Time between frames; with a fixed step a multiple of it; default: up to 1000 intervals."]

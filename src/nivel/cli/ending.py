@@ -37,6 +37,12 @@ def computed_in(time: float, steps: int = 0) -> str:
     return f"computed in {seconds(time)}" + (f" ({seconds(time / steps)} per step)" if steps else "")
 
 
+def said_in_colour(trust: Trust) -> str:
+    """The light and the headline; of what was not verified no green one."""
+    coloured = f"[{COLOURS[trust.light]}]{trust.light}[/], " if trust.light in COLOURS else ""
+    return f"{coloured}{trust.headline}"
+
+
 def say_checks(out: Console, trust: Trust) -> None:
     """The checks that are not green, in full, and how many passed."""
     checks = [item for item in trust.items if item.name != "outcome" or item.verdict != "green"]

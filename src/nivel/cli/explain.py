@@ -45,10 +45,8 @@ def _print(result: Result) -> None:
     frames = f"{len(time)} frame{'s' * (len(time) != 1)}"
     extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {frames}" if len(time) > 1 else frames
     console.print(Text.assemble((result.name, "bold"), f": {extent}"))
-    verified = result.is_statics or trust.accuracy_estimate is not None
-    verdict = (trust.verdict, f"bold {COLOURS[trust.verdict]}") if verified or trust.verdict != "green" else ""
-    headline = "" if result.is_statics else f"{', ' if verdict else ''}{trust.headline}"
-    console.print(Text.assemble("trust: ", verdict, headline, "\n"))
+    light = (trust.light, f"bold {COLOURS[trust.light]}") if trust.light in COLOURS else ""
+    console.print(Text.assemble("trust: ", light, f"{', ' if light else ''}{trust.headline}", "\n"))
     lines = Table.grid(padding=(0, 1))
     for item in trust.items:
         lines.add_row(Text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), Text(item.text))

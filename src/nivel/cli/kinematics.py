@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks, say_files
+from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.cli.progress import progress_listener
 from nivel.cli.run import assembly_lines
 from nivel.settings import KinematicsSettingsDict
@@ -125,7 +125,7 @@ def _say(studied: Studied, target: Path, report: Path | None) -> None:
     out.print(f"{ended(result)}, {len(time)} positions {computed_in(timing.get('loop_seconds', 0.0))}")
     for line in assembly_lines(result):
         out.print(line)
-    out.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
+    out.print(f"trust: {said_in_colour(result.trust)}", soft_wrap=True)
     say_checks(out, result.trust)
     say_files(out, target, report)
     for line in studied.studies.lines() if studied.studies is not None else ():

@@ -87,9 +87,7 @@ def command(
 
 def _trust(result: Result) -> str:
     """The verdict and its reason; nothing is green that was not run twice."""
-    trust = result.trust
-    verdict = "" if trust.verdict == "green" and trust.accuracy_estimate is None else f"{trust.verdict}, "
-    return f"trust: {verdict}{trust.headline}"
+    return f"trust: {result.trust.told}"
 
 
 def _comparison(done: Replay) -> str:

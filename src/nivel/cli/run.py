@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.ending import COLOURS, computed_in, console, ended, say_checks, say_files
+from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.cli.options import input_option
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
@@ -22,7 +22,6 @@ ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not 
 
 if TYPE_CHECKING:
     from nivel.results import Result
-    from nivel.results.trust import Trust
 
 
 @analysis_command(RunSettingsDict, "NAME.nc", "Simulate a machine: result file, report, summary.")
@@ -68,13 +67,6 @@ def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]
     out.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
     say_checks(out, trust)
     say_files(out, target, report)
-
-
-def said_in_colour(trust: Trust) -> str:
-    """The verdict and the headline; of a run that was not verified no green one."""
-    verdict = "" if trust.accuracy_estimate is None and trust.verdict == "green" else trust.verdict
-    coloured = f"[{COLOURS[verdict]}]{verdict}[/], " if verdict else ""
-    return f"{coloured}{trust.headline}"
 
 
 def assembly_lines(result: Result) -> Iterator[str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from nivel.analysis.trust.report import titles
 from nivel.results.beams.beam_nodes import beam_nodes
 from nivel.results.frames.occurrence import in_words
-from nivel.results.trust import Item, Trust, Verdict
+from nivel.results.trust import NOT_VERIFIED, Item, Trust, Verdict
 from nivel.words.wording import set_in_motion
 
 if TYPE_CHECKING:
@@ -92,15 +92,17 @@ def headline(result: Result) -> Headline:
 
 
 def _trusted(result: Result) -> tuple[str, Verdict, str]:
-    """Whether to believe it, and how exact it is. Of a run that was not verified there is no plain yes."""
+    """Whether to believe it, and how exact it is. Of what was not verified there is no plain yes."""
     trust = result.trust
-    if result.is_statics:
-        return VERDICTS[trust.verdict], trust.verdict, ""
-    if trust.accuracy_estimate is not None:
-        return VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline))
-    if trust.verdict != "green":
-        return VERDICTS[trust.verdict], trust.verdict, f"{UNVERIFIED}."
-    return UNVERIFIED, "amber", "Nothing below is against it, but no second run says how exact it is."
+    if trust.light == NOT_VERIFIED:
+        return UNVERIFIED, "amber", _breaking(_sentence(_nothing_against(trust)))
+    return VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline))
+
+
+def _nothing_against(trust: Trust) -> str:
+    if trust.verified_by:
+        return trust.headline
+    return "nothing below is against it, but no second run says how exact it is"
 
 
 def _reached(result: Result) -> str:

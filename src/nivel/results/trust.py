@@ -11,6 +11,7 @@ from typing import Any, Final, Literal, NamedTuple
 import numpy as np
 
 Verdict = Literal["green", "amber", "red"]
+NOT_VERIFIED: Final = "not verified"  # in place of green
 ROUND_OFF: Final = 1e-14  # of the size: an error below it is none
 ERRORS: Final = ("accuracy", "parts", "quantities", "verified")  # lines whose numbers are estimates of errors
 ROUNDED: Final = 1e-9  # of the range of a number beside positions: what equations and sums round to
@@ -110,6 +111,8 @@ KEYS: Final = {
     "elements_body": Key("elements", "body", "str", ""),
     "elements_time": Key("elements", "time", "float | None"),
     "verified_until": Key("verified", "until", "float | None"),
+    "verified_by": Key("verification", "by", "tuple[str, ...]", ()),
+    "not_verified": Key("verification", "lacks", "tuple[str, ...]", ()),
     "verification_ended": Key("verified", "ended", "str", ""),
     "neglected_share": Key("neglected", "share", "float | None"),
     "neglected_body": Key("neglected", "body", "str", ""),
@@ -145,7 +148,8 @@ class Trust:
 
     def to_json(self) -> str:
         """JSON text; NaN and infinities stand as the strings "nan", "inf", "-inf"."""
-        flat = {"verdict": self.verdict, "outcome": self.outcome} | {name: getattr(self, name) for name in KEYS}
+        flat = {"verdict": self.verdict, "outcome": self.outcome, "verified": self.verified, "light": self.light}
+        flat |= {name: getattr(self, name) for name in KEYS}
         items = [{each.name: getattr(item, each.name) for each in fields(Item)} for item in self.items]
         return json.dumps({**_storable({**flat, "items": items}), "found": _tagged(self.found)}, ensure_ascii=False)
 
@@ -162,11 +166,30 @@ class Trust:
         return trust
 
     @property
+    def verified(self) -> bool:
+        """Whether something beside the computation itself has examined the whole of it: `verified_by` says what; nothing is
+        `not_verified`. Files of earlier versions know it of runs alone."""
+        if self.verified_until is not None:
+            return False
+        if "verification" not in self.found:
+            return self.accuracy_estimate is not None
+        return bool(self.verified_by) and not self.not_verified
+
+    @property
+    def light(self) -> str:
+        """The verdict as it is shown: `not verified` where it would be green, and not everything was examined."""
+        return NOT_VERIFIED if self.verdict == "green" and not self.verified else self.verdict
+
+    @property
     def headline(self) -> str:
-        """How exact the run is, in a sentence: what a second run says of bodies and of the number that is worst beside, or that there was
-        none. Where a line is red the first thing said is not a small number."""
-        if self.accuracy_estimate is None:
-            return "not verified"
+        """How exact the result is, in a sentence: of a run what a second run says of bodies and of the number that is worst beside, or that
+        there was none; of other analyses what has examined them, and what nothing has. Where a line is red the first thing said is not a
+        small number."""
+        return self._examined() if self.accuracy_estimate is None else f"{self._exactness()}{self._lacks()}"
+
+    def _exactness(self) -> str:
+        """What a second run says."""
+        assert self.accuracy_estimate is not None
         agree = f"two runs agree within {number(self.accuracy_estimate)} m"
         if self.accuracy_blind:
             return f"of unknown error: {agree}, but {self.accuracy_blind}"
@@ -192,6 +215,21 @@ class Trust:
         if exact or (red and "accuracy" not in red):
             return f"{name} {'off by up to' if red else 'within'} {error} ({rest['name']} most); {bodies}"
         return f"{motion}; {name} within {error} ({rest['name']} most)"
+
+    def _examined(self) -> str:
+        """What has examined a result, and what of it nothing has."""
+        if not self.verified_by:
+            return NOT_VERIFIED
+        by = f"by {' and '.join(self.verified_by)}"
+        return f"verified in part: {by}{self._lacks()}" if self.not_verified else f"verified {by}"
+
+    def _lacks(self) -> str:
+        return f"; {NOT_VERIFIED}: {' and '.join(self.not_verified)}" if self.not_verified else ""
+
+    @property
+    def told(self) -> str:
+        """`amber, within 1e-3 m of …`: the light and the headline in a line; without a light where that would be green by mistake."""
+        return self.headline if self.light == NOT_VERIFIED else f"{self.light}, {self.headline}"
 
     def _doubt(self) -> str:
         """The title of a red line that is no estimate of an error; empty where there is none."""

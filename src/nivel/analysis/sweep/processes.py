@@ -22,7 +22,9 @@ START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.ana
 Job = tuple[int, Model, Any]
 
 
-def run_in_processes(jobs: Iterable[Job], save: tuple[str, ...], count: int) -> Iterator[tuple[int, VariantRun]]:
+def run_in_processes(
+    jobs: Iterable[Job], save: tuple[str, ...], verify: bool, count: int
+) -> Iterator[tuple[int, VariantRun]]:
     """Number and run of each variant, as they are finished, by `count` processes: this one, which goes on while the others start, and
     workers. Those are ended where the caller stops.
 
@@ -31,13 +33,13 @@ def run_in_processes(jobs: Iterable[Job], save: tuple[str, ...], count: int) -> 
     left, finished = deque(jobs), SimpleQueue[tuple[int, Any] | None]()
     workers = [_Worker() for _ in range(min(count - 1, len(left)))]
     for worker in workers:
-        threading.Thread(target=_serve, args=(worker, left, save, finished), daemon=True).start()
+        threading.Thread(target=_serve, args=(worker, left, save, verify, finished), daemon=True).start()
     working = len(workers)
     try:
         while working or left:
             if finished.empty() and (job := _next(left)) is not None:
                 number, machine, values = job
-                yield number, run_variant(machine, values, save)
+                yield number, run_variant(machine, values, save, verify)
                 continue
             match finished.get():
                 case None:
@@ -59,11 +61,11 @@ def _next(left: deque[Job]) -> Job | None:
         return None
 
 
-def _serve(worker: _Worker, left: deque[Job], save: tuple[str, ...], finished: SimpleQueue[Any]) -> None:
+def _serve(worker: _Worker, left: deque[Job], save: tuple[str, ...], verify: bool, finished: SimpleQueue[Any]) -> None:
     try:
         while (job := _next(left)) is not None:
             number, machine, values = job
-            finished.put((number, worker.run(machine, values, save)))
+            finished.put((number, worker.run(machine, values, save, verify)))
     except BaseException as problem:  # whatever it is, nobody may wait for it
         finished.put((-1, problem))
     finished.put(None)
@@ -83,13 +85,13 @@ class _Worker:
         )
         self._machine: Model | None = None
 
-    def run(self, machine: Model, values: Any, save: tuple[str, ...]) -> VariantRun:
+    def run(self, machine: Model, values: Any, save: tuple[str, ...], verify: bool) -> VariantRun:
         """The variant, run by the process; a failed one where the process ends on the way."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         sent, self._machine = (None if machine is self._machine else machine), machine
         try:
-            pickle.dump((sent, values, save), self._process.stdin, protocol=pickle.HIGHEST_PROTOCOL)
+            pickle.dump((sent, values, save, verify), self._process.stdin, protocol=pickle.HIGHEST_PROTOCOL)
             self._process.stdin.flush()
             answer = pickle.load(self._process.stdout)
         except (BrokenPipeError, EOFError):

@@ -19,6 +19,8 @@ from nivel.analysis.progress.log import Log
 from nivel.analysis.sweep.processes import Job, run_in_processes
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
 from nivel.analysis.sweep.variants import Variants
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Sweep, Variant
 from nivel.errors import ModelError
 from nivel.model import Model
 
@@ -27,8 +29,12 @@ FACTS = {
     "outcome": "done, stopped by an event, failed, refused, or not run",
     "reason": "why it was stopped, failed or refused",
     "end_time": "time reached",
-    "verdict": "of the trust report",
+    "verdict": "of the trust report; `not verified` in place of green where not all was verified",
+    "verified": "whether a second run, and other elements of beams, estimated the error of the run",
+    "headline": "how exact the run is, in a sentence",
+    "estimated_error": "estimated largest error of a position",
 }
+UNITS = {"end_time": "s", "estimated_error": "m"}
 
 
 def collected(variants: Variants, runs: Sequence[VariantRun], attributes: Mapping[str, Any]) -> xarray.Dataset:
@@ -63,7 +69,7 @@ def collected(variants: Variants, runs: Sequence[VariantRun], attributes: Mappin
 
 def _fact(variants: Variants, runs: Sequence[VariantRun], name: str) -> tuple[Any, ...]:
     values = np.array([getattr(run, name) for run in runs])
-    units = {"units": "s"} if name == "end_time" else {}
+    units = {"units": UNITS[name]} if name in UNITS else {}
     return variants.dimensions, values.reshape(variants.shape), {"long_name": FACTS[name], **units}
 
 
@@ -96,10 +102,12 @@ def sweep(
     variants: Variants,
     save: tuple[str, ...],
     *,
+    verify: bool,
     processes: int,
     listener: Listener,
 ) -> xarray.Dataset:
-    """Run all variants. machines : one for all, with the values of each put in; or one for each, as they are.
+    """Run all variants. machines : one for all, with the values of each put in; or one for each, as they are. verify : a second run goes
+    beside each.
 
     The first variant is run here, so that a name in `save` that is none is told at once. Interrupted by Ctrl-C, it returns what was
     computed; the rest is `not run`. Raises ModelError where no variant could start.
@@ -120,28 +128,45 @@ def sweep(
             listener.progress(float(done))
 
     with interruptible() as interrupted:
-        left = _run_here(jobs, save, keep, interrupted, processes)
+        left = _run_here(jobs, save, verify, keep, interrupted, processes)
         if left and not interrupted():
-            for number, run in run_in_processes(left, save, processes):
+            for number, run in run_in_processes(left, save, verify, processes):
                 keep(number, run)
                 if interrupted():
                     break
     _refuse_if_none_started(runs)
-    from nivel.analysis.sweep.sweep import collected
-
+    trust = assess(_subject(values, runs, interrupted=any(run.outcome == NOT_RUN for run in runs)))
     attributes = {
         "machine": machines[0].name,
         "seconds": perf_counter() - begin,
         "loop_seconds": loop,
         "processes": processes if left else 1,
         "outcomes": ", ".join(f"{count} {outcome}" for outcome, count in Counter(run.outcome for run in runs).items()),
+        "verdict": trust.light,
+        "verified": int(trust.verified),
+        "headline": trust.headline,
+        "trust": trust.to_json(),
     }
     return collected(variants, runs, attributes)
+
+
+def _subject(values: Sequence[Mapping[str, Any]], runs: Sequence[VariantRun], *, interrupted: bool) -> Sweep:
+    """The runs as their trust report sees them."""
+    seen = tuple(
+        Variant(_named(each), run.outcome, run.reason, run.verdict, run.verified, run.headline)
+        for each, run in zip(values, runs, strict=True)
+    )
+    return Sweep(outcome="interrupted" if interrupted else "done", variants=seen)
+
+
+def _named(values: Mapping[str, Any]) -> str:
+    return ", ".join(f"{path} = {value}" for path, value in values.items())
 
 
 def _run_here(
     jobs: Sequence[Job],
     save: tuple[str, ...],
+    verify: bool,
     keep: Callable[[int, VariantRun], None],
     interrupted: Callable[[], bool],
     processes: int,
@@ -149,7 +174,7 @@ def _run_here(
     """Run the first variants, all of them where they are quick. Returns those that are left for processes."""
     for at, (number, machine, values) in enumerate(jobs):
         begin = perf_counter()
-        run = run_variant(machine, values, save)
+        run = run_variant(machine, values, save, verify)
         if run.outcome == NOT_RUN:  # Ctrl-C came
             return ()
         keep(number, run)

@@ -33,28 +33,33 @@ class Saved:
 class VariantRun:
     """What is kept of a run. outcome : done; stopped, by an event; failed, with the `reason`; refused, before anything was computed.
 
-    verdict : of the trust report. loop_seconds : in the compiled loop.
+    verdict : of the trust report, `not verified` in place of green where not all of it was verified. headline : how exact it is, in a
+    sentence. estimated_error [m] : of positions, not a number without a second run. loop_seconds : in the compiled loop.
     """
 
     outcome: str
     reason: str = ""
     end_time: float = np.nan
     verdict: str = ""
+    verified: bool = False
+    headline: str = ""
+    estimated_error: float = np.nan
     loop_seconds: float = 0.0
     time: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     saved: Mapping[str, Saved] = field(default_factory=dict)
 
 
-def run_variant(base: Model, values: Mapping[str, Any], save: tuple[str, ...]) -> VariantRun:
+def run_variant(base: Model, values: Mapping[str, Any], save: tuple[str, ...], verify: bool) -> VariantRun:
     """The machine with these values, run by its own settings. Faults and failures are kept, not raised.
 
-    save : names of results; none: all joint coordinates and sensors, or where there are none, the positions of the bodies.
+    save : names of results; none: all joint coordinates and sensors, or where there are none, the positions of the bodies. verify : a
+    second run goes beside it.
     Raises ModelError where the result has no such name.
     """
     machine = base
     try:
         machine = base.with_values(values) if values else base
-        result = simulate(plan_run(machine.record, machine.origin.settings_outside))
+        result = simulate(plan_run(machine.record, machine.origin.settings_outside), verify=verify)
     except SolveError as error:
         if not isinstance(error.result, Result):
             return VariantRun(FAILED, str(error), error.time)
@@ -82,7 +87,9 @@ def _kept(result: Result, outcome: str, reason: str, save: tuple[str, ...]) -> V
     time, loop = result.time, float(result.timing.get("loop_seconds", 0.0))
     saved = {name: _saved(result, name) for name in save}
     end = float(time[-1]) if len(time) else 0.0
-    return VariantRun(outcome, reason, end, result.trust.verdict, loop, time, saved)
+    trust = result.trust
+    error = np.nan if trust.accuracy_estimate is None else trust.accuracy_estimate + (trust.elements_estimate or 0.0)
+    return VariantRun(outcome, reason, end, trust.light, trust.verified, trust.headline, error, loop, time, saved)
 
 
 def _saved(result: Result, name: str) -> Saved:

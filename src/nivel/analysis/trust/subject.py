@@ -167,3 +167,22 @@ class Positions(Recorded, Computed):
     @cached_property
     def scales(self) -> Scales:
         return Scales(*machine_size(self.result), max(largest_speed(self.result), 1e-300))
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A run of a sweep. name : its values, in words. outcome, reason, verdict, verified, headline : as the dataset has them."""
+
+    name: str
+    outcome: str
+    reason: str
+    verdict: str
+    verified: bool
+    headline: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sweep(Subject):
+    """Runs of one machine with other values."""
+
+    variants: tuple[Variant, ...]

@@ -43,3 +43,6 @@ class SweepSettings(Record):
     processes: Count | None = Field(
         default=None, description="number of processes", absent="as many as there are processors"
     )
+    verify: bool = Field(
+        default=False, description="a second run beside each variant, to estimate its error", absent="not verified"
+    )

@@ -29,7 +29,7 @@ def summary(result: Result) -> dict[str, Any]:
         "stopped_by": result.stopped_by,
         "settings": result.settings,
         "timing": result.timing,
-        "headline": "" if result.is_statics else result.trust.headline,
+        "headline": result.trust.headline,
         "trust": json.loads(result.trust.to_json()),
     }
 
@@ -37,8 +37,7 @@ def summary(result: Result) -> dict[str, Any]:
 def summary_text(result: Result) -> str:
     """Name, outcome, extent and trust; then what can be asked for."""
     lines = [f"<Result of {result.name}: {_outcome(result)}>", f"  {_extent(result)}"]
-    if not result.is_statics:
-        lines.append(f"  {result.trust.headline}")
+    lines.append(f"  {result.trust.headline}")
     lines += [f"  {item.verdict:>5}  {item.text}" for item in result.trust.items]
     lines += [f"  event  {line}" for line in in_words(result.events, result.stopped_by)]
     lines.append(f"  for instance: {', '.join(_examples(result))}")
@@ -52,7 +51,7 @@ def summary_html(result: Result) -> str:
         f'● {item.verdict}</td><td style="text-align:left;padding:.15em 0">{escape(item.text)}</td></tr>'
         for item in result.trust.items
     )
-    headline = "" if result.is_statics else f" · {escape(result.trust.headline)}"
+    headline = f" · {escape(result.trust.headline)}"
     events = "".join(f"<div>event {escape(line)}</div>" for line in in_words(result.events, result.stopped_by))
     names = " ".join(f"<code>{escape(name)}</code>" for name in _examples(result))
     return (

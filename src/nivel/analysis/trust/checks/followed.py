@@ -13,10 +13,11 @@ from nivel.analysis.trust.check import FRAMES, Check
 from nivel.analysis.trust.subject import Positions, Scales
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.table import Table
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.trust import Item, Verdict, number
-from nivel.system.system import Array
+from nivel.system.system import Array, System
 
 # [lengths of the machine, rad] by which a driver may be missed: green, and no worse than amber
 GREEN, AMBER = 1e-9, 1e-7
@@ -58,6 +59,16 @@ def look(subject: Positions) -> Followed | None:
         return None
     _, driver_name, name, units, most, when = max(found)
     return Followed(driver_name, name, units, most, when, len(found), len(subject.machine.drivers), subject.scales)
+
+
+def not_compared(machine: MachineRecord, system: System) -> list[str]:
+    """Drivers of which `look` cannot compare what they prescribe: those of markers, and functions in Python."""
+    names, start = list(system.layout.coordinates["joint_coordinate"]), np.zeros(1)
+    return [
+        driver.name
+        for driver in machine.drivers
+        if wanted_values(driver, start) is None or _coordinate(driver, names) is None
+    ]
 
 
 def wanted_values(driver: Driver, time: Array) -> Array | None:

@@ -1,0 +1,105 @@
+"""Verdicts of all analyses: each says whether it was verified, by what, and what not; what was not verified never looks green."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import nivel
+from nivel.cli import main
+from nivel.results.trust import Trust
+
+FAULTS = Path(__file__).parent
+EXAMPLES = FAULTS.parent.parent / "examples"
+
+
+@pytest.fixture(scope="module")
+def train():
+    return nivel.load(FAULTS / "t6-sweep.yaml")
+
+
+def test_a_sweep_without_second_runs_says_that_it_is_not_verified(train):
+    """A spring at a train, which one run alone cannot tell to be wrong by half its range."""
+    found = train.sweep({"train.mass": [1e5]}, processes=1)
+    assert found.verdict.values.tolist() == ["not verified"]
+    assert found.verified.values.tolist() == [False]
+    assert (found.attrs["verdict"], found.attrs["verified"]) == ("not verified", 0)
+    assert np.isnan(found.estimated_error.values).all()
+
+
+def test_a_verified_sweep_tells_what_is_wrong(train):
+    """x = 5 cm (1 - cos ω t), ω² = k (1/m + 1/M)."""
+    found = train.sweep({"train.mass": [1e5, 2e5]}, processes=1, verify=True)
+    omega = np.sqrt(1000.0 * (10.0 + 1.0 / found["train.mass"]))
+    wrong = np.abs(found["slide.displacement"] - 0.05 * (1.0 - np.cos(omega * found["time"]))).max("time")
+    assert wrong.min() > 0.05
+    assert found.verdict.values.tolist() == ["red", "red"]
+    assert found.verified.values.all()
+    assert (found.estimated_error > 0.5 * wrong).all()
+    assert found.attrs["verdict"] == "red"
+    assert Trust.from_json(found.attrs["trust"]).verified_by == ("second runs of 2 variants",)
+
+
+def test_a_sweep_that_is_verified_is_green_where_its_variants_are(train):
+    found = train.sweep({"s.stiffness": [0.1]}, processes=1, verify=True, duration=0.2)
+    assert found.verdict.values.tolist() == ["green"]
+    assert (found.attrs["verdict"], found.attrs["verified"]) == ("green", 1)
+
+
+def test_results_in_json_say_whether_they_were_verified(train):
+    data = json.loads(train.simulate(duration=0.1).trust.to_json())
+    assert (data["verified"], data["light"], data["verified_by"]) == (False, "not verified", [])
+    data = json.loads(train.simulate(duration=0.1, verify=True).trust.to_json())
+    assert data["verified"]
+    assert data["verified_by"] == ["a second run with steps of 2 ms"]
+
+
+BEAM = """
+format: 1
+gravity: [0, 0, -9.81]
+beams:
+  arm: {from: [0, 0, 0], to: [1, 0, 0], up: [0, 0, 1], section: {type: circle, radius: 1 cm}, elements: 4, order: 2,
+        material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850}}
+joints:
+  clamp: {type: fixed, bodies: [ground, arm.start], point: [0, 0, 0]}
+"""
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory):
+    path = tmp_path_factory.mktemp("arm") / "arm.yaml"
+    path.write_text(BEAM, encoding="utf-8")
+    return nivel.load(path)
+
+
+def test_statics_say_what_has_examined_them(arm):
+    single = arm.statics(duration=0, verify=False).trust
+    assert single.verified_by == ("the balance of forces in every state",)
+    assert single.not_verified == ("the elements of beams",)
+    assert (single.verdict, single.light) == ("green", "not verified")
+    both = arm.statics(duration=0).trust
+    assert both.light == "green"
+    assert "a machine with twice as many elements of beams" in both.verified_by
+
+
+def test_the_command_shows_no_green_over_what_is_not_verified(arm, tmp_path):
+    file, out = tmp_path / "arm.yaml", tmp_path / "arm.nc"
+    file.write_text(BEAM, encoding="utf-8")
+    words = ["statics", str(file), "--duration", "0", "--no-verify", "--out", str(out)]
+    done = CliRunner().invoke(main, words)
+    assert (
+        "trust: verified in part: by the balance of forces in every state; not verified: the elements of beams"
+        in done.output
+    )
+    page = out.with_suffix(".html").read_text(encoding="utf-8")
+    assert "Yes, everything is in the green" not in page
+    assert "Not verified" in page
+
+
+def test_kinematics_say_that_functions_in_python_are_not_compared():
+    machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
+    trust = machine.kinematics(drive="hinge", positions=5).trust
+    assert (trust.light, trust.not_verified) == ("green", ())
+    assert trust.verified_by == ("the closed joints", "the functions of its drivers, evaluated apart")

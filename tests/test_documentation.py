@@ -20,6 +20,7 @@ from nivel.machine import (
     Body,
     Driver,
     Event,
+    FunctionCoupling,
     Gear,
     Joint,
     JointType,
@@ -215,7 +216,7 @@ def test_every_type_is_described():
     assert set(get_args(JointType)) == set(JOINTS) <= first_column("Joints")
     for record in (Box, Cylinder, Capsule, Tube, Sphere, Extrusion, Mesh):
         assert record.model_fields["type"].default in first_column("Shapes")
-    for coupling in (Gear, Belt, Rack, LinearCoupling):
+    for coupling in (Gear, Belt, Rack, LinearCoupling, FunctionCoupling):
         (row,) = [
             cells for cells in rows(section("Couplings")) if cells[0] == f"`{coupling.model_fields['type'].default}`"
         ]

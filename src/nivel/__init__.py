@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from nivel.machine import Event as Event
     from nivel.machine import Expression as Expression
     from nivel.machine import Friction as Friction
+    from nivel.machine import FunctionCoupling as FunctionCoupling
     from nivel.machine import Gear as Gear
     from nivel.machine import Input as Input
     from nivel.machine import Joint as Joint
@@ -83,6 +84,7 @@ _HOME = {
     "Event": "nivel.machine",
     "Expression": "nivel.machine",
     "Friction": "nivel.machine",
+    "FunctionCoupling": "nivel.machine",
     "Gear": "nivel.machine",
     "Input": "nivel.machine",
     "Joint": "nivel.machine",
@@ -124,6 +126,7 @@ __all__ = [
     "Event",
     "Expression",
     "Friction",
+    "FunctionCoupling",
     "Gear",
     "Input",
     "Joint",

@@ -11,10 +11,10 @@ from nivel.files.instance import MENTIONS, renamed
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine import Body, Driver, Expression, Joint, Marker, PointForce, PythonLaw, Sensor, Table
 from nivel.machine.forces import FORCES
-from nivel.machine.joints.coupling import Belt, Gear, LinearCoupling, Rack
+from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
-RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, Driver, *FORCES, Sensor)
+RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, FunctionCoupling, Driver, *FORCES, Sensor)
 TEXTS = {
     "name",
     "units",

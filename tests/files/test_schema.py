@@ -7,7 +7,7 @@ from nivel.files.outline import FILE_WORDS
 from nivel.machine import Beam, Body, Box, Joint, MachineRecord, Sensor, SimulationSettings
 from nivel.machine.core.record import field_words
 from nivel.machine.forces import FORCES
-from nivel.machine.joints.coupling import Belt, Gear, LinearCoupling, Rack
+from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
 SCHEMA = schema()
@@ -36,7 +36,7 @@ def test_elements_have_the_keys_of_their_records_but_no_name(record):
 
 
 @pytest.mark.parametrize(
-    ("section", "records"), [("forces", FORCES), ("couplings", (Gear, Belt, Rack, LinearCoupling))]
+    ("section", "records"), [("forces", FORCES), ("couplings", (Gear, Belt, Rack, LinearCoupling, FunctionCoupling))]
 )
 def test_elements_of_several_types_are_told_apart_by_the_type(section, records):
     choices = SCHEMA["properties"][section]["additionalProperties"]["oneOf"]

@@ -116,6 +116,13 @@ EVERYTHING = {
             "coordinates": ["hinge.angle", "slide.displacement"],
             "factors": [1, "-1/20"],
         },
+        {
+            "name": "cam",
+            "type": "function",
+            "coordinate": "slide.displacement",
+            "value": "1 cm * sin(hinge.angle)",
+            "from_start": True,
+        },
     ],
     "drivers": [
         {"name": "drive", "coordinate": "hinge", "value": "2*pi*time"},

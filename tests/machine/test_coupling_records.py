@@ -3,9 +3,12 @@
 import pytest
 from refusals import refused
 
-from nivel.machine import Belt, Gear, LinearCoupling, Rack
+from nivel.machine import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 
 AB = {"joints": ("a", "b.angle")}
+CAM = {"coordinate": "a.angle"}
+TABLE = {"of": "b.angle", "points": [0, 1], "values": [0, 2]}
+LAW = {"source": "def f(q):\n    return q\n", "function": "f", "arguments": ["b.angle"]}
 
 
 @pytest.mark.parametrize(
@@ -20,6 +23,10 @@ AB = {"joints": ("a", "b.angle")}
         (
             LinearCoupling(name="g", coordinates=("a", "b.x", "c.y"), factors=(1, -0.5, "1/4")),
             (("a", 1.0), ("b.x", -0.5), ("c.y", 0.25)),
+        ),
+        (
+            FunctionCoupling(name="g", coordinate="a.displacement", value="1 cm * sin(b.angle) * c.angle"),
+            (("a.displacement", 1.0), ("b.angle", 0.0), ("c.angle", 0.0)),
         ),
     ],
     ids=lambda value: value.type if hasattr(value, "type") else "",
@@ -51,6 +58,17 @@ def test_the_terms_are_those_of_the_equation(coupling, terms):
         (LinearCoupling, {"coordinates": ("a",), "factors": (1,)}, "two or more coordinates were expected, got 1"),
         (LinearCoupling, {"coordinates": ("a", "b"), "factors": (1,)}, "as many factors as coordinates; got 1 and 2"),
         (LinearCoupling, {"coordinates": ("a", "b"), "factors": (1, 0)}, "couplings.g.factors.1: the factor is zero"),
+        (
+            FunctionCoupling,
+            {**CAM, "value": "abs(b.angle)"},
+            "couplings.g.value: `abs` has corners; a coupling must be",
+        ),
+        (FunctionCoupling, {**CAM, "value": "time*b.angle"}, "what follows `time` is the `value` of a driver"),
+        (FunctionCoupling, {**CAM, "value": "5 deg"}, "no joint coordinate stands here"),
+        (FunctionCoupling, {**CAM, "value": "2*a.angle"}, "`a.angle` follows from other coordinates, not from itself"),
+        (FunctionCoupling, {**CAM, "value": "2 cm * b.angle"}, "an angle (rad) was expected"),
+        (FunctionCoupling, {**CAM, "value": TABLE}, "corners, where speeds or accelerations would jump; write `interp"),
+        (FunctionCoupling, {**CAM, "value": LAW}, "a function in Python has no exact derivatives"),
     ],
 )
 def test_refused(make, given, part):

@@ -141,7 +141,7 @@ def test_where_nothing_varies_symbols_are_refused():
     for text, part in [
         (
             "2*hinge.angle",
-            "`hinge.angle` may only be used where a value may vary: in forces, states, sensors and events",
+            "`hinge.angle` may only be used where a value may vary: in forces, couplings of `type: function`, states, ",
         ),
         ("2*time", "`time` may only be used where a value may vary: in forces, drivers, states, sensors and events"),
         ("2*length", "(only the `law` of a spring knows its `length`)"),

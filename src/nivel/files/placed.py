@@ -16,6 +16,7 @@ from nivel.machine import (
     Driver,
     Event,
     Expression,
+    FunctionCoupling,
     LinearCoupling,
     PythonLaw,
     Rack,
@@ -95,6 +96,9 @@ def placed_coupling(coupling: Any, scene: Scene) -> Any:
     if isinstance(coupling, LinearCoupling):
         signs = [-1.0 if scene.is_opposite(reference) else 1.0 for reference in coupling.coordinates]
         return coupling.replace(factors=[sign * each for sign, each in zip(signs, coupling.factors, strict=True)])
+    if isinstance(coupling, FunctionCoupling):
+        value = scene.varied(coupling.value)
+        return coupling.replace(value=negative(value) if scene.is_opposite(coupling.coordinate) else value)
     if isinstance(coupling, Rack) and scene.is_opposite(coupling.joints[1]):
         return coupling.replace(radius=-coupling.radius)
     return coupling

@@ -29,7 +29,7 @@ from nivel.machine.forces import (
     Torque,
     TorsionalSpringDamper,
 )
-from nivel.machine.joints.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
+from nivel.machine.joints.coupling import Belt, Coupling, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import JOINT_COORDINATES, Joint, JointType
 from nivel.machine.laws.symbols import find_symbol
@@ -65,6 +65,7 @@ __all__ = [
     "Extrusion",
     "Force",
     "Friction",
+    "FunctionCoupling",
     "Gamepad",
     "Gear",
     "GlobalPoint",

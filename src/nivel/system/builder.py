@@ -14,6 +14,7 @@ from nivel.machine.control.part import PartFunction
 from nivel.machine.core.marker import Marker
 from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.laws.symbols import find_symbol, is_output
+from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve
@@ -206,6 +207,10 @@ class SystemBuilder:
 
         end = self.machine.simulation.duration
         return self.functions.add(value, find, motion=motion, end=end, switching=switching)
+
+    def spline(self, table: Table, order: int) -> int:
+        """Index of the derivative of this order (0: the value) of a cubic table of a signal, which goes on straight beyond its ends."""
+        return self.functions.add_spline(table, order, self.signal)
 
     def signal_at(self, path: str) -> Signal:
         """The signal of a part of a block; what it depends on is noted."""

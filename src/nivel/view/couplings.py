@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.poses import rotation
+from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
 from nivel.view.coordinate_places import CoordinatePlace, coordinate_place
 from nivel.view.records import Coupling, End, Track, Wheel
@@ -47,7 +48,7 @@ class _Couplings:
 
     def _coupling(self, known: dict[str, Any]) -> Coupling:
         kind = str(known.get("type", "coupling"))
-        named = list(known.get("joints") or known.get("coordinates") or [])
+        named = list(known.get("joints") or known.get("coordinates") or _followed(known))
         wanted = KINDS.get(kind)
         places = [
             coordinate_place(name, self._cast.joints, wanted[k] if wanted and k < 2 else None)
@@ -118,6 +119,12 @@ class _Couplings:
 
     def _back(self, body: int, point: Array) -> Array:
         return self._unturned(body, point - (0.0 if body < 0 else self._r[body]))
+
+
+def _followed(known: dict[str, Any]) -> list[str]:
+    """The coordinate of a coupling by a function, and those that it follows."""
+    coupling = FunctionCoupling.model_validate(known)
+    return [coupling.coordinate, *coupling.coordinates]
 
 
 def _sides(at: list[CoordinatePlace]) -> list[int]:

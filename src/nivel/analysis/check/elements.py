@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope
 from nivel.machine.hydraulics import Component
-from nivel.machine.joints.coupling import Coupling
+from nivel.machine.joints.coupling import Coupling, FunctionCoupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
@@ -19,6 +19,10 @@ from nivel.machine.uses.coordinate_reference import resolve
 
 def coupling_in_words(machine: MachineRecord, coupling: Coupling) -> str:
     """The equation that a coupling holds, its first coordinate with the factor one."""
+    if isinstance(coupling, FunctionCoupling):
+        name = ".".join(resolve(coupling.coordinate, machine.joints))
+        placed = "as placed + change of " if coupling.from_start else ""
+        return f"{coupling.name}: {name} = {placed}{function_in_words(coupling.value)}"
     leading = coupling.terms[0][1]
     terms = []
     for (reference, factor), kind in zip(coupling.terms, coupling.kinds, strict=True):

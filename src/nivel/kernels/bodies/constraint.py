@@ -2,14 +2,14 @@
 
 A row consists of parts (f, n), one for each marker it touches: Ċ = Σ fᵀ ṙ + nᵀ ω, all in global axes; γ is the right-hand side of
 C_q v̇ = γ, that is minus everything in C̈ that does not contain accelerations of the bodies. s, d1 and d2 hold joints together at
-zero; a combination Σ factor coordinate - offset - f(t) = 0 of measured coordinates is everything else: distances, screws, gears,
-drivers.
+zero; a combination Σ factor coordinate - offset - f(t) - g(coordinates) = 0 of measured coordinates is everything else: distances,
+screws, gears, drivers, cams.
 """
 
 from __future__ import annotations
 
 from nivel.kernels.bodies.coordinate import cosine, translation
-from nivel.kernels.record.function import evaluate_motion
+from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.record import NONE
 from nivel.native.function import stage
 
@@ -71,10 +71,18 @@ def combine(machine, constraints, coordinates, friction, t):
             value += motion
         constraints.motion[k] = rate
         C, Cdot, gamma = -value, -rate, second
+        if what[6] != NONE:
+            C -= evaluate_function(machine, what[6], t)
+            for b in range(what[7], what[8]):
+                i, j = constraints.bend[b, 0], constraints.bend[b, 1]
+                curvature = evaluate_function(machine, constraints.bend[b, 2], t)
+                gamma += curvature * coordinates.rate[i] * coordinates.rate[j]
         for n in range(what[1], what[2]):
             q, place = constraints.term[n, 0], constraints.term[n, 1]
             factor = constraints.factor[n]
             C += factor * coordinates.value[q]
+            if constraints.term[n, 2] != NONE:
+                factor -= evaluate_function(machine, constraints.term[n, 2], t)
             Cdot += factor * coordinates.rate[q]
             gamma -= factor * coordinates.bias[q]
             for part in range(coordinates.start[q], coordinates.start[q + 1]):

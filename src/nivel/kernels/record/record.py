@@ -103,13 +103,12 @@ class Constraints(NamedTuple):
     s: U2  # (·, 4) first marker, second marker, first row, first part
     d1: U2  # (·, 6) first marker, its axis, second marker, its axis, row, part
     d2: U2  # (·, 5) first marker, its axis, second marker, row, part
-    combination: U2  # (·, 6) row, first term, one past the last, function or NONE, first part, one past the last
-    term: (
-        U2  # (·, 2) coordinate, place in term_part of the row's part for the coordinate's first one; the others follow
-    )
+    combination: U2  # (·, 9) row, first term, past the last, f or NONE, first part, past the last, g or NONE, first bend, past the last
+    term: U2  # (·, 3) coordinate, place in term_part of the row's part for its first one (the others follow), function ∂g/∂q or NONE
+    bend: U2  # (·, 3) coordinates i and j, function ∂²g/∂q_i∂q_j; of two different ones both orders stand here
     term_part: U1
     factor: F1  # (·,) of each term
-    offset: F1  # (combinations,) Σ factor coordinate - offset - f(t) = 0
+    offset: F1  # (combinations,) Σ factor coordinate - offset - f(t) - g(coordinates) = 0
     motion: W1  # (combinations,) f'(t), work
     scale: F1  # (K,) what a violation is measured by: the length of the machine [m], or 1 for cosines and angles
     # work

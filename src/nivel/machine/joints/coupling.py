@@ -1,18 +1,27 @@
-"""Couplings in words: a linear equation between joint coordinates, as of gears, belts and racks.
+"""Couplings in words: an equation between joint coordinates, linear as of gears, belts and racks, or any smooth one as of cams.
 
-Every coupling holds Σ factor · coordinate at the value that it has as the machine is placed.
+A linear coupling holds Σ factor · coordinate at the value that it has as the machine is placed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from functools import cached_property
+from itertools import combinations_with_replacement
+from typing import Annotated, ClassVar, Final, Literal
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, ManyNames, ManyNumbers, Maybe, TwoNames, TwoNumbers
+from nivel.machine.laws.coordinate_function import CoordinatePosition
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction, signals_of
+from nivel.machine.units.derivative import derivative
+from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.quantity import Length, PositiveLength, Scalar
+from nivel.machine.units.tree import ExpressionError, Lookup, Node, Number, Signal
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind
 
 Terms = tuple[tuple[str, float], ...]
@@ -133,4 +142,91 @@ class LinearCoupling(Checked):
                 yield Problem(("factors", at), "the factor is zero; leave the coordinate out")
 
 
-Coupling = Annotated[Gear | Belt | Rack | LinearCoupling, Field(discriminator="type")]
+# interpolations of tables that are smooth enough: of the second derivative, which accelerations follow, none jumps
+SMOOTH: Final = ("cubic", "quintic")
+
+
+class FunctionCoupling(Checked):
+    """A coordinate that is a function of others: coordinate = value, as of a cam, a pair of non-circular gears, a linkage as a curve."""
+
+    collection: ClassVar[str] = "couplings"
+
+    name: Name
+    type: Literal["function"] = "function"
+    coordinate: CoordinateReference = Field(description="joint coordinate that follows")
+    value: CoordinatePosition = Field(description="length or angle, a smooth function of other joint coordinates")
+    from_start: Truth = Field(
+        default=False,
+        description="the coordinate moves from where it is placed by what `value` changes from its value as placed",
+    )
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The coordinates that it follows."""
+        return signals_of(self.value)
+
+    @property
+    def terms(self) -> Terms:
+        """(coordinate, factor), …: the linear part of coordinate - value = 0."""
+        return (self.coordinate, 1.0), *((each, 0.0) for each in self.coordinates)
+
+    @property
+    def kinds(self) -> tuple[Kind | None, ...]:
+        """What kind of coordinate each term needs."""
+        return (None,) * len(self.terms)
+
+    @cached_property
+    def slopes(self) -> dict[tuple[str, ...], Table | Expression | float]:
+        """The derivatives of `value`, first by one coordinate (q,), then by two (q, r) in the order of `coordinates`; those that are
+        zero are left out. A cubic table stands for its own derivatives: its pieces are differentiated.
+
+        Raises ExpressionError where there are none: corners, time.
+        """
+        if isinstance(self.value, Table) and self.value.interpolation == "cubic":
+            return {(self.value.of,): self.value, (self.value.of, self.value.of): self.value}
+        tree = _tree(self.value)
+        first = {path: derivative(tree, path) for path in self.coordinates}
+        second = {
+            (one, two): derivative(first[one], two) for one, two in combinations_with_replacement(self.coordinates, 2)
+        }
+        found = {**{(path,): node for path, node in first.items()}, **second}
+        return {paths: _function(node) for paths, node in found.items() if node != Number(0.0)}
+
+    def problems(self) -> Iterator[Problem]:
+        value, place = self.value, ("value",)
+        if isinstance(value, Table) and value.interpolation not in SMOOTH:
+            yield Problem(
+                place,
+                f"a table with `interpolation: {value.interpolation}` has corners, where speeds or accelerations would jump; "
+                "write `interpolation: cubic`",
+            )
+            return
+        try:
+            self.slopes  # noqa: B018
+        except ExpressionError as problem:
+            yield Problem(place, str(problem))
+            return
+        if not self.coordinates:
+            yield Problem(place, "no joint coordinate stands here, e.g. `0.02*crank.angle`; what is constant is locked")
+        if self.coordinate in self.coordinates:
+            yield Problem(place, f"`{self.coordinate}` follows from other coordinates, not from itself")
+
+
+def _tree(value: TimeFunction) -> Node:
+    match value:
+        case Table():
+            return Lookup(Signal(value.of), value.interpolation, tuple(value.times), tuple(value.values))
+        case Expression():
+            return value.tree
+        case PythonLaw():
+            raise ExpressionError(
+                "a function in Python has no exact derivatives; write an expression or a smooth table"
+            )
+    return Number(float(value))
+
+
+def _function(node: Node) -> Expression | float:
+    return node.value if isinstance(node, Number) else expression_of(node)
+
+
+Coupling = Annotated[Gear | Belt | Rack | LinearCoupling | FunctionCoupling, Field(discriminator="type")]

@@ -1,4 +1,4 @@
-"""Exact derivatives of expressions with respect to time, by the rules of calculus.
+"""Exact derivatives of expressions with respect to time or to a signal, by the rules of calculus.
 
     (u v)' = u' v + u v'        (u/v)' = u'/v - u v'/v²        (u^v)' = u^v (v' log u + v u'/u)        f(u)' = f'(u) u'
 
@@ -9,6 +9,7 @@ expression itself is: 3*time^2 becomes 6*time, without a division by time.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Final
 
 from nivel.machine.units.arithmetic import evaluate
@@ -35,80 +36,98 @@ _MOST_LEAVES: Final = 4000  # second derivatives of long products grow with the 
 _ZERO, _ONE, _TWO = Number(0.0), Number(1.0), Number(2.0)
 
 
-def derivative(node: Node) -> Node:
-    """The derivative of `node` with respect to time. Names must be bound.
+def derivative(node: Node, path: str | None = None) -> Node:
+    """The derivative of `node` with respect to time, or to the signal `path` while all others stay. Names must be bound.
 
-    Raises ExpressionError for signals, for functions with corners, and where the derivative would be too long.
+    Raises ExpressionError for functions with corners, where the derivative would be too long, and for what may not vary: signals where it
+    is by time, time where it is by a signal.
     """
     if names(node):
         raise ExpressionError(f"`{min(names(node))}` has no value")
-    result = _derivative(node)
+    result = _Derivative(path).of(node)
     if sum(1 for _ in leaves(result)) > _MOST_LEAVES:
         raise ExpressionError("the expression is too long to be differentiated; shorten it or use a table")
     return result
 
 
-def _derivative(node: Node) -> Node:
-    if not varies(node):
-        return _ZERO
-    match node:
-        case Time():
-            return _ONE
-        case Signal(path):
-            raise ExpressionError(f"`{path}` is only known while the machine moves; a driver depends on `time` alone")
-        case Negative(operand):
-            return minus(_derivative(operand))
-        case Operation(symbol, left, right):
-            return _of_operation(symbol, left, right)
-        case Lookup(argument, kind, points, values, order):
-            if kind != "quintic":
-                raise ExpressionError(
-                    f"a {kind} curve has corners, at its ends at least; a driver must be smooth: take quintic"
-                )
-            return times(Lookup(argument, kind, points, values, order + 1), _derivative(argument))
-        case Call(function, arguments):
-            return _of_call(function, arguments)
-    raise AssertionError(node)
+@dataclass(frozen=True)
+class _Derivative:
+    """The rules with respect to time (None) or to a signal."""
 
+    path: str | None
 
-def _of_operation(symbol: str, u: Node, v: Node) -> Node:
-    if symbol in (*COMPARISONS, *LOGICAL):
-        raise ExpressionError(f"`{symbol}` has corners; a driver must be smooth")
-    match symbol:
-        case "+":
-            return plus(_derivative(u), _derivative(v))
-        case "-":
-            return minus(_derivative(u), _derivative(v))
-        case "*":
-            return plus(times(_derivative(u), v), times(u, _derivative(v)))
-        case "/" if not varies(v):
-            return over(_derivative(u), v)
-        case "/" if not varies(u) and isinstance(v, Time):
-            return minus(_ZERO, over(times(u, _derivative(v)), to_the(v, _TWO)))
-        case "/":
-            # no square of v, which would leave the range of numbers where v is near its end
-            return minus(over(_derivative(u), v), times(over(u, v), over(_derivative(v), v)))
-    if not varies(v):
-        n = evaluate(v)
-        return times(times(Number(n), to_the(u, Number(n - 1))), _derivative(u))
-    growth = times(_derivative(v), Call("log", (u,)))
-    return times(to_the(u, v), plus(growth, over(times(v, _derivative(u)), u)))
+    @property
+    def _what(self) -> str:
+        """What the expression moves."""
+        return "a driver" if self.path is None else "a coupling"
 
+    def of(self, node: Node) -> Node:
+        if not varies(node):
+            return _ZERO
+        match node:
+            case Time():
+                if self.path is not None:
+                    raise ExpressionError(
+                        "a coupling depends on joint coordinates alone; what follows `time` is the `value` of a driver"
+                    )
+                return _ONE
+            case Signal(path):
+                if self.path is None:
+                    raise ExpressionError(
+                        f"`{path}` is only known while the machine moves; a driver depends on `time` alone"
+                    )
+                return _ONE if path == self.path else _ZERO
+            case Negative(operand):
+                return minus(self.of(operand))
+            case Operation(symbol, left, right):
+                return self._of_operation(symbol, left, right)
+            case Lookup(argument, kind, points, values, order):
+                if kind != "quintic":
+                    raise ExpressionError(
+                        f"a {kind} curve has corners, at its ends at least; {self._what} must be smooth: take quintic"
+                    )
+                return times(Lookup(argument, kind, points, values, order + 1), self.of(argument))
+            case Call(function, arguments):
+                return self._of_call(function, arguments)
+        raise AssertionError(node)
 
-def _of_call(function: str, arguments: tuple[Node, ...]) -> Node:
-    kind = FUNCTIONS[function]
-    if not kind.derivative and not kind.is_form_alone:
-        smooth = f"; `{kind.smooth}` is smooth" if kind.smooth else ""
-        raise ExpressionError(f"`{function}` has corners; a driver must be smooth{smooth}")
-    if not kind.derivative:
-        return _derivative(kind.written(kind.form, arguments))
-    given = dict(zip(kind.names, arguments, strict=True))
-    rates = {f"d{name}" for name in given}
-    rule = read(kind.derivative, (*kind.names, *sorted(rates)))
-    used = rates & set(signals(rule))
-    if any(varies(each) for name, each in given.items() if f"d{name}" not in used):
-        raise ExpressionError(f"the levels of `{function}` vary; a driver needs constant ones")
-    return _with(rule, given | {f"d{name}": _derivative(each) for name, each in given.items() if f"d{name}" in used})
+    def _of_operation(self, symbol: str, u: Node, v: Node) -> Node:
+        if symbol in (*COMPARISONS, *LOGICAL):
+            raise ExpressionError(f"`{symbol}` has corners; {self._what} must be smooth")
+        match symbol:
+            case "+":
+                return plus(self.of(u), self.of(v))
+            case "-":
+                return minus(self.of(u), self.of(v))
+            case "*":
+                return plus(times(self.of(u), v), times(u, self.of(v)))
+            case "/" if not varies(v):
+                return over(self.of(u), v)
+            case "/" if not varies(u) and isinstance(v, Time):
+                return minus(_ZERO, over(times(u, self.of(v)), to_the(v, _TWO)))
+            case "/":
+                # no square of v, which would leave the range of numbers where v is near its end
+                return minus(over(self.of(u), v), times(over(u, v), over(self.of(v), v)))
+        if not varies(v):
+            n = evaluate(v)
+            return times(times(Number(n), to_the(u, Number(n - 1))), self.of(u))
+        growth = times(self.of(v), Call("log", (u,)))
+        return times(to_the(u, v), plus(growth, over(times(v, self.of(u)), u)))
+
+    def _of_call(self, function: str, arguments: tuple[Node, ...]) -> Node:
+        kind = FUNCTIONS[function]
+        if not kind.derivative and not kind.is_form_alone:
+            smooth = f"; `{kind.smooth}` is smooth" if kind.smooth else ""
+            raise ExpressionError(f"`{function}` has corners; {self._what} must be smooth{smooth}")
+        if not kind.derivative:
+            return self.of(kind.written(kind.form, arguments))
+        given = dict(zip(kind.names, arguments, strict=True))
+        rates = {f"d{name}" for name in given}
+        rule = read(kind.derivative, (*kind.names, *sorted(rates)))
+        used = rates & set(signals(rule))
+        if any(varies(each) for name, each in given.items() if f"d{name}" not in used):
+            raise ExpressionError(f"the levels of `{function}` vary; {self._what} needs constant ones")
+        return _with(rule, given | {f"d{name}": self.of(each) for name, each in given.items() if f"d{name}" in used})
 
 
 def _with(rule: Node, given: Mapping[str, Node]) -> Node:

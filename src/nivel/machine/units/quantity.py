@@ -240,7 +240,8 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
     tree = bound_tree(text, parameters)
     if signals(tree):
         raise ExpressionError(
-            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, states, sensors and events"
+            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, couplings of `type: function`, states, "
+            "sensors and events"
         )
     if varies(tree):
         raise ExpressionError(

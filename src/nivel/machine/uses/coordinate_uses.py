@@ -20,6 +20,7 @@ from nivel.machine.uses.coordinate_reference import Kind, UnknownCoordinateError
 Faults = Iterator[tuple[Place, str]]
 
 WITH_COORDINATE: Final = (
+    "couplings",
     "drivers",
     "forces",
     "hydraulics",

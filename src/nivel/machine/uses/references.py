@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 from typing import Any, Final
 
 from nivel.machine.bodies.point_masses import point_mass_faults
@@ -11,9 +12,9 @@ from nivel.machine.core.record import GROUND, Record, entry, unknown_word
 from nivel.machine.forces import Contact
 from nivel.machine.forces.contact import HULLS, SHAPES_ON_PLANE
 from nivel.machine.joints.joint import JOINT_WORDS
-from nivel.machine.laws.symbols import outputs_of, states_of, symbol_faults
+from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters
-from nivel.machine.uses.coordinate_reference import unknown_name
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, unknown_name
 from nivel.machine.uses.coordinate_uses import coordinate_faults
 from nivel.machine.uses.hydraulic_uses import hydraulic_faults
 
@@ -63,6 +64,8 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
     yield from hydraulic_faults(machine, index, parameters or {})
     for at, component in enumerate(elements(machine, "hydraulics")):
         yield from _of_pair(component, index, ("hydraulics", at), "a cylinder needs two different bodies")
+    for at, coupling in enumerate(elements(machine, "couplings")):
+        yield from _of_curve(coupling, index, parameters or {}, ("couplings", at))
     for section in ("forces", "states", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
@@ -113,6 +116,21 @@ def _of_driver(driver: Any, index: Index, place: Place) -> Faults:
     against = GROUND if seen_from in (None, GROUND) else index.body_of(seen_from)
     if on is not None and on == against and marker != seen_from:
         yield (*place, "marker"), f"the marker `{marker}` is on `{on}`, relative to which it is driven; it cannot move"
+
+
+def _of_curve(coupling: Any, index: Index, parameters: Parameters, place: Place) -> Faults:
+    """What a coupling follows: positions of joints alone."""
+    yield from symbol_faults(coupling, place, index, parameters)
+    for where, path in paths_in(entry(coupling, "value"), (*place, "value"), index, parameters):
+        joint, _, quantity = path.partition(".")
+        if joint in index.joints and quantity in COORDINATE_KINDS:
+            continue
+        with suppress(UnknownSymbolError):
+            find_in(path, index)
+            yield (
+                where,
+                f"`{path}` is not a position of a joint; a coupling follows joint coordinates such as `hinge.angle`",
+            )
 
 
 def _of_force(force: Any, index: Index, place: Place) -> Faults:

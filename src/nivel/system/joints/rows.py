@@ -8,7 +8,10 @@ import numpy as np
 
 from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.kernels.record.record import NONE, Constraints
+from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.joints.joint import Joint
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.system.builder import SystemBuilder
 from nivel.system.joints.composition import (
@@ -29,6 +32,16 @@ from nivel.system.tables import Rail, Wheel, index_array
 # cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad
 PARALLEL = 5e-7
 Views = dict[str, tuple[int, int | Rail | Wheel]]  # from which marker to which, or to a beam or wheel
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A function of coordinates in numbers of functions: its value, ∂/∂q of each coordinate q, and (q, r, function) of its second
+    derivatives, those of two different coordinates in both orders."""
+
+    value: int
+    slopes: dict[int, int]
+    bends: list[tuple[int, int, int]]
 
 
 @dataclass
@@ -53,7 +66,8 @@ class RowTable:
     d1: list[tuple[int, ...]] = field(default_factory=list)
     d2: list[tuple[int, ...]] = field(default_factory=list)
     combination: list[tuple[int, ...]] = field(default_factory=list)
-    term: list[tuple[int, int]] = field(default_factory=list)
+    term: list[tuple[int, int, int]] = field(default_factory=list)
+    bend: list[tuple[int, int, int]] = field(default_factory=list)
     term_part: list[int] = field(default_factory=list)
     factor: list[float] = field(default_factory=list)
     given: list[float | None] = field(default_factory=list)
@@ -81,12 +95,15 @@ class RowTable:
         markers: tuple[int, ...] = (),
         offset: float | None = None,
         function: int = NONE,
+        curve: Curve | None = None,
         report: tuple[int, int] = (NONE, 0),
     ) -> int:
-        """Make `row` the combination Σ factor coordinate - offset - function = 0; returns its first part.
+        """Make `row` the combination Σ factor coordinate - offset - function - curve = 0; returns its first part.
 
-        markers : that the first parts belong to; the rest follow from the coordinates. report : as `Outputs.combination`.
+        markers : that the first parts belong to; the rest follow from the coordinates. function : of time. curve : a function of the
+        coordinates. report : as `Outputs.combination`.
         """
+        value, slopes, bends = (NONE, {}, []) if curve is None else (curve.value, curve.slopes, curve.bends)
         parts = {marker: self.part(row, marker) for marker in markers}
         first_term = len(self.term)
         for coordinate, factor in terms:
@@ -94,12 +111,14 @@ class RowTable:
             for marker in ends:
                 if marker not in parts:
                     parts[marker] = self.part(row, marker)
-            self.term.append((coordinate, len(self.term_part)))
+            self.term.append((coordinate, len(self.term_part), slopes.get(coordinate, NONE)))
             self.term_part += [parts[marker] for marker in ends]
             self.factor.append(factor)
         first_part = min(parts.values())
-        span = (first_part, first_part + len(parts))
-        self.combination.append((row, first_term, len(self.term), function, *span))
+        first_bend = len(self.bend)
+        self.bend += bends
+        spans = (first_part, first_part + len(parts), value, first_bend, len(self.bend))
+        self.combination.append((row, first_term, len(self.term), function, *spans))
         self.given.append(offset)
         self.reports.append(report)
         return first_part
@@ -116,8 +135,9 @@ class RowTable:
             s=index_array(self.s, 4),
             d1=index_array(self.d1, 6),
             d2=index_array(self.d2, 5),
-            combination=index_array(self.combination, 6),
-            term=index_array(self.term, 2),
+            combination=index_array(self.combination, 9),
+            term=index_array(self.term, 3),
+            bend=index_array(self.bend, 3),
             term_part=index_array(self.term_part, 1),
             factor=np.array(self.factor, dtype=float),
             offset=np.array([given or 0.0 for given in self.given], dtype=float),
@@ -225,12 +245,37 @@ def add_couplings(builder: SystemBuilder, rows: RowTable) -> None:
         leading = terms[0][1]
         units = units_of(builder, terms[0][0])
         row = rows.row(coupling.name, "coupling", units)
+        follows = isinstance(coupling, FunctionCoupling)
+        curve = _curve(builder, coupling) if follows else None
+        offset = 0.0 if follows and not coupling.from_start else None
         effort = "N m" if units == "rad" else "N"
         output = builder.outputs.add(
             (f"coupling.{coupling.name}.effort", effort, f"effort of {coupling.name} on its first coordinate")
         )
         scaled = [(coordinate, factor / leading) for coordinate, factor in terms]
-        rows.combine(builder, row, scaled, report=(output, 0))
+        rows.combine(builder, row, scaled, offset=offset, curve=curve, report=(output, 0))
+
+
+def _curve(builder: SystemBuilder, coupling: FunctionCoupling) -> Curve:
+    """The value that a coordinate follows, and its derivatives. A cubic table goes on straight beyond its ends, where it has no corner."""
+    coordinate = {path: builder.coordinate(path) for path in coupling.coordinates}
+    slopes: dict[int, int] = {}
+    bends: list[tuple[int, int, int]] = []
+    for paths, function in coupling.slopes.items():
+        number = _smooth(builder, function, len(paths))
+        first, *others = [coordinate[path] for path in paths]
+        if not others:
+            slopes[first] = number
+        else:
+            bends += [(one, two, number) for one, two in dict.fromkeys([(first, *others), (*others, first)])]
+    return Curve(_smooth(builder, coupling.value, 0), slopes, bends)
+
+
+def _smooth(builder: SystemBuilder, function: TimeFunction, order: int) -> int:
+    """Number of a function, of a cubic table of its derivative of this order."""
+    if isinstance(function, Table) and function.interpolation == "cubic":
+        return builder.spline(function, order)
+    return builder.function(function, switching=False)
 
 
 def units_of(builder: SystemBuilder, coordinate: int) -> str:

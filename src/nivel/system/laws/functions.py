@@ -109,6 +109,19 @@ class FunctionTable:
         """Index of a new table that goes on beyond its ends; `coefficients` (n, 4) as `Functions.coefficients`."""
         return self._append(TABLE_EXTENDED, [], _nothing, table=(knots, coefficients.tolist()))
 
+    def add_spline(self, table: Table, order: int, find: Find) -> int:
+        """Index of the derivative of this order (0: the value) of a cubic table, which goes on straight beyond its ends: a natural spline
+        is not bent there."""
+        points, inner = np.array(table.times), table.coefficients()
+        h = points[-1] - points[-2]
+        begin, end = inner[0, 1], inner[-1] @ [0.0, 1.0, 2.0 * h, 3.0 * h * h]
+        before = [table.values[0] - begin, begin, 0.0, 0.0]  # from a knot at a distance of one before the first point
+        pieces = np.vstack([before, inner, [table.values[-1], end, 0.0, 0.0]])
+        for _ in range(order):
+            pieces = np.hstack([pieces[:, 1:] * [1.0, 2.0, 3.0], np.zeros((len(pieces), 1))])
+        knots = [points[0] - 1.0, *points]
+        return self._append(TABLE_EXTENDED, [table.of], find, table=(knots, pieces.tolist()))
+
     def _append(
         self,
         kind: int,

@@ -19,6 +19,7 @@ __version__ = "0.2.0"
 
 if TYPE_CHECKING:
     from nivel.api import Machine as Machine
+    from nivel.api import import_model as import_model
     from nivel.api import load as load
     from nivel.api import open_result as open_result
     from nivel.api import sweep as sweep
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Machine": "nivel.api",
+    "import_model": "nivel.api",
     "load": "nivel.api",
     "open_result": "nivel.api",
     "sweep": "nivel.api",
@@ -155,6 +157,7 @@ __all__ = [
     "ThreeAxisSpring",
     "Torque",
     "TorsionalSpringDamper",
+    "import_model",
     "load",
     "open_result",
     "sweep",

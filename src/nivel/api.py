@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 from nivel.analysis.compare.compare_grid import compile_grid, lay_out
 from nivel.analysis.plan.compilation import (
@@ -746,6 +746,25 @@ def load(path: str | PathLike[str], overrides: Mapping[str, Any] | None = None, 
     record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
     values = dict(overrides or {})
     return Machine.from_record(record, Origin(text, file, outside_paths(values), values=values, allow_code=allow_code))
+
+
+@checked_arguments
+def import_model(
+    path: str | PathLike[str],
+    *,
+    base: Literal["fixed", "free"] | None = None,
+    package_paths: Sequence[str | PathLike[str]] = (),
+) -> Machine:
+    """The machine that a model of another program describes: a URDF or SDF file.
+
+    base : whether the first link is fixed to the ground; default fixed for URDF, else as the model says. package_paths : folders in which
+    meshes at ``package://`` are searched for. What is not translated is listed by `nivel import`.
+    Raises ModelError with every fault of the model, each with its line.
+    """
+    from nivel.exchange import translated_machine
+
+    record = translated_machine(fspath(path), base=base, package_paths=[Path(fspath(each)) for each in package_paths])
+    return Machine.from_record(record)
 
 
 @checked_arguments

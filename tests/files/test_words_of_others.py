@@ -378,7 +378,7 @@ def test_sec_is_a_second():
 FILES = {
     "result.nc": (b"\x89HDF\r\n\x1a\n\x00\x00", "`nivel view {}` plays it"),
     "report.html": (b"<!doctype html>\n<title>rod</title>", "a page for a browser"),
-    "robot.urdf": (b"<?xml version='1.0'?>\n<robot name='arm'>", "a model in URDF"),
+    "robot.urdf": (b"<?xml version='1.0'?>\n<robot name='arm'>", "`nivel import {} --out machine.yaml` translates"),
     "part.stl": (b"solid part\nfacet normal 0 0 1\n", "`shape: {{type: mesh, file: {}}}`"),
 }
 

@@ -1,11 +1,11 @@
-"""`file:` of a mesh: STL (text or binary), OBJ and glTF (.gltf, .glb) as vertices and triangles."""
+"""`file:` of a mesh: STL (text or binary), OBJ, COLLADA (.dae) and glTF (.gltf, .glb) as vertices and triangles."""
 
 from __future__ import annotations
 
 import base64
 import json
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -13,15 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.files.collada_file import ColladaError, collada_surface
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources, read_bytes
-from nivel.files.tree import Tree
+from nivel.files.tree import Path, Tree
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 
 Array = NDArray[np.float64]
-KINDS: Final = (".stl", ".obj", ".gltf", ".glb")
+KINDS: Final = (".stl", ".obj", ".dae", ".gltf", ".glb")
 STL_HEAD: Final = 84  # bytes before the triangles of a binary STL file
 STL_TRIANGLE: Final = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 NUMBERS: Final = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # componentType of glTF
@@ -42,11 +43,10 @@ class NotReadError(Exception):
 
 def read_meshes(tree: Tree, sources: Sources) -> None:
     """Put the surface of the file of each mesh into its shape, as `surface`. Faults go to `tree.faults`."""
-    for name, body in section_of(tree, "bodies").items():
-        shape = body.get("shape") if isinstance(body, dict) else None
+    for place, shape in _shapes(tree):
         if not isinstance(shape, dict) or shape.get("type") != "mesh" or "file" not in shape or "surface" in shape:
             continue
-        path = ("bodies", name, "shape", "file")
+        path = (*place, "file")
         found = sources.content(tree, path, shape["file"])
         if found is None:
             tree.broken.add(path[:2])
@@ -57,6 +57,19 @@ def read_meshes(tree: Tree, sources: Sources) -> None:
         except NotReadError as problem:
             tree.report(path, f"`{file}`: {problem}")
             tree.broken.add(path[:2])
+
+
+def _shapes(tree: Tree) -> Iterator[tuple[Path, Any]]:
+    """Everything that may be a mesh, and its place: the shape and the looks of each body, and the surroundings."""
+    for name, body in section_of(tree, "bodies").items():
+        if isinstance(body, dict):
+            yield ("bodies", name, "shape"), body.get("shape")
+            looks = body.get("looks")
+            for k, each in enumerate(looks if isinstance(looks, list) else ()):
+                yield ("bodies", name, "looks", k), each
+    around = tree.data.get("surroundings") if isinstance(tree.data, dict) else None
+    for k, each in enumerate(around if isinstance(around, list) else ()):
+        yield ("surroundings", k), each
 
 
 def read_mesh(file: str | FilePath, **given: Any) -> Mesh:
@@ -73,6 +86,7 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
     readers: dict[str, Callable[[], tuple[Any, Any]]] = {
         ".stl": lambda: _stl(content),
         ".obj": lambda: _obj(content),
+        ".dae": lambda: collada_surface(content),
         ".gltf": lambda: _gltf(_json(content), {}, file),
         ".glb": lambda: _glb(content, file),
     }
@@ -80,6 +94,11 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
         raise NotReadError(f"a mesh in {', '.join(KINDS)} was expected")
     try:
         vertices, triangles = readers[kind]()
+    except ColladaError as problem:
+        raise NotReadError(str(problem)) from None
+    except DAMAGE:
+        raise NotReadError("the file is damaged, or not what its name says") from None
+    try:
         vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
         triangles = np.asarray(triangles, dtype=np.int64).reshape(-1, 3)
     except DAMAGE:
@@ -93,6 +112,17 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
     if not np.all(np.isfinite(vertices)):
         raise NotReadError("it has coordinates that are not finite")
     return vertices, triangles.astype(np.uint32)
+
+
+def stl_content(vertices: Array, triangles: NDArray[Any]) -> bytes:
+    """A binary STL file of vertices (n, 3) and triangles (m, 3)."""
+    rows = np.zeros(len(triangles), STL_TRIANGLE)
+    corners = np.asarray(vertices, dtype=np.float64)[np.asarray(triangles, dtype=np.int64)]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    rows["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    rows["corners"] = corners
+    return bytes(STL_HEAD - 4) + struct.pack("<I", len(rows)) + rows.tobytes()
 
 
 def _stl(content: bytes) -> tuple[Array, Any]:

@@ -46,10 +46,9 @@ def foreign_content(content: bytes) -> str:
     if text.startswith(b"<"):
         for root, name in _ROOTS:
             if root in text:
-                return (
-                    f"this is a model in {name}, which nivel does not read; write its bodies and joints in a machine file: "
-                    "`nivel new NAME` starts one"
-                )
+                if name == "XML":
+                    return "this is XML, not a machine file"
+                return f"this is a model in {name}, not a machine file; `nivel import {{file}} --out machine.yaml` translates it"
     return ""
 
 

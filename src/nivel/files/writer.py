@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Any
 
 import yaml
@@ -19,13 +20,32 @@ def write_machine(record: MachineRecord) -> str:
     for section in SECTIONS:
         if section in data:
             data[section] = {element.pop("name"): element for element in data[section]}
+    return _dumped({"format": FORMAT, **data})
+
+
+def write_data(data: Mapping[str, Any]) -> str:
+    """YAML of the data of a machine file: each element of a section in one line, bodies and what they look like in several."""
+    plain: dict[str, Any] = {}
+    for section, content in data.items():
+        if section == "surroundings":
+            plain[section] = _Column([_Line(each) for each in content])
+        elif section == "bodies":
+            plain[section] = {name: _body_lines(body) for name, body in content.items()}
+        elif section in SECTIONS:
+            plain[section] = {name: _Line(element) for name, element in content.items()}
+        else:
+            plain[section] = _Line(content) if isinstance(content, Mapping) else content
+    return _dumped(plain)
+
+
+def _body_lines(body: Mapping[str, Any]) -> dict[str, Any]:
+    out: dict[str, Any] = {key: _Line(each) if isinstance(each, Mapping) else each for key, each in body.items()}
+    return out | ({"looks": _Column([_Line(each) for each in body["looks"]])} if "looks" in body else {})
+
+
+def _dumped(data: Mapping[str, Any]) -> str:
     return yaml.dump(
-        {"format": FORMAT, **data},
-        Dumper=_Dumper,
-        sort_keys=False,
-        allow_unicode=True,
-        width=120,
-        default_flow_style=False,
+        dict(data), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=120, default_flow_style=False
     )
 
 

@@ -181,7 +181,5 @@ class MachineRecord(Checked):
 
     def _problems_of_surroundings(self) -> Iterator[Problem]:
         for k, each in enumerate(self.surroundings):
-            if isinstance(each, Mesh):
-                yield Problem(("surroundings", k), "a mesh belongs to a body; surroundings are solids of a few numbers")
-            elif not isinstance(each, Sphere) and each.from_ is not None:
+            if not isinstance(each, Sphere | Mesh) and each.from_ is not None:
                 yield Problem(("surroundings", k), "a solid of the surroundings stands along the axes, at its `centre`")

@@ -98,9 +98,7 @@ class Body(Checked):
 
     def _problems_of_looks(self) -> Iterator[Problem]:
         for k, each in enumerate(self.looks):
-            if isinstance(each, Mesh):
-                yield Problem(("looks", k), "a mesh is a `shape`; `looks` are solids of a few numbers")
-            elif not isinstance(each, Sphere) and each.from_ is not None:
+            if not isinstance(each, Sphere | Mesh) and each.from_ is not None:
                 yield Problem(
                     ("looks", k), "`looks` stand in the body frame, at their `centre`: `from` and `to` are global"
                 )

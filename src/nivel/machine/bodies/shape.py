@@ -204,9 +204,7 @@ class Mesh(_Coloured):
         if self.surface is None and not self.file:
             raise fault("a mesh needs the name of a `file`")
         if self.surface is None:
-            raise fault(
-                f"the file `{self.file}` was not read: meshes belong to bodies; in Python use nivel.files.read_mesh"
-            )
+            raise fault(f"the file `{self.file}` was not read; in Python use nivel.files.read_mesh")
         try:
             surface_arrays(self.surface)
         except ValueError:

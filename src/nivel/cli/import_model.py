@@ -1,0 +1,62 @@
+"""`nivel import MODEL --out machine.yaml`: the model of another program as a machine file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import click
+
+from nivel.cli.options import file_argument, force_option, quiet_option
+
+
+@click.command(short_help="Translate a model of another program into a machine file.")
+@file_argument("model")
+@click.option(
+    "--out", "target", metavar="FILE", help="Machine file to write; default: NAME.yaml in the working directory."
+)
+@click.option(
+    "--base",
+    type=click.Choice(["fixed", "free"]),
+    help="Whether the first link is fixed to the ground; default: fixed for URDF, else as the model says.",
+)
+@click.option(
+    "--package-path",
+    "package_paths",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="FOLDER",
+    help="Folder of packages, in which meshes at package:// are searched for. May be repeated.",
+)
+@quiet_option
+@force_option
+def command(
+    model: str,
+    target: str | None,
+    base: Literal["fixed", "free"] | None,
+    package_paths: tuple[Path, ...],
+    quiet: bool,
+    force: bool,
+) -> None:
+    """Translate MODEL, a URDF or SDF file, into a machine file.
+
+    The list of what was translated, in another form or not at all, is printed and stands in the comments of the file.
+    """
+    from nivel.exchange import read_model
+    from nivel.files.reader import parse_machine
+    from nivel.files.target import check_target
+
+    path = Path(target) if target is not None else Path(f"{Path(model).stem}.yaml")
+    check_target(path, "machine file", force=force, sources=[Path(model)])
+    translation = read_model(model, base=base, package_paths=package_paths, target=path)
+    for name, content in translation.files().items():
+        mesh = path.parent / name
+        mesh.parent.mkdir(exist_ok=True)
+        check_target(mesh, "mesh", force=force, sources=[Path(model)])
+        mesh.write_bytes(content)
+    text = translation.text()
+    parse_machine(text, str(path))
+    path.write_text(text, encoding="utf-8")
+    if not quiet:
+        click.echo("\n".join(translation.summary()))
+    click.echo(f"machine file: {path}; `nivel check {path}` describes it", err=True)

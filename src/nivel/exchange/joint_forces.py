@@ -1,0 +1,101 @@
+"""Elements at a joint coordinate beside the joint: stops, dampers, springs, friction, couplings, start values."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final
+
+from nivel.exchange.mechanism import Connection, Mechanism
+from nivel.exchange.names import Names
+from nivel.exchange.numbers import number
+
+STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
+RESTITUTION: Final = 0.2
+LARGEST: Final = 1e6  # [rad or m] an end of the way beyond this is none
+
+STOPS: Final = f"limits are stops: their stiffness lets what the joint moves vibrate at {STOP_FREQUENCY:g} Hz, restitution {RESTITUTION:g}"
+FRICTION: Final = "friction of a joint is dry friction with sticking, of the same effort in both directions"
+EFFORT: Final = "limits of effort: give them as `limit` of a motor or servo"
+
+
+def coordinate_of(each: Connection, names: Names) -> str:
+    """The joint coordinate of a connection in the machine file."""
+    return f"{names.name('joint', each.name)}.{each.coordinate}"
+
+
+def forces_of(each: Connection, names: Names, effective: float, mechanism: Mechanism) -> dict[str, dict[str, Any]]:
+    """Forces by the end of their names. effective : inertia at the coordinate [kg m²] or mass [kg]."""
+    out: dict[str, dict[str, Any]] = {}
+    if not each.coordinate:
+        return out
+    notes, coordinate = mechanism.notes, coordinate_of(each, names)
+    ends = _ends(each)
+    if len(ends) == 2 and ends["lower"] >= ends["upper"]:
+        notes.leave("limits whose lower end is not below the upper end", each.name, each.line)
+    elif ends and effective > 0.0:
+        stiffness = float(f"{effective * (2.0 * math.pi * STOP_FREQUENCY) ** 2:.3g}")
+        out["stop"] = {"type": "stop", "coordinate": coordinate, **{key: number(value) for key, value in ends.items()}}
+        out["stop"] |= {"stiffness": stiffness, "restitution": RESTITUTION}
+        notes.change(STOPS, each.name, each.line)
+    spring = {"stiffness": each.stiffness, "damping": each.damping, "free_value": each.free}
+    if each.stiffness or each.damping:
+        given = {key: number(value) for key, value in spring.items() if value}
+        out["spring" if each.stiffness else "damper"] = {
+            "type": "joint-spring-damper",
+            "coordinate": coordinate,
+            **given,
+        }
+    if each.friction > 0.0:
+        out["friction"] = {"type": "friction", "coordinate": coordinate, "model": "stiction", "coefficient": 1.0}
+        out["friction"] |= {"normal_load": number(each.friction)} | (
+            {"radius": 1.0} if each.coordinate == "angle" else {}
+        )
+        notes.change(FRICTION, each.name, each.line)
+    if each.effort is not None and 0.0 < each.effort < LARGEST:
+        notes.leave(EFFORT, f"{each.name} {each.effort:g} {'N m' if each.coordinate == 'angle' else 'N'}", each.line)
+    return out
+
+
+def _ends(each: Connection) -> dict[str, float]:
+    given = (("lower", each.lower), ("upper", each.upper))
+    return {key: value for key, value in given if value is not None and abs(value) < LARGEST}
+
+
+def coupling_of(each: Connection, mechanism: Mechanism, names: Names) -> dict[str, Any] | None:
+    """The coupling of a joint that follows another one: coordinate - factor · other is held."""
+    if each.mimic is None:
+        return None
+    other = next((joint for joint in mechanism.connections if joint.name == each.mimic[0]), None)
+    if other is None or not other.coordinate or not each.coordinate or each.mimic[1] == 0.0:
+        mechanism.notes.leave(
+            "joints that follow a joint without a coordinate, or by a factor of zero", each.name, each.line
+        )
+        return None
+    return {
+        "type": "linear",
+        "coordinates": [coordinate_of(each, names), coordinate_of(other, names)],
+        "factors": [1.0, -number(each.mimic[1])],
+    }
+
+
+def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> None:
+    """Put start values into the data of joints: as given, within the limits, and as joints follow each other."""
+    starts: dict[str, float] = {}
+    for each in mechanism.connections:
+        if each.mimic is not None or not each.coordinate:
+            continue
+        ends = _ends(each)
+        start = each.start or 0.0
+        low, high = ends.get("lower", -math.inf), ends.get("upper", math.inf)
+        if not low <= start <= high and low < high:
+            start = 0.5 * (low + high) if math.isfinite(low) and math.isfinite(high) else min(max(start, low), high)
+            mechanism.notes.change("zero is outside the limits: the joint starts within them", each.name, each.line)
+        starts[each.name] = start
+    for each in mechanism.connections:
+        if each.mimic is not None and each.mimic[0] in starts:
+            starts[each.name] = each.mimic[1] * starts[each.mimic[0]] + each.mimic[2]
+    if not any(starts.values()):
+        return
+    for each in mechanism.connections:  # all of them: the assembly would move those that are left open
+        if each.name in starts:
+            joints[names.name("joint", each.name)]["start"] = {each.coordinate: number(starts[each.name])}

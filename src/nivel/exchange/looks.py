@@ -1,0 +1,183 @@
+"""Drawn solids of links: those along axes of their bodies as they are, other ones and scaled meshes as surfaces.
+
+A mesh is read from folders that are allowed only: that of the model, packages beside it, and those that the user names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+from urllib.parse import unquote
+
+import numpy as np
+
+from nivel.errors import ModelError
+from nivel.exchange.mechanism import Array, Frame, Link, Look
+from nivel.exchange.notes import Notes
+from nivel.exchange.numbers import number, triple, turn
+from nivel.files.mesh_file import KINDS, NotReadError, parse
+from nivel.files.sources import read_bytes
+from nivel.machine.bodies.surface import Triangles
+
+ALONG: Final = 1e-9  # by which an axis may miss that of the body
+PARENTS: Final = 4  # folders above that of the model which may be a package
+MOST_MESHES: Final = 1000
+ROUND: Final = 24  # facets of round solids that lie askew
+
+
+class NotFoundError(Exception):
+    """Why a mesh is not drawn, in words."""
+
+
+@dataclass
+class Drawing:
+    """Meshes of a model. file : the model. packages : folders of packages. target : folder of the machine file, to which names of meshes
+    are relative. made : surfaces of meshes that have to be written, by file name."""
+
+    file: Path
+    packages: Sequence[Path]
+    target: Path
+    prefix: str = "meshes"
+    made: dict[str, tuple[Array, Triangles]] = field(default_factory=dict)
+    parsed: dict[Path, tuple[Array, Triangles]] = field(default_factory=dict)
+
+    def shapes(self, link: Link, into: Frame, notes: Notes) -> list[dict[str, Any]]:
+        """Shapes of a link in the frame of a body; `into` is the frame of the link there."""
+        out = []
+        for look in link.looks:
+            try:
+                shape = self._shape(look, into @ look.place, link.name)
+            except NotFoundError as problem:
+                notes.leave(f"looks: {problem}", link.name, look.line)
+                continue
+            out.append(shape | ({"colour": look.colour} if look.colour else {}))
+        return out
+
+    def _shape(self, look: Look, at: Frame, name: str) -> dict[str, Any]:
+        if look.kind == "mesh":
+            return self._mesh(look, at)
+        if not all(0.0 < size < 1e6 for size in look.sizes):
+            raise NotFoundError(f"a {look.kind} without size")
+        centre = {"centre": triple(at.origin)} if np.any(at.origin) else {}
+        if look.kind == "sphere":
+            return {"type": "sphere", "radius": number(look.sizes[0]), **centre}
+        order = np.argmax(np.abs(at.axes), axis=0)
+        straight = bool(np.all(np.abs(at.axes).max(axis=0) > 1.0 - ALONG))
+        if not straight and not (look.kind != "box" and np.abs(at.axes[:, 2]).max() > 1.0 - ALONG):
+            return self._surface(name, _solid(look), at)
+        if look.kind == "box":
+            sizes = [0.0, 0.0, 0.0]
+            for k, size in enumerate(look.sizes):
+                sizes[int(order[k])] = number(size)
+            return {"type": "box", "size": sizes, **centre}
+        radius, length = map(number, look.sizes)
+        return {"type": look.kind, "radius": radius, "length": length, "along": "xyz"[int(order[2])], **centre}
+
+    def _surface(self, name: str, surface: tuple[Array, Triangles], at: Frame) -> dict[str, Any]:
+        """A mesh that has to be written; its points are in the frame of the body."""
+        vertices, triangles = surface
+        plain = "".join(each if each.isalnum() or each in "-_" else "_" for each in name)
+        file, count = f"{self.prefix}/{plain}.stl", 2
+        while file in self.made:
+            file, count = f"{self.prefix}/{plain}_{count}.stl", count + 1
+        if len(self.made) >= MOST_MESHES:
+            raise NotFoundError(f"more than {MOST_MESHES} meshes would have to be written")
+        self.made[file] = (vertices @ at.axes.T + at.origin, triangles)
+        return {"type": "mesh", "file": file}
+
+    def _mesh(self, look: Look, at: Frame) -> dict[str, Any]:
+        path = self.found(look.file)
+        if path not in self.parsed:
+            try:
+                self.parsed[path] = parse(read_bytes(path), str(path))
+            except NotReadError as problem:
+                raise NotFoundError(f"`{look.file}`: {problem}") from None
+            except ModelError as problem:
+                raise NotFoundError(f"`{look.file}`: {problem.faults[0].message}") from None
+        x, y, z = look.scale
+        if not (x == y == z and x > 0.0):
+            if not x or not y or not z:
+                raise NotFoundError(f"`{look.file}`: a scale of zero")
+            vertices, triangles = self.parsed[path]
+            triangles = triangles if x * y * z > 0.0 else triangles[:, ::-1]
+            return self._surface(Path(look.file).stem, (vertices * look.scale, triangles), at)
+        out: dict[str, Any] = {"type": "mesh", "file": _relative(path, self.target)}
+        out |= {"unit": x} if x != 1.0 else {}
+        out |= {"position": triple(at.origin)} if np.any(at.origin) else {}
+        return out | turn(at.axes)
+
+    def found(self, address: str) -> Path:
+        """The file of a mesh. Raises NotFoundError where it is not there, or outside of the folders that are allowed."""
+        if Path(address).suffix.lower() not in KINDS:
+            raise NotFoundError(f"`{address}` is no mesh in {', '.join(KINDS)}")
+        allowed, candidates = self._candidates(unquote(address))
+        for candidate in candidates:
+            try:
+                path = candidate.resolve()
+                there = path.is_file()
+            except (OSError, ValueError, RuntimeError):
+                continue
+            if there and not any(path.is_relative_to(folder.resolve()) for folder in allowed):
+                raise NotFoundError(
+                    f"`{address}` leaves the folder of the model and is not read; `--package-path {path.parent}` allows it"
+                )
+            if there:
+                return path
+        raise NotFoundError(f"there is no file `{address}`; `--package-path FOLDER` says where packages are")
+
+    def _candidates(self, address: str) -> tuple[list[Path], list[Path]]:
+        """Folders that are allowed, and places where the file may be."""
+        folder = self.file.parent.resolve()
+        allowed = [folder, *self.packages]
+        scheme, mark, rest = address.partition("://")
+        if not mark:
+            return allowed, [folder / address, *(each / address for each in self.packages)]
+        if scheme == "file":
+            return allowed, [Path(rest)]
+        if scheme not in ("package", "model"):
+            raise NotFoundError(f"`{address}` is an address that is not read")
+        package, _, inside = rest.partition("/")
+        roots = [each / package for each in self.packages] + [each for each in self.packages if each.name == package]
+        above = [folder, *folder.parents][: PARENTS + 1]
+        roots += [each for each in above if each.name == package] + [each / package for each in above[:2]]
+        places = [root / inside for root in roots] + [folder / inside]
+        return [*allowed, *roots], places
+
+
+def _relative(path: Path, folder: Path) -> str:
+    import os
+
+    try:
+        return Path(os.path.relpath(path, folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return path.as_posix()
+
+
+def _solid(look: Look) -> tuple[Array, Triangles]:
+    """The surface of a box, or of a cylinder or capsule along z, about its middle."""
+    if look.kind == "box":
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * 0.5 * np.array(look.sizes)
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        return corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], dtype=np.uint32)
+    radius, length = look.sizes
+    rings = [(0.0, -0.5 * length), (radius, -0.5 * length), (radius, 0.5 * length), (0.0, 0.5 * length)]
+    if look.kind == "capsule":
+        angles = np.linspace(0.0, 0.5 * np.pi, 7)
+        upper = [(float(radius * np.cos(a)), float(0.5 * length + radius * np.sin(a))) for a in angles]
+        rings = [(r, -z) for r, z in reversed(upper)] + upper
+    return _lathe(rings)
+
+
+def _lathe(rings: list[tuple[float, float]]) -> tuple[Array, Triangles]:
+    """Surface of revolution about z through rings (radius, height), from below."""
+    turn = 2.0 * np.pi * np.arange(ROUND) / ROUND
+    points = np.array([[r * np.cos(a), r * np.sin(a), z] for r, z in rings for a in turn])
+    triangles = []
+    for k in range(len(rings) - 1):
+        for i in range(ROUND):
+            a, b = k * ROUND + i, k * ROUND + (i + 1) % ROUND
+            c, d = a + ROUND, b + ROUND
+            triangles += [(a, b, d), (a, d, c)]
+    return points, np.array(triangles, dtype=np.uint32)

@@ -1,0 +1,248 @@
+"""From a mechanism to the data of a machine file."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.errors import Fault
+from nivel.exchange.bodies import (
+    MASSLESS,
+    Group,
+    carried,
+    elementary_turn,
+    groups_of,
+    inertia_about,
+    lumped,
+    marker_frame,
+    offset,
+    possible,
+)
+from nivel.exchange.joint_forces import coupling_of, forces_of, starts_of
+from nivel.exchange.looks import Drawing
+from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
+from nivel.exchange.names import Names
+from nivel.exchange.numbers import number, triple, turn
+from nivel.exchange.translation import Translation, refuse
+from nivel.machine.core.placement import frame_from_axes
+from nivel.machine.core.record import GROUND
+
+NEARLY: Final = 2e-6  # [rad] between axes that a machine may take as parallel
+ROUND_OFF: Final = 1e-15  # [rad]
+LIGHT: Final = "a link without mass between joints has 1e-15 of the mass that it carries: exact to round-off in relative coordinates"
+
+
+def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation:
+    """The machine that a mechanism is. Raises ModelError with all links and joints that cannot be translated."""
+    faults: list[Fault] = []
+    _check(mechanism, file, faults)
+    refuse(faults)
+    names, groups = Names(), groups_of(mechanism)
+    offset(mechanism, groups)
+    data: dict[str, Any] = {"name": _title(mechanism.name)}
+    bodies, looks_of_ground = _bodies(mechanism, groups, names, drawing, faults, file)
+    joints = {
+        names.name("joint", each.name): _joint(each, mechanism, groups, names)
+        for each in mechanism.connections
+        if each.kind != "fixed"
+    }
+    refuse(faults)
+    if not bodies:
+        refuse([Fault(file, 1, 1, "", "nothing in this model moves: every link is fixed to the ground")])
+    starts_of(mechanism, names, joints)
+    couplings, forces, inputs = {}, {}, {}
+    for each in mechanism.connections:
+        coupling = coupling_of(each, mechanism, names)
+        if coupling is not None:
+            couplings[names.new(f"{each.name}_mimic", "coupling")] = coupling
+        moved = carried(mechanism, groups, each)
+        effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
+        for suffix, force in forces_of(each, names, effective + each.armature, mechanism).items():
+            forces[names.new(f"{each.name}_{suffix}", "force")] = force
+    kinds = {each.name: each for each in mechanism.connections}
+    for name, joint, factor, limit in mechanism.actuators:
+        control = names.new(name, "input")
+        inputs[control] = {"unit": "N*m" if kinds[joint].coordinate == "angle" else "N"}
+        effort = control if factor == 1.0 else f"{factor:.17g}*{control}"
+        force = {
+            "type": "motor",
+            "coordinate": f"{names.name('joint', joint)}.{kinds[joint].coordinate}",
+            "effort": effort,
+        }
+        forces[names.new(name, "force")] = force | ({} if limit is None else {"limit": number(limit)})
+    markers = _markers(mechanism, groups, names)
+    changed = names.changed(("body", "marker", "joint"))
+    if changed:
+        mechanism.notes.change("names that nivel does not take were changed", "; ".join(changed))
+        data["description"] = f"Names in {mechanism.format}: {'; '.join(changed)}."
+    sections = {
+        "surroundings": looks_of_ground,
+        "gravity": [number(each) for each in mechanism.gravity],
+        "bodies": bodies,
+        "markers": markers,
+        "joints": joints,
+        "couplings": couplings,
+        "forces": forces,
+        "inputs": inputs,
+    }
+    data |= {name: section for name, section in sections.items() if section}
+    if _is_tree(mechanism, groups) and _nearly_parallel(mechanism):
+        data["assembly"] = {"parallel": 0.0}
+        mechanism.notes.change("axes that are parallel to six digits only stay as they are: `assembly: {parallel: 0}`")
+    if any(LIGHT in each for each in mechanism.notes.changed):
+        data["simulation"] = {"coordinates": "relative"}
+    return Translation(file, mechanism.format, data, mechanism.notes, drawing.made)
+
+
+def _is_tree(mechanism: Mechanism, groups: dict[str, Group]) -> bool:
+    """Whether no body is the second of two joints."""
+    second = [groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"]
+    return len(second) == len(set(second))
+
+
+def _nearly_parallel(mechanism: Mechanism) -> bool:
+    """Whether axes differ by what a machine takes as the digits of an export, and by more than round-off."""
+    axes = [axis / np.linalg.norm(axis) for each in mechanism.connections for axis in each.axes]
+    if not axes:
+        return False
+    z = np.array(axes)
+    off = np.linalg.norm(np.cross(z[:, None], z[None, :]), axis=2)
+    return bool(np.any((off > ROUND_OFF) & (off < NEARLY)))
+
+
+def _title(name: str) -> str:
+    kept = "".join("_" if each in '/\\<>:"|?*' or not each.isprintable() else each for each in name).strip()
+    return kept[:100] or "model"
+
+
+def _check(mechanism: Mechanism, file: str, faults: list[Fault]) -> None:
+    if len(mechanism.links) > MOST_LINKS:
+        faults.append(Fault(file, 1, 1, "", f"{len(mechanism.links)} links; up to {MOST_LINKS} are translated"))
+    for each in mechanism.connections:
+        where = f'<joint name="{each.name}">'
+        unknown = [link for link in each.bodies if link != WORLD and link not in mechanism.links]
+        faults += [Fault(file, each.line, 1, where, f"there is no link `{link}`") for link in unknown]
+        if each.bodies[0] == each.bodies[1]:
+            faults.append(Fault(file, each.line, 1, where, f"the joint connects `{each.bodies[0]}` with itself"))
+        if each.axes and not all(np.any(axis) for axis in each.axes):
+            faults.append(Fault(file, each.line, 1, where, "the axis has no direction: it is zero"))
+
+
+def _bodies(
+    mechanism: Mechanism,
+    groups: dict[str, Group],
+    names: Names,
+    drawing: Drawing,
+    faults: list[Fault],
+    file: str,
+) -> tuple[dict[str, Any], list[Any]]:
+    """Data of all bodies by name, and what is drawn on the ground."""
+    bodies: dict[str, Any] = {}
+    on_ground: list[Any] = []
+    loose = _without_joints(mechanism, groups)
+    for first, group in {group.first: group for group in groups.values()}.items():
+        drawn = [
+            shape
+            for name in group.links
+            for shape in drawing.shapes(mechanism.links[name], marker_frame(mechanism, group, name), mechanism.notes)
+        ]
+        if first == WORLD:
+            on_ground = drawn
+            for name in group.links:
+                if mechanism.links[name].inertial is not None:
+                    mechanism.notes.leave(
+                        "mass of links on the ground, which does not move", name, mechanism.links[name].line
+                    )
+            continue
+        link, inertial = mechanism.links[first], lumped(mechanism, group)
+        if inertial is None:
+            if first in loose:
+                mechanism.notes.leave("links without mass and without joints", link.name, link.line)
+                continue
+            inertial = _light(mechanism, groups, first, faults, file)
+        else:
+            inertial = possible(inertial, link, mechanism, faults, file)
+        body: dict[str, Any] = {"position": triple(link.place.origin), **turn(link.place.axes)}
+        body |= {"mass": inertial.mass, "centre_of_mass": triple(inertial.centre), "inertia": _inertia(inertial)}
+        body = {key: value for key, value in body.items() if key not in ("position", "centre_of_mass") or any(value)}
+        bodies[names.name("body", first)] = body | ({"looks": drawn} if drawn else {})
+    return bodies, on_ground
+
+
+def _without_joints(mechanism: Mechanism, groups: dict[str, Group]) -> set[str]:
+    joined = {groups[name].first for each in mechanism.connections if each.kind != "fixed" for name in each.bodies}
+    return {group.first for group in groups.values()} - joined
+
+
+def _light(mechanism: Mechanism, groups: dict[str, Group], first: str, faults: list[Fault], file: str) -> Inertial:
+    """Mass and inertia of a link that has none and moves: by what it carries."""
+    link = mechanism.links[first]
+    beyond = [
+        name
+        for each in mechanism.connections
+        if groups[each.bodies[0]].first == first and each.kind != "fixed"
+        for name in carried(mechanism, groups, each)
+    ]
+    mass = inertia_about(mechanism, beyond, np.zeros(3), None)
+    if mass <= 0.0:
+        message = "the link moves and has no mass; give it `<inertial>`, or connect it by a fixed joint"
+        faults.append(Fault(file, link.line, 1, f'<link name="{link.name}">', message))
+        mass = 1.0
+    else:
+        mechanism.notes.change(LIGHT, link.name, link.line)
+    return Inertial(MASSLESS * mass, np.zeros(3), MASSLESS * mass * np.eye(3))
+
+
+def _inertia(inertial: Inertial) -> Any:
+    i = inertial.inertia
+    products = {"xy": float(i[0, 1]), "xz": float(i[0, 2]), "yz": float(i[1, 2])}
+    moments = {"xx": float(i[0, 0]), "yy": float(i[1, 1]), "zz": float(i[2, 2])}
+    if not any(products.values()):
+        return list(moments.values())
+    return moments | {key: value for key, value in products.items() if value}
+
+
+def _joint(each: Connection, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+    bodies = [GROUND if groups[name].first == WORLD else names.name("body", groups[name].first) for name in each.bodies]
+    if each.placed:
+        return {"type": each.kind, "markers": _joint_markers(each, mechanism, groups, bodies)}
+    out: dict[str, Any] = {"type": each.kind, "bodies": bodies, "point": triple(each.point)}
+    if len(each.axes) == 1:
+        out["axis"] = triple(each.axes[0])
+    elif each.axes:
+        out["axes"] = [triple(axis) for axis in each.axes]
+    if each.pitch is not None:
+        out["pitch"] = number(each.pitch)
+    return out
+
+
+def _joint_markers(
+    each: Connection, mechanism: Mechanism, groups: dict[str, Group], bodies: list[str]
+) -> list[dict[str, Any]]:
+    """The two markers of a joint whose coordinate is not zero where the links stand: z along its axis."""
+    first = Frame(frame_from_axes(each.axes[0]), each.point)
+    if each.kind == "revolute":
+        second = Frame(first.axes @ elementary_turn(np.array([0.0, 0.0, 1.0]), each.placed), each.point)
+    else:
+        second = Frame(first.axes, each.point + each.placed * first.axes[:, 2])
+    out = []
+    for name, body, frame in zip(each.bodies, bodies, (first, second), strict=True):
+        group = groups[name]
+        inside = frame if group.first == WORLD else mechanism.links[group.first].place.inverse @ frame
+        out.append({"body": body, "position": triple(inside.origin), **turn(inside.axes)})
+    return out
+
+
+def _markers(mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+    """Frames of links that became part of another body."""
+    out = {}
+    for name, group in groups.items():
+        if name in (WORLD, group.first):
+            continue
+        frame = marker_frame(mechanism, group, name)
+        body = GROUND if group.first == WORLD else names.name("body", group.first)
+        place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
+        out[names.name("marker", name)] = {"body": body, **place, **turn(frame.axes)}
+        mechanism.notes.change("links on fixed joints are parts of their bodies, their frames are markers", name)
+    return out

@@ -1,0 +1,142 @@
+"""The rigid part of a model of another program: links placed in space, and what connects them.
+
+Every reader (URDF, SDF, MJCF) gives this; `machine.py` writes it as a machine. All links stand where the joint coordinates are as `placed`,
+zero unless joints follow each other with an offset. SI, angles in radians, vectors in global axes unless they are said to be in the frame
+of a link.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.exchange.notes import Notes
+
+Array = NDArray[np.float64]
+Triple = tuple[float, float, float]
+
+WORLD: Final = ""  # in place of the name of a link: the fixed world
+MOST_LINKS: Final = 10_000
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A frame: axes (3, 3), whose columns are its axes, and origin (3,) [m], both in the frame around it."""
+
+    axes: Array = field(default_factory=lambda: np.eye(3))
+    origin: Array = field(default_factory=lambda: np.zeros(3))
+
+    def __matmul__(self, inner: Frame) -> Frame:
+        """`inner`, given in this frame, in the frame around this one."""
+        return Frame(self.axes @ inner.axes, self.axes @ inner.origin + self.origin)
+
+    @property
+    def inverse(self) -> Frame:
+        """The frame around this one, in this one."""
+        return Frame(self.axes.T, -self.axes.T @ self.origin)
+
+
+def turned(roll: float, pitch: float, yaw: float) -> Array:
+    """(3, 3) rotation about the fixed axes x, y, z, in this order."""
+    c, s = np.cos, np.sin
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, c(roll), -s(roll)], [0.0, s(roll), c(roll)]])
+    about_y = np.array([[c(pitch), 0.0, s(pitch)], [0.0, 1.0, 0.0], [-s(pitch), 0.0, c(pitch)]])
+    about_z = np.array([[c(yaw), -s(yaw), 0.0], [s(yaw), c(yaw), 0.0], [0.0, 0.0, 1.0]])
+    return about_z @ about_y @ about_x
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """Mass [kg], centre of mass (3,) [m] and inertia (3, 3) [kg m²] about it, both in the frame of the link."""
+
+    mass: float
+    centre: Array
+    inertia: Array
+
+
+@dataclass(frozen=True)
+class Look:
+    """A solid that is drawn. place : of its middle in the frame of the link, cylinders and capsules along its z axis.
+
+    sizes : three lengths of a box; radius and length; radius. file, scale : of a mesh, one factor for each of its axes.
+    """
+
+    kind: Literal["box", "cylinder", "capsule", "sphere", "mesh"]
+    place: Frame
+    sizes: tuple[float, ...] = ()
+    file: str = ""
+    scale: Triple = (1.0, 1.0, 1.0)
+    colour: str = ""
+    line: int = 0
+
+
+@dataclass
+class Link:
+    """A link. place : global. inertial : None where none is given."""
+
+    name: str
+    place: Frame
+    inertial: Inertial | None = None
+    looks: list[Look] = field(default_factory=list)
+    line: int = 0
+
+
+@dataclass
+class Connection:
+    """A joint. kind : the type of joint in a machine file. bodies : names of two links, or WORLD. placed : its coordinate where the links
+    stand.
+
+    lower, upper : ends of its way. mimic : name of another joint, factor and offset. stiffness, free : of a spring. armature : inertia of
+    a rotor at the coordinate [kg m² or kg]. start : of the coordinate.
+    """
+
+    name: str
+    kind: str
+    bodies: tuple[str, str]
+    point: Array
+    axes: tuple[Array, ...] = ()
+    lower: float | None = None
+    upper: float | None = None
+    effort: float | None = None
+    damping: float = 0.0
+    friction: float = 0.0
+    stiffness: float = 0.0
+    free: float = 0.0
+    armature: float = 0.0
+    mimic: tuple[str, float, float] | None = None
+    pitch: float | None = None
+    start: float | None = None
+    placed: float = 0.0
+    line: int = 0
+
+    @property
+    def coordinate(self) -> str:
+        """Name of its only joint coordinate, or an empty text."""
+        return {"revolute": "angle", "translational": "displacement", "screw": "angle"}.get(self.kind, "")
+
+
+@dataclass
+class Mechanism:
+    """links by name, and what connects them. gravity : (3,) [m/s²]. actuators : efforts on coordinates from outside, (name, joint, factor,
+    limit)."""
+
+    name: str
+    format: str
+    gravity: Triple
+    links: dict[str, Link] = field(default_factory=dict)
+    connections: list[Connection] = field(default_factory=list)
+    notes: Notes = field(default_factory=Notes)
+    actuators: list[tuple[str, str, float, float | None]] = field(default_factory=list)
+
+    def roots(self) -> list[str]:
+        """Links that are the second of no connection."""
+        carried = {each.bodies[1] for each in self.connections}
+        return [name for name in self.links if name not in carried]
+
+    def carried_by(self, name: str) -> Iterator[Connection]:
+        """Connections whose first link is `name`."""
+        return (each for each in self.connections if each.bodies[0] == name)

@@ -1,0 +1,117 @@
+"""Readers of models, chosen by the content of a file, and its translation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final, Literal
+
+from nivel.errors import Fault, ModelError
+from nivel.exchange.looks import Drawing
+from nivel.exchange.machine import machine_of
+from nivel.exchange.mechanism import Mechanism
+from nivel.exchange.sdf import read_sdf
+from nivel.exchange.translation import Translation
+from nivel.exchange.urdf import read_urdf
+from nivel.files.outline import FORMAT
+from nivel.files.reader import parse_machine
+from nivel.files.sources import read_bytes
+from nivel.files.writer import write_data
+from nivel.files.xml_source import Document, Element
+from nivel.machine import MachineRecord
+from nivel.machine.bodies.surface import surface_text
+
+Base = Literal["fixed", "free"]
+
+_XACRO: Final = re.compile(r"\$\{.*?\}|\$\((arg|find|eval) ")
+_OTHERS: Final = (
+    (
+        re.compile(rb"\A\W*adams[/_ ]view|^\s*(part|marker|joint)\s+create\b|^\s*(PART|MARKER|JOINT)/\d+", re.I | re.M),
+        "this is a dataset of Adams, which nivel does not read; save the parts as STEP in Adams/View, translate them by "
+        "`nivel import parts.step --out machine.yaml`, and write each JOINT as `hinge: {type: revolute, bodies: [ground, arm], "
+        "point: [0, 0, 0], axis: [0, 0, 1]}`",
+    ),
+    (
+        re.compile(
+            rb"^\s*(partial\s+|encapsulated\s+)?(model|package|class|block)\s+\w+.*?^\s*end\s+\w+\s*;", re.M | re.S
+        ),
+        "this is Modelica, which nivel does not read; write each Modelica.Mechanics.MultiBody.Parts.Body as `arm: {mass: 2, inertia: "
+        "[0.01, 0.2, 0.2], centre_of_mass: [0.5, 0, 0]}` and each Joints.Revolute as `hinge: {type: revolute, bodies: [ground, arm], "
+        "point: [0, 0, 0], axis: [0, 0, 1]}`; `nivel new machine` starts a file",
+    ),
+)
+
+
+def read_model(
+    file: str | Path,
+    *,
+    base: Base | None = None,
+    package_paths: Sequence[str | Path] = (),
+    target: str | Path | None = None,
+) -> Translation:
+    """The translation of a file of another program. target : the machine file that will be written; default beside the model.
+
+    Raises ModelError with everything that cannot be read, each with file and line.
+    """
+    path = Path(file)
+    beside = Path(target) if target is not None else path
+    drawing = Drawing(path, [Path(each) for each in package_paths], beside.parent, f"{beside.stem}-meshes")
+    content = read_bytes(path)
+    mechanism = _mechanism(content, str(file), base)
+    return machine_of(mechanism, path.name, drawing)
+
+
+def translated_machine(
+    file: str | Path, *, base: Base | None = None, package_paths: Sequence[str | Path] = ()
+) -> MachineRecord:
+    """The machine that a file of another program describes; meshes are in it. Raises ModelError."""
+    translation = read_model(file, base=base, package_paths=package_paths)
+    for shape in _meshes(translation.data):
+        made = translation.meshes.get(shape["file"])
+        if made is not None:
+            shape["surface"] = surface_text(*made)
+    return parse_machine(
+        write_data({"format": FORMAT, **translation.data}), str(Path(file).parent / f"{Path(file).stem}.yaml")
+    )
+
+
+def _meshes(data: dict[str, Any]) -> list[dict[str, Any]]:
+    looks = [shape for body in data["bodies"].values() for shape in body.get("looks", [])]
+    return [shape for shape in [*looks, *data.get("surroundings", [])] if shape["type"] == "mesh"]
+
+
+def _mechanism(content: bytes, file: str, base: Base | None) -> Mechanism:
+    start = content[:100_000]
+    for pattern, answer in _OTHERS:
+        if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<") and pattern.search(start):
+            raise ModelError(Fault(file, 1, 1, "", answer))
+    if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<"):
+        message = "this is no model that is read; there are URDF, SDF, MJCF (.xml) and STEP files"
+        raise ModelError(Fault(file, 1, 1, "", message))
+    document = Document(content, file)
+    root = document.root
+    if macro := _macro(root):
+        made = "robot.sdf" if root.tag == "sdf" else "robot.urdf"
+        message = (
+            f"this is xacro, macros that make a model; write `xacro {Path(file).name} > {made}` and translate {made}"
+        )
+        raise ModelError(Fault(file, macro.line, macro.column, macro.shown, message))
+    match root.tag:
+        case "robot":
+            return read_urdf(document, base)
+        case "sdf":
+            return read_sdf(document, base)
+    message = f"<{root.tag}> is no model that is read; there are <robot> (URDF), <sdf> and <mujoco> (MJCF)"
+    raise ModelError(Fault(file, root.line, root.column, "", message))
+
+
+def _macro(root: Element) -> Element | None:
+    """The first element that is a macro of xacro, or uses one."""
+    pending = [root]
+    while pending:
+        element = pending.pop()
+        if element.tag.startswith("xacro:") or any(map(_XACRO.search, element.attributes.values())):
+            return element
+        pending += reversed(element.children)
+    return None

@@ -1,0 +1,238 @@
+"""URDF: links and joints of a tree, each joint placed in the link before it."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.exchange.mechanism import WORLD, Connection, Frame, Inertial, Link, Look, Mechanism, turned
+from nivel.exchange.notes import Notes
+from nivel.files.xml_source import Document, Element
+
+KINDS: Final = {
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "translational",
+    "fixed": "fixed",
+    "planar": "planar",
+}
+GRAVITY: Final = (0.0, 0.0, -9.81)
+# of other programs, beside the model
+FOREIGN: Final = {
+    "transmission": "transmissions",
+    "gazebo": "elements of Gazebo",
+    "ros2_control": "elements of ros2_control",
+}
+
+
+def read_urdf(document: Document, base: str | None) -> Mechanism:
+    """The mechanism of a URDF document. base : `fixed` or `free`; default fixed. Raises ModelError with all faults."""
+    root = document.root
+    name = root.get("name") or "robot"
+    mechanism = Mechanism(name, "URDF", GRAVITY)
+    notes = mechanism.notes
+    colours = _materials(root, document)
+    for element in root.all("link"):
+        link = _link(element, document, colours, notes)
+        if link.name in mechanism.links:
+            document.fault(element, f"the name `{link.name}` stands twice")
+        mechanism.links[link.name] = link
+    for child in root.children:
+        if child.tag not in ("link", "joint", "material"):
+            notes.leave(FOREIGN.get(child.tag, f"elements <{child.tag}>"), child.get("name"), child.line)
+    parents: dict[str, Element] = {}
+    for element in root.all("joint"):
+        child = _named(element, "child", document)
+        if child in parents:
+            document.fault(element, f"the link `{child}` is the child of two joints; a URDF is a tree")
+        parents[child] = element
+        _named(element, "parent", document)
+    if not mechanism.links:
+        document.fault(root, "there is no <link>")
+    document.raise_faults()
+    _place(mechanism, parents, document)
+    document.raise_faults()
+    seen: set[str] = set()
+    for element in root.all("joint"):
+        joint = _joint(element, mechanism, document)
+        if joint is None:
+            continue
+        if joint.name in seen:
+            document.fault(element, f"the name `{joint.name}` stands twice")
+        seen.add(joint.name)
+        mechanism.connections.append(joint)
+    document.raise_faults()
+    if base != "free":
+        for top in (name for name in mechanism.links if name not in parents):
+            mechanism.connections.append(Connection(f"{top}_base", "fixed", (WORLD, top), np.zeros(3)))
+    notes.change("gravity is no part of URDF: 9.81 m/s² against the z axis is written")
+    return mechanism
+
+
+def _named(joint: Element, tag: str, document: Document) -> str:
+    element = joint.first(tag)
+    name = element.get("link") if element is not None else ""
+    if not name:
+        document.fault(joint, f'`<{tag} link="…"/>` is missing')
+    return name
+
+
+def frame_of(element: Element | None, document: Document) -> Frame:
+    """The frame that the <origin> of an element gives."""
+    origin = element.first("origin") if element is not None else None
+    if origin is None:
+        return Frame()
+    roll, pitch, yaw = document.numbers(origin, "rpy", (0.0, 0.0, 0.0))
+    return Frame(turned(roll, pitch, yaw), np.array(document.numbers(origin, "xyz", (0.0, 0.0, 0.0))))
+
+
+def _materials(root: Element, document: Document) -> dict[str, str]:
+    return {each.get("name"): colour for each in root.all("material") if (colour := _colour(each, document))}
+
+
+def _colour(material: Element | None, document: Document) -> str:
+    """`#rrggbb` of a material, or an empty text."""
+    colour = material.first("color") if material is not None else None
+    if colour is None:
+        return ""
+    return digits(document.numbers(colour, "rgba", (0.5, 0.5, 0.5, 1.0)))
+
+
+def digits(colour: Any) -> str:
+    """`#rrggbb` for red, green and blue from 0 to 1."""
+    return "#" + "".join(f"{round(255 * min(max(float(part), 0.0), 1.0)):02x}" for part in tuple(colour)[:3])
+
+
+def _link(element: Element, document: Document, colours: dict[str, str], notes: Notes) -> Link:
+    link = Link(element.get("name"), Frame(), line=element.line)
+    if not link.name:
+        document.fault(element, '`name="…"` is missing')
+    inertial = element.first("inertial")
+    if inertial is not None:
+        link.inertial = _inertial(inertial, document)
+    for visual in element.all("visual"):
+        look = _look(visual, document, colours, notes, link.name)
+        if look is not None:
+            link.looks.append(look)
+    for collision in element.all("collision"):
+        notes.leave("collision geometry; a contact is a force of type `contact`", link.name, collision.line)
+    return link
+
+
+def _inertial(element: Element, document: Document) -> Inertial:
+    at, tensor, mass = frame_of(element, document), element.first("inertia"), element.first("mass")
+    value = document.number(mass, "value", 0.0)
+    if value < 0.0:
+        document.fault(mass or element, f"the mass is {value:g}; zero or more was expected")
+    xx, yy, zz, xy, xz, yz = (document.number(tensor, key, 0.0) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if np.any(at.axes != np.eye(3)):
+        inertia = at.axes @ inertia @ at.axes.T
+    return Inertial(value, at.origin, inertia)
+
+
+def _look(visual: Element, document: Document, colours: dict[str, str], notes: Notes, name: str) -> Look | None:
+    geometry, material = visual.first("geometry"), visual.first("material")
+    colour = _colour(material, document) or colours.get(material.get("name") if material is not None else "", "")
+    solid = geometry.children[0] if geometry is not None and geometry.children else None
+    at = frame_of(visual, document)
+    if solid is None:
+        return None
+    common: dict[str, Any] = {"place": at, "colour": colour, "line": visual.line}
+    match solid.tag:
+        case "box":
+            return Look("box", sizes=document.numbers(solid, "size", (0.0, 0.0, 0.0)), **common)
+        case "cylinder" | "capsule":
+            sizes = (document.number(solid, "radius", 0.0), document.number(solid, "length", 0.0))
+            return Look("cylinder" if solid.tag == "cylinder" else "capsule", sizes=sizes, **common)
+        case "sphere":
+            return Look("sphere", sizes=(document.number(solid, "radius", 0.0),), **common)
+        case "mesh":
+            x, y, z = document.numbers(solid, "scale", (1.0, 1.0, 1.0))
+            return Look("mesh", file=solid.get("filename"), scale=(x, y, z), **common)
+    notes.leave(f"looks: geometry <{solid.tag}>", name, solid.line)
+    return None
+
+
+def _place(mechanism: Mechanism, parents: dict[str, Element], document: Document) -> None:
+    """Put every link where all joint coordinates are zero."""
+    placed: set[str] = set()
+
+    def chain(name: str) -> list[str]:
+        """Links from one that is placed, or the root, to `name`."""
+        out: list[str] = []
+        while name not in placed:
+            out.append(name)
+            joint = parents.get(name)
+            if joint is None:
+                break
+            parent = joint.first("parent")
+            assert parent is not None
+            before = parent.get("link")
+            if before not in mechanism.links:
+                document.fault(joint, f"there is no link `{before}`")
+                break
+            if before in out:
+                document.fault(joint, f"the links lead back to `{before}`; a URDF is a tree")
+                break
+            name = before
+        return out[::-1]
+
+    for name in mechanism.links:
+        for link in chain(name):
+            joint = parents.get(link)
+            if joint is not None:
+                parent = joint.first("parent")
+                assert parent is not None
+                before = mechanism.links.get(parent.get("link"))
+                if before is not None:
+                    mechanism.links[link].place = before.place @ frame_of(joint, document)
+            placed.add(link)
+    for child, joint in parents.items():
+        if child not in mechanism.links:
+            document.fault(joint, f"there is no link `{child}`")
+
+
+def _joint(element: Element, mechanism: Mechanism, document: Document) -> Connection | None:
+    """The joint; None of a floating one, whose link is free."""
+    kind, parent, child = element.get("type"), element.first("parent"), element.first("child")
+    assert parent is not None
+    assert child is not None
+    bodies = (parent.get("link"), child.get("link"))
+    at = mechanism.links[bodies[1]].place
+    given = Connection(element.get("name"), KINDS.get(kind, "fixed"), bodies, at.origin, line=element.line)
+    if not given.name:
+        document.fault(element, '`name="…"` is missing')
+    if kind == "floating":
+        mechanism.notes.change("floating joints: the link is free", given.name, element.line)
+        return None
+    if kind not in KINDS:
+        document.fault(element, f'type="{kind}" is not known; there are {", ".join((*KINDS, "floating"))}')
+    if given.kind == "fixed":
+        return given
+    axis = document.numbers(element.first("axis"), "xyz", (1.0, 0.0, 0.0))
+    given.axes = (at.axes @ np.array(axis),)
+    _add_forces(given, element, kind, document, mechanism.notes)
+    return given
+
+
+def _add_forces(joint: Connection, element: Element, kind: str, document: Document, notes: Notes) -> None:
+    limit, dynamics, mimic = element.first("limit"), element.first("dynamics"), element.first("mimic")
+    if limit is not None:
+        if kind != "continuous":
+            joint.lower, joint.upper = document.number(limit, "lower", 0.0), document.number(limit, "upper", 0.0)
+        joint.effort = document.number(limit, "effort", 0.0) or None
+        if document.number(limit, "velocity", 0.0):
+            notes.leave("limits of speed", joint.name, limit.line)
+    joint.damping = document.number(dynamics, "damping", 0.0)
+    joint.friction = document.number(dynamics, "friction", 0.0)
+    for value, what in ((joint.damping, "damping"), (joint.friction, "friction")):
+        if value < 0.0 and dynamics is not None:
+            document.fault(dynamics, f"the {what} is {value:g}; zero or more was expected")
+    if mimic is not None:
+        factor, offset = document.number(mimic, "multiplier", 1.0), document.number(mimic, "offset", 0.0)
+        joint.mimic = (mimic.get("joint"), factor, offset)
+    for tag in ("calibration", "safety_controller"):
+        if element.first(tag) is not None:
+            notes.leave(f"elements <{tag}>", joint.name, element.line)

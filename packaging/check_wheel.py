@@ -32,6 +32,12 @@ LICENCES = {
     "view/page/NOTICE": "three",
     "shipped/NOTICE": "Numba",
 }
+# an FMU is written without a C compiler, and its binary can be loaded
+UNIT = "export mechanisms/slider-crank.yaml"
+LOADS_UNIT = (
+    "import ctypes, zipfile; zipfile.ZipFile('slider-crank.fmu').extractall('unit'); "
+    "from pathlib import Path; (path,) = Path('unit/binaries').rglob('*.so'); ctypes.CDLL(str(path)).fmi3GetVersion"
+)
 NO_NUMBA = "import importlib.util, sys; sys.exit(importlib.util.find_spec('numba') is not None)"
 
 
@@ -81,6 +87,12 @@ def check(wheel: Path) -> None:
                 call(
                     f"nivel {line}", [python, "-m", "nivel", command, path.name, "--force", "--quiet"], path.parent, own
                 )
+        print("checking: FMU", flush=True)
+        command, file = UNIT.split()
+        beside = (folder / "examples" / file).parent
+        without = {**own, "CC": "no-compiler-is-needed"}
+        call("nivel export --fmu", [python, "-m", "nivel", command, Path(file).name, "--fmu"], beside, without)
+        call("loading the FMU", [python, "-c", LOADS_UNIT], beside, own)
         if any((folder / "machine-code").rglob("*.o")):
             raise UnfitWheelError(f"{wheel.name}: examples were compiled, not run from the library")
 

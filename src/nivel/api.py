@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
+    from nivel.fmu.writer import Unit
     from nivel.methods import StaticCoordinates
     from nivel.native.entry import Entry
     from nivel.results.analyses.configuration_curve import ConfigurationCurve
@@ -250,6 +251,50 @@ class Machine(Model):
 
         with self._faults_in_file():
             return write_c_library(plan, Path(folder), (select,) if isinstance(select, str) else select)
+
+    @checked_arguments
+    def export_fmu(
+        self,
+        path: str | PathLike[str],
+        *,
+        fmi: int = 3,
+        select: Sequence[str] | str = (),
+        parameters: Sequence[str] | str = (),
+        platforms: Sequence[str] | str = (),
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Unit:
+        """Write the machine as an FMU for co-simulation: what a run with its settings does, for other simulation programs.
+
+        fmi : version of the standard, 3 or 2. select : outputs, as in `export_c`. parameters : numbers of the machine by path that can be
+        set before the unit starts, as "bodies.crank.mass" or "parameters.load". platforms : "x86_64-linux", "x86_64-windows",
+        "aarch64-linux"; by default this one. force : replace an existing file.
+        Raises ModelError where steps are not fixed, a Python law takes part, a compiler is missing, or a parameter changes more than
+        numbers that follow from it by a formula, such as the assembly.
+        """
+        from nivel.c_library.exported import export
+        from nivel.fmu.defaults import defaults_of, units_of
+        from nivel.fmu.writer import VERSIONS, write_unit
+
+        chosen, paths, systems = (
+            (each,) if isinstance(each, str) else each for each in (select, parameters, platforms)
+        )
+        if fmi not in VERSIONS:
+            raise ModelError(Fault("", 0, 0, "fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
+        self._refuse_target(path, force)
+        values = defaults_of(self, paths)
+        plan = self._plan({})
+        build(run_entries(plan), listener)
+        with self._faults_in_file():
+            return write_unit(
+                export(plan, "an FMU", chosen),
+                Path(fspath(path)),
+                version=fmi,
+                platforms=systems,
+                values=values,
+                units=units_of(self, paths),
+                vary=lambda changes: export(self.with_values(changes)._plan({}), "an FMU"),
+            )
 
     @checked_arguments
     def start(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -49,7 +49,9 @@ class Output:
 
 @dataclass(frozen=True)
 class InputPlace:
-    """An input. kind, value : bytes of the image where its function has them. rest : its value while it is not set, at the start."""
+    """An input. kind, value : bytes of the image where its function has them. rest : its value while it is not set, at the start.
+    followed : place in a frame of the value that it has.
+    """
 
     name: str
     units: str
@@ -58,6 +60,7 @@ class InputPlace:
     low: float
     high: float
     rest: float
+    followed: int
     description: str
 
 
@@ -98,7 +101,11 @@ class Exported:
     @property
     def size(self) -> int:
         """Bytes of a block: the image, what is kept of inputs, outputs; whole lines of the cache."""
-        size = self.image.words.nbytes + WORD * (1 + len(self.inputs) + len(self.outputs))
+        return self.size_for(len(self.outputs))
+
+    def size_for(self, outputs: int) -> int:
+        """Bytes of a block with so many outputs."""
+        size = self.image.words.nbytes + WORD * (1 + len(self.inputs) + outputs)
         return -(-size // LINE) * LINE
 
     @property
@@ -149,9 +156,11 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
         image = Image([loop.machine, *twins, loop.history], {entry.address: entry.symbol for entry in entries})
     except UnknownAddressError:
         raise refusal(f"Python laws cannot go into {what}; write them as expressions") from None
-    outputs = _outputs(plan, prepared, select)
+    frame = _frame(plan, prepared)
+    place = {name: k for k, name in enumerate(columns(frame), start=1)}
+    outputs = _outputs(frame, place, plan.machine.inputs, select)
     inputs = tuple(
-        _input_place(each, function, loop, image)
+        _input_place(each, function, loop, image, place[f"{each.name}.value"])
         for each, function in zip(plan.machine.inputs, prepared.motion.system.input_functions, strict=True)
     )
     failures = tuple(failures_of(prepared.motion.system))
@@ -171,20 +180,24 @@ def _endless(loop: Loop) -> Loop:
     return loop._replace(history=Handle(kept))
 
 
-def _outputs(plan: Plan, prepared: Prepared, select: Sequence[str]) -> tuple[Output, ...]:
-    """Numbers of a frame, named as in results: the time, and what is selected."""
+def _frame(plan: Plan, prepared: Prepared) -> Result:
+    """A result without frames, which knows the names of all numbers of a frame."""
     sink = Memory()
     attributes = run_attributes(plan.machine, "", prepared, plan.settings)
     sink.begin(Header(prepared.motion.system.layout, attributes))
-    frame = sink.result()
-    names = columns(frame)
+    return sink.result()
+
+
+def _outputs(
+    frame: Result, place: Mapping[str, int], inputs: Sequence[Input], select: Sequence[str]
+) -> tuple[Output, ...]:
+    """Numbers of a frame, named as in results: the time, and what is selected."""
     if not select:
-        chosen = _usual(frame, names, plan.machine.inputs) or names
+        chosen = _usual(frame, [*place], inputs) or [*place]
     elif EVERYTHING in select:
-        chosen = names
+        chosen = [*place]
     else:
         chosen = columns(frame, select)
-    place = {name: k for k, name in enumerate(names, start=1)}
     return (Output("time", "s", 0), *(Output(name, frame.units(name), place[name]) for name in chosen))
 
 
@@ -195,10 +208,11 @@ def _usual(frame: Result, names: Sequence[str], inputs: Sequence[Input]) -> list
     return [name for name, variable in owner if variable in usual or variable.startswith("sensor.")]
 
 
-def _input_place(each: Input, function: int, loop: Loop, image: Image) -> InputPlace:
+def _input_place(each: Input, function: int, loop: Loop, image: Image, followed: int) -> InputPlace:
     functions = loop.machine.record.functions
     kinds, values = (image.byte_of(array.ctypes.data) for array in (functions.kind, functions.value))
     (low, high), course = each.range, each.course
     rest = float(np.interp(0.0, course.times, course.values)) if isinstance(course, Table) else float(course)
     kind, value = kinds + functions.kind.itemsize * function, values + WORD * function
-    return InputPlace(each.name, each.units, kind, value, low, high, min(max(rest, low), high), each.description)
+    rest = min(max(rest, low), high)
+    return InputPlace(each.name, each.units, kind, value, low, high, rest, followed, each.description)

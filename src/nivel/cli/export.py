@@ -1,4 +1,5 @@
-"""`nivel export RESULT --csv [FILE]`, a result as a table, and `nivel export MACHINE --c FOLDER`, a machine as a C library."""
+"""`nivel export RESULT --csv [FILE]`, a result as a table; `nivel export MACHINE --c FOLDER` and `--fmu [FILE]`, a machine as a C library
+or as an FMU."""
 
 from __future__ import annotations
 
@@ -8,10 +9,10 @@ import click
 
 from nivel.cli.options import file_argument, force_option, override_option
 
-BESIDE = "\0"  # stands for `--csv` without a file
+BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
 
 
-@click.command(short_help="Write a result as a table, or a machine as a C library.")
+@click.command(short_help="Write a result as a table, or a machine as a C library or FMU.")
 @file_argument("source")
 @click.option(
     "--csv",
@@ -30,26 +31,66 @@ BESIDE = "\0"  # stands for `--csv` without a file
 )
 @force_option
 @click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
+@click.option(
+    "--fmu",
+    "unit",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write an FMU of the machine SOURCE for co-simulation; default: NAME.fmu in the working directory.",
+)
+@click.option("--fmi", type=click.Choice(["3", "2"]), help="Version of FMI; default 3.")
+@click.option(
+    "--parameter",
+    "parameters",
+    multiple=True,
+    metavar="PATH",
+    help="A number of the machine that can be set in the FMU, e.g. bodies.crank.mass. May be repeated.",
+)
+@click.option(
+    "--platform",
+    "platforms",
+    multiple=True,
+    type=click.Choice(["x86_64-linux", "x86_64-windows", "aarch64-linux"]),
+    help="What the FMU runs on; default: this system. May be repeated.",
+)
 @override_option
 def command(
-    source: str, target: str | None, select: tuple[str, ...], force: bool, folder: str | None, overrides: dict[str, str]
+    source: str,
+    target: str | None,
+    select: tuple[str, ...],
+    force: bool,
+    folder: str | None,
+    unit: str | None,
+    fmi: str | None,
+    parameters: tuple[str, ...],
+    platforms: tuple[str, ...],
+    overrides: dict[str, str],
 ) -> None:
-    """Write a result as a table, or a machine as a C library.
+    """Write a result as a table, or a machine as a C library or as an FMU.
 
     A table has enough digits to read the numbers back exactly. The run of a result may still be going on, or may have been killed.
 
     A C library simulates the machine with the fixed step of its simulation settings. `make` builds it and an example. Its outputs are
     sensors, joint coordinates with their rates, and inputs, or what --select names.
+
+    An FMU does the same in other simulation programs, by FMI 3.0 or 2.0.
     """
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
+    if sum(each is not None for each in (target, folder, unit)) > 1:
+        raise click.UsageError("one of --csv, --c and --fmu is written at a time")
+    if unit is None and (fmi or parameters or platforms):
+        raise click.UsageError("--fmi, --parameter and --platform belong to --fmu")
     if folder is not None:
-        if target is not None or force:
-            raise click.UsageError("--c takes a machine; --csv and --force belong to results")
+        if force:
+            raise click.UsageError("--c takes a machine and a new folder; --force belongs to --csv and --fmu")
         _write_c_library(source, folder, names, overrides)
-        return
-    if overrides:
-        raise click.UsageError("--set changes a machine; it belongs to --c")
-    _write_table(source, target, names, force)
+    elif unit is not None:
+        _write_fmu(source, unit, names, int(fmi or 3), parameters, platforms, force, overrides)
+    elif overrides:
+        raise click.UsageError("--set changes a machine; it belongs to --c and --fmu")
+    else:
+        _write_table(source, target, names, force)
 
 
 def _write_c_library(machine: str, folder: str, select: list[str], overrides: dict[str, str]) -> None:
@@ -63,6 +104,27 @@ def _write_c_library(machine: str, folder: str, select: list[str], overrides: di
     )
 
 
+def _write_fmu(
+    machine: str,
+    unit: str,
+    select: list[str],
+    fmi: int,
+    parameters: tuple[str, ...],
+    platforms: tuple[str, ...],
+    force: bool,
+    overrides: dict[str, str],
+) -> None:
+    from nivel.api import load
+
+    path = Path(Path(machine).with_suffix(".fmu").name) if unit == BESIDE else Path(unit)
+    loaded = load(machine, overrides)
+    written = loaded.export_fmu(path, fmi=fmi, select=select, parameters=parameters, platforms=platforms, force=force)
+    counts = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {len(written.parameters)} parameters"
+    size = written.path.stat().st_size / 1000
+    systems = " and ".join(written.platforms)
+    click.echo(f"FMU: {written.path}, FMI {fmi}.0 co-simulation for {systems}, {counts}, {size:.0f} kB", err=True)
+
+
 def _write_table(result: str, target: str | None, names: list[str], force: bool) -> None:
     import sys
 
@@ -71,7 +133,7 @@ def _write_table(result: str, target: str | None, names: list[str], force: bool)
     from nivel.results.frames.csv_table import columns, write_table
 
     if target is None:
-        raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER of a machine")
+        raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER or --fmu [FILE] of a machine")
     opened = Result.open(result)
     if target == "-":
         write_table(opened, columns(opened, names), sys.stdout)

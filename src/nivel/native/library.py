@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import atexit
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from typing import Any
 
@@ -42,6 +42,20 @@ def object_code(entry: Entry) -> bytes:
         code = store.read(path)
     assert code is not None, f"{path} cannot be read"
     return code
+
+
+def object_codes_for(entries: Sequence[Entry], target: tuple[str, str, str]) -> dict[str, bytes]:
+    """Object files by symbol, for another processor or system: what LLVM compiles for. Raises CompilationError."""
+    paths = {
+        entry: store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name.partition(":")[0]), *target)
+        for entry in entries
+    }
+    codes = {entry.symbol: store.read(path) for entry, path in paths.items()}
+    missing = [entry for entry in entries if codes[entry.symbol] is None]
+    workers.compile_all([job_of(entry, [(str(paths[entry]), target)]) for entry in missing])
+    for entry in missing:
+        codes[entry.symbol] = store.read(paths[entry])
+    return {symbol: code for symbol, code in codes.items() if code is not None}
 
 
 def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: None) -> None:

@@ -9,6 +9,7 @@ import ctypes
 import json
 import platform
 import sys
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -85,6 +86,19 @@ def manifest() -> dict[str, Any]:
 def file_of(name: str) -> str:
     """Name of the library of a level."""
     return f"libnivel-{name}.so"
+
+
+def unit_for(system: str, entries: Iterable[Entry]) -> Path | None:
+    """The binary of FMUs for a system, `x86_64-linux`, that came with the library and has these entries, of their present sources."""
+    path = FOLDER / unit_file_of(system)
+    made = manifest()["entries"]
+    has_all = all(made.get(entry.name) == fingerprint(entry.name.partition(":")[0]) for entry in entries)
+    return path if has_all and path.exists() else None
+
+
+def unit_file_of(system: str) -> str:
+    """Name of the binary of FMUs for a system."""
+    return f"unit-{system}.bin"
 
 
 @cache

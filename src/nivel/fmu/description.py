@@ -1,0 +1,165 @@
+"""The description of a unit, `modelDescription.xml`: its variables with units, and what it can do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+from xml.sax.saxutils import quoteattr
+
+import nivel
+from nivel.c_library.exported import Exported
+from nivel.fmu.data import INPUT, PARAMETER, outputs_of
+from nivel.fmu.formulas import Formulas
+from nivel.machine.units.dimension import BASES
+from nivel.machine.units.unit import UnknownUnitError, unit
+
+# what FMI calls the bases of units; it has none for turns
+IN_FMI = {base: base for base in BASES if base != "cycle"}
+
+
+class Variable(NamedTuple):
+    """A variable of a unit. start : value before the first step; None: it is computed."""
+
+    name: str
+    reference: int
+    causality: str
+    units: str
+    start: float | None = None
+    low: float | None = None
+    high: float | None = None
+    description: str = ""
+
+
+def variables_of(machine: Exported, found: Formulas, units: Mapping[str, str]) -> list[Variable]:
+    """Outputs, inputs and parameters. units : of parameters, by name."""
+    outputs = [Variable(each.name, each.place, "output", each.units) for each in outputs_of(machine)]
+    inputs = [
+        Variable(each.name, INPUT + k, "input", each.units, each.rest, each.low, each.high, each.description)
+        for k, each in enumerate(machine.inputs)
+    ]
+    parameters = [
+        Variable(each.name, PARAMETER + k, "parameter", units.get(each.name, ""), each.value, max(each.least, -1e300))
+        for k, each in enumerate(found.parameters)
+    ]
+    return [*outputs, *inputs, *parameters]
+
+
+def description(machine: Exported, variables: Sequence[Variable], token: str, version: int) -> str:
+    """The text of the file. version : of FMI, 3 or 2."""
+    record, settings = machine.plan.machine, machine.plan.settings
+    named = {"description": record.description.strip(), "generationTool": f"nivel {nivel.__version__}"}
+    ours = {
+        3: {"fmiVersion": "3.0", "modelName": record.name, "instantiationToken": token, **named},
+        2: {"fmiVersion": "2.0", "modelName": record.name, "guid": token, **named},
+    }
+    state = {3: "FMUState", 2: "FMUstate"}[version]
+    able = {
+        "modelIdentifier": machine.identifier,
+        f"canGetAndSet{state}": "true",
+        f"canSerialize{state}": "true",
+        "canHandleVariableCommunicationStepSize": "true",
+    }
+    if version == 3:
+        able["fixedInternalStepSize"] = repr(settings.step)
+    experiment = {"startTime": "0.0", "stopTime": repr(settings.duration), "stepSize": repr(settings.step)}
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f"<fmiModelDescription{_attributes(ours[version])}>",
+        f"<CoSimulation{_attributes(able)}/>",
+        *_units(variables),
+        "<LogCategories>",
+        '<Category name="logStatusError"/>',
+        "</LogCategories>",
+        f"<DefaultExperiment{_attributes(experiment)}/>",
+        "<ModelVariables>",
+        *({3: _variables_3, 2: _variables_2}[version](variables)),
+        "</ModelVariables>",
+        *({3: _structure_3, 2: _structure_2}[version](variables)),
+        "</fmiModelDescription>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _attributes(values: Mapping[str, str]) -> str:
+    return "".join(f" {name}={quoteattr(_plain(value))}" for name, value in values.items() if value)
+
+
+def _plain(text: str) -> str:
+    """A text without what XML cannot hold."""
+    return "".join(each for each in text if each.isprintable() or each.isspace())
+
+
+def _numbers(each: Variable) -> dict[str, str]:
+    found = {"unit": each.units, "start": each.start, "min": each.low, "max": each.high}
+    texts = {
+        name: value if isinstance(value, str) else repr(value) for name, value in found.items() if value is not None
+    }
+    return texts if texts["unit"] not in ("", "1") else {name: text for name, text in texts.items() if name != "unit"}
+
+
+def _variables_3(variables: Sequence[Variable]) -> Iterator[str]:
+    yield '<Float64 name="time" valueReference="0" causality="independent" variability="continuous" unit="s"/>'
+    for each in variables:
+        kind = {"output": {"initial": "calculated"}, "parameter": {"variability": "fixed", "initial": "exact"}}
+        given = {"name": each.name, "valueReference": str(each.reference), "causality": each.causality}
+        given |= {**kind.get(each.causality, {}), "description": each.description, **_numbers(each)}
+        yield f"<Float64{_attributes(given)}/>"
+
+
+def _structure_3(variables: Sequence[Variable]) -> Iterator[str]:
+    outputs = [each.reference for each in variables if each.causality == "output"]
+    yield "<ModelStructure>"
+    yield from (f'<Output valueReference="{each}"/>' for each in outputs)
+    yield from (f'<InitialUnknown valueReference="{each}"/>' for each in outputs)
+    yield "</ModelStructure>"
+
+
+def _variables_2(variables: Sequence[Variable]) -> Iterator[str]:
+    for each in variables:
+        varies = "fixed" if each.causality == "parameter" else "continuous"
+        initial = {"output": "calculated", "parameter": "exact"}.get(each.causality, "")
+        given = {"name": each.name, "valueReference": str(each.reference), "causality": each.causality}
+        given |= {"variability": varies, "initial": initial, "description": each.description}
+        yield f"<ScalarVariable{_attributes(given)}><Real{_attributes(_numbers(each))}/></ScalarVariable>"
+
+
+def _structure_2(variables: Sequence[Variable]) -> Iterator[str]:
+    places = [k for k, each in enumerate(variables, start=1) if each.causality == "output"]
+    if not places:
+        yield "<ModelStructure/>"
+        return
+    unknowns = "".join(f'<Unknown index="{k}"/>' for k in places)
+    yield "<ModelStructure>"
+    yield f"<Outputs>{unknowns}</Outputs>"
+    yield f"<InitialUnknowns>{unknowns}</InitialUnknowns>"
+    yield "</ModelStructure>"
+
+
+def _units(variables: Sequence[Variable]) -> Iterator[str]:
+    used = {"s", *(each.units for each in variables)} - {"", "1"}
+    yield "<UnitDefinitions>"
+    for name in sorted(used):
+        base = base_unit(name)
+        inner = f"<BaseUnit{_attributes(base)}/>" if base is not None else ""
+        yield f"<Unit name={quoteattr(name)}>{inner}</Unit>"
+    yield "</UnitDefinitions>"
+
+
+def base_unit(name: str) -> dict[str, str] | None:
+    """A unit as results write it, `kg m^2/s`, in the words of FMI; None where FMI cannot say it, as of roots of masses."""
+    exponents, factor = dict.fromkeys(BASES, 0.0), 1.0
+    for k, part in enumerate(name.replace("·", " ").replace("*", " ").split("/")):
+        for word in part.strip("() ").split():
+            symbol, _, power = word.partition("^")
+            try:
+                found, each = unit(symbol) if symbol != "1" else None, float(power or 1.0) * (-1.0 if k else 1.0)
+            except (UnknownUnitError, ValueError):
+                return None
+            if found is not None:
+                factor *= found.factor**each
+                for base, exponent in zip(BASES, found.dimension, strict=True):
+                    exponents[base] += each * exponent
+    if any(exponent % 1.0 for exponent in exponents.values()):
+        return None
+    base = {IN_FMI[base]: str(int(exponent)) for base, exponent in exponents.items() if exponent and base in IN_FMI}
+    return base | ({"factor": repr(factor)} if factor != 1.0 else {})

@@ -39,7 +39,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "explain": CommandPlace("nivel.cli.explain", "Show how far a result can be trusted, and why."),
     "loads": CommandPlace("nivel.cli.loads", "Peak reactions, power and work, and load cycles of signals."),
     "stress": CommandPlace("nivel.cli.stress", "Find the largest stresses in a flexible body."),
-    "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library."),
+    "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library or FMU."),
     "import": CommandPlace("nivel.cli.import_model", "Translate a model of another program into a machine file."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),
 }

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ ATTRIBUTE = "estimated_errors"
 TIMES, NUMBERS = 50, 200_000
 # Errors are not smaller than this share of a value.
 ROUND_OFF = 2.220446049250313e-16
+NO_NUMBER = re.compile(r"-?inf|nan")
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,8 @@ class Estimate:
 
     def to_json(self) -> str:
         """JSON text, three digits."""
-        values = {name: _rounded(each) for name, each in self.values.items()}
-        return json.dumps({"time": self.time.tolist(), "values": values}, separators=(",", ":"))
+        values = ",".join(f"{json.dumps(name)}:{_rounded(each)}" for name, each in self.values.items())
+        return f'{{"time":{json.dumps(self.time.tolist())},"values":{{{values}}}}}'
 
     @classmethod
     def from_json(cls, text: str) -> Estimate:
@@ -77,9 +78,10 @@ def estimate_errors(result: Readable, finer: Readable, factor: float) -> Estimat
     return Estimate(result.time[first][ends], values, mean)
 
 
-def _rounded(values: Array) -> Any:
-    """Nested lists of numbers with three digits; what is no number is null."""
-    flat: list[Any] = [float(f"{each:.3g}") if np.isfinite(each) else None for each in values.ravel().tolist()]
-    for length in reversed(values.shape[1:]):
-        flat = [flat[k : k + length] for k in range(0, len(flat), length)]
-    return flat
+def _rounded(values: Array) -> str:
+    """JSON of nested lists of numbers with three digits; what is no number is null."""
+    one = "%.3g"
+    for length in reversed(values.shape):
+        one = f"[{','.join([one] * length)}]"
+    text = one % tuple(values.ravel().tolist())
+    return text if np.isfinite(values).all() else NO_NUMBER.sub("null", text)

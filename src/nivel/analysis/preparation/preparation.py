@@ -36,6 +36,7 @@ from nivel.analysis.plan.refusals import (
 from nivel.errors import Fault, ModelError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.kernels.core.arrays import copied
+from nivel.kernels.record.record import Record
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
@@ -48,6 +49,13 @@ class Assembled(NamedTuple):
 
     motion: MotionEquations
     assembly: Assembly
+
+
+class _Records(NamedTuple):
+    """Records that may have arrays in common."""
+
+    motion: Record
+    absolute: Record
 
 
 class Rest(Protocol):
@@ -83,6 +91,17 @@ class Prepared:
     corners: tuple[float, ...] = ()
     allowed: Array | None = None
     jumping: tuple[str, ...] = ()
+
+    def again(self) -> Prepared | None:
+        """The same, not yet run, with records of its own, for a run beside it; None where records point to each other."""
+        if self.motion.twin is not None:
+            return None
+        own = copied(_Records(self.motion.system.record, self.absolute.system.record))
+        motion, absolute = (
+            replace(each, system=replace(each.system, record=record))
+            for each, record in zip((self.motion, self.absolute), own, strict=True)
+        )
+        return replace(self, motion=motion, absolute=absolute)
 
     @property
     def guards_circuits(self) -> bool:

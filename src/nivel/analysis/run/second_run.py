@@ -12,6 +12,7 @@ from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.progress.pacing import Follower, Leader
@@ -131,15 +132,23 @@ class SecondRun:
     """A second run of a plan in a thread; it waits for the first one to begin.
 
     limit [s] : how long it may go on after the first; None: as long as that took, and at least LEAST_LIMIT. beside : another second run,
-    with finer steps; this one then makes the same steps as the first, of a plan that is another.
+    with finer steps; this one then makes the same steps as the first, of a plan that is another. prepared : the machine of the plan, not
+    yet run, for this run alone; None: it is prepared in the thread.
     """
 
-    def __init__(self, plan: Plan, limit: float | None, beside: SecondRun | None = None, words: str = "") -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        limit: float | None,
+        beside: SecondRun | None = None,
+        words: str = "",
+        prepared: Prepared | None = None,
+    ) -> None:
         own = refine(plan.settings, _steps_to_meet(plan)) if beside is None else Refinement(plan.settings, words, 0.0)
         self.refinement = own
         self.leader = Leader() if beside is None else beside.leader
         self._follows = beside is None
-        self._plan, self._limit = plan, limit
+        self._plan, self._limit, self._prepared = plan, limit, prepared
         self._sink = Memory()
         self._finished: RunOutcome | None = None
         self._fault: Exception | None = None
@@ -155,7 +164,7 @@ class SecondRun:
             return
         try:
             settings = self.refinement.settings
-            prepared = prepare(self._plan.methods)
+            prepared = self._prepared or prepare(self._plan.methods)
             self._sink.begin(Header(prepared.motion.system.layout, {}))
             chosen = settings.steps == 0 and self._follows
             follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)

@@ -54,7 +54,7 @@ def simulate(
     begin = time.perf_counter()
     listener.say("preparing")
     prepared = prepare(plan.methods)
-    second = SecondRun(plan, verify_limit) if verify else None
+    second = SecondRun(plan, verify_limit, prepared=prepared.again()) if verify else None
     elements = ElementsRun.beside(second, plan, verify_limit) if second is not None else None
     try:
         with terminable():

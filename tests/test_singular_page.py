@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 import singular_positions as example
 
+from linkages import change_point
 from nivel.errors import SolveError
 from references import four_bar
+from simulating import simulate
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "singular-positions.md").read_text(encoding="utf-8")
@@ -157,3 +159,20 @@ def test_picture_is_there():
 
 def test_lines_are_short():
     assert not [line for line in PAGE.splitlines() if len(line) > 130]
+
+
+TURNING = page_rows("relative coordinates, crank starts at 0.5 rad with 2 rad/s")
+
+
+@pytest.mark.parametrize("integrator", TURNING)
+def test_methods_that_choose_their_steps_turn_at_the_tolerances_of_the_page(integrator):
+    """`integrator` in the words of the page; a run may stop in place of turning."""
+    straight, turned = (set(re.findall(r"1e-\d+", cell)) for cell in TURNING[integrator])
+    for tolerance in sorted(straight | turned):
+        given = {"integrator": integrator.strip("`"), "tolerance": float(tolerance), "coordinates": "relative"}
+        try:
+            result = simulate(change_point(), duration=2.5, **given)
+        except SolveError:
+            assert tolerance in turned
+        else:
+            assert ("branch" in {item.name for item in result.trust.items}) == (tolerance in turned)

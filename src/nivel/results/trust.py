@@ -107,6 +107,7 @@ KEYS: Final = {
     "accuracy_time": Key("accuracy", "time", "float | None"),
     "accuracy_refinement": Key("accuracy", "refinement", "str", ""),
     "accuracy_blind": Key("accuracy", "blind", "str", ""),
+    "accuracy_parted": Key("accuracy", "parted", "float | None"),
     "elements_estimate": Key("elements", "error", "float | None"),
     "elements_body": Key("elements", "body", "str", ""),
     "elements_time": Key("elements", "time", "float | None"),
@@ -191,6 +192,8 @@ class Trust:
         """What a second run says."""
         assert self.accuracy_estimate is not None
         agree = f"two runs agree within {number(self.accuracy_estimate)} m"
+        if self.accuracy_parted is not None:
+            return f"of unknown error: two runs go different ways from t = {self.accuracy_parted:.6g} s on, and {self.accuracy_blind}"
         if self.accuracy_blind:
             return f"of unknown error: {agree}, but {self.accuracy_blind}"
         if doubt := self._doubt():

@@ -21,7 +21,7 @@ from nivel.kernels.signals.input import apply as read_inputs
 from nivel.machine.hydraulics import Actuator
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
+from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, CompilationError
@@ -154,6 +154,8 @@ def run_entries(plan: Plan) -> list[Entry]:
     methods = plan.methods
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
     path = methods.path
+    if methods.machine.is_flexible:
+        modules.append(FLOATING.module)  # singular positions are searched for in absolute coordinates
     after_steps = f"{path.correction}:correct" if plan.stabilisation.CORRECTS else f"{path.module}:normalise_state"
     return [*preparation_entries(methods), methods.integrator.step, *_entries(modules), entry_of(after_steps)]
 

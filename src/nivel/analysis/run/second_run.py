@@ -8,6 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil, gcd, lcm
 
+import numpy as np
+from numpy.typing import NDArray
+
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.plan.refusals import sampled_times
@@ -56,12 +59,14 @@ class Refinement:
 
 @dataclass(frozen=True)
 class Verified:
-    """A second run as far as it came. until : its last frame [s]. ended : why it came to no end; empty where it did."""
+    """A second run as far as it came. until : its last frame [s]. ended : why it came to no end; empty where it did. pace : of
+    `nivel.integrate.loop.run.Run`."""
 
     result: Result
     refinement: Refinement
     until: float
     ended: str
+    pace: NDArray[np.float64] | None = None
 
 
 def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
@@ -200,7 +205,8 @@ class SecondRun:
         result = self._sink.result()
         if not len(result.time):
             return None
-        return Verified(result, self.refinement, float(result.time[-1]), "" if finished.outcome == "done" else ended)
+        ended = "" if finished.outcome == "done" else ended
+        return Verified(result, self.refinement, float(result.time[-1]), ended, finished.pace)
 
     def _watch(self, limit: float, progress: Callable[[float], None] | None) -> str:
         """Wait for the thread; why it has to end before its time, where it has to."""

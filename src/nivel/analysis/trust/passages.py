@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +58,9 @@ class Track:
         places = [result.array("position"), _continuous(result.array("orientation"))]
         modes = [result.array("modal_coordinate")] if system.modes else []
         names = [f"state.{fact.name}" for fact in system.states]
-        states = [result.array(name)[:, None] for name in names] if all(map(result.variables.__contains__, names)) else []
+        states = (
+            [result.array(name)[:, None] for name in names] if all(map(result.variables.__contains__, names)) else []
+        )
         q = np.hstack([np.concatenate(places, axis=2).reshape(n, -1), *modes])
         return cls(result.time, q, np.hstack([np.zeros((n, 0)), *states]), pivots)
 
@@ -67,18 +70,32 @@ class Track:
         y[self.q.shape[1] : self.pivots.first_state] = 0.0  # at rest: velocities change no pivot
         return y
 
-    def at(self, place: float) -> tuple[float, Array]:
-        """Time and pivots at a frame, or on the parabola through the three next to a place between frames."""
+    def at(self, place: float, beside: int | None = None) -> tuple[float, Array]:
+        """Time and pivots at a frame, or on the parabola through the three next to a place between frames, or about the frame `beside`."""
         k, y = round(place), self._y
         if k == place:
             time, y[: self.q.shape[1]] = self.time[k], self.q[k]
         else:
-            k = min(max(k, 1), len(self.time) - 2)
+            k = min(max(k, 1), len(self.time) - 2) if beside is None else beside
             s, near = place - k, slice(k - 1, k + 2)
             weights = np.array([0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)])
             time, y[: self.q.shape[1]] = weights @ self.time[near], weights @ self.q[near]
         y[self.pivots.first_state :][: self.states.shape[1]] = self.states[k]
         return float(time), self.pivots.at(float(time), y)
+
+    def least(self, beside: int, between: tuple[int, int], middle: Array) -> tuple[float, int, float]:
+        """Where a pivot is least as a share of its middle value, on the parabola about a frame between two places; which, and that
+        share."""
+        places = np.linspace(*between, 5)
+        found = np.stack([self.at(float(place), beside)[1] for place in places]) / middle
+        found = np.nan_to_num(found, nan=np.inf)
+        row = int(np.argmin(found.min(axis=0)))
+        k = min(max(int(np.argmin(found[:, row])), 1), len(places) - 2)
+        near = slice(k - 1, k + 2)
+        place, value = _least(
+            lambda at: float(self.at(at, beside)[1][row] / middle[row]), places[near], found[near, row]
+        )
+        return place, row, value
 
 
 def can_be_singular(run: Run) -> bool:
@@ -106,7 +123,9 @@ def passages(run: Run) -> Iterator[Passage]:
     middle = np.median(np.nan_to_num(found, nan=np.inf), axis=0)
     before = -1.0
     for k, row in _minima(found, middle):
-        place, least = _least(lambda at, row=row: float(track.at(at)[1][row]), frames[k - 1 : k + 2], found[k - 1 : k + 2, row])
+        place, least = _least(
+            lambda at, row=row: float(track.at(at)[1][row]), frames[k - 1 : k + 2], found[k - 1 : k + 2, row]
+        )
         if place == before or not least < SINGULAR**2 * middle[row]:
             continue
         time, _ = track.at(place)
@@ -128,13 +147,15 @@ def _minima(found: Array, middle: Array) -> Iterator[tuple[int, int]]:
     bent = left + right - 2.0 * here
     with np.errstate(divide="ignore", invalid="ignore"):
         vertex = here - (right - left) ** 2 / (8.0 * bent)
-        near = (here <= left) & (here < right) & (here < LOW**2 * middle) & (vertex < NEAR_ZERO * np.maximum(left, right))
+        near = (
+            (here <= left) & (here < right) & (here < LOW**2 * middle) & (vertex < NEAR_ZERO * np.maximum(left, right))
+        )
     for k in np.flatnonzero(near.any(axis=1)):
         share = np.where(near[k], here[k] / middle, np.inf)
         yield int(k) + 1, int(np.argmin(share))
 
 
-def _least(value: Callable[[float], float], places: NDArray[np.intp], values: Array) -> tuple[float, float]:
+def _least(value: Callable[[float], float], places: NDArray[Any], values: Array) -> tuple[float, float]:
     """The place in the middle of three where a smooth function that is nowhere negative is least, and its value there."""
     (a, b, c), (fa, fb, fc) = map(float, places), map(float, values)
     for _ in range(CLOSER):

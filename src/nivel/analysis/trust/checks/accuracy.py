@@ -21,6 +21,7 @@ THRESHOLD = Threshold(
     "1e-4 of a machine of one metre is a tenth of a millimetre, less than manufacturing tolerances. Above 1e-2 the curves of the run "
     "and of the exact motion are visibly different.",
 )
+BRANCHING = ("singular", "branch")  # lines after which two runs may go different ways
 VERIFIED = Need("a second run", lambda run: run.second is not None)
 # Estimates are this much larger than what the two runs are apart by where the error falls with the step as it should: where it falls
 # with its first power only they are still no less than 0.8 of the error, for steps shorter by 5/8 and an order of two.
@@ -30,7 +31,8 @@ MARGIN = 1.25
 @dataclass(frozen=True)
 class Accuracy:
     """Estimated largest error of a position [m], of which body and when [s]. refinement : of the second run, in words. until : the time [s]
-    up to which it went, None: to the end. blind : why the second run may be wrong as the first, in words."""
+    up to which it went, None: to the end. blind : why the second run may be wrong as the first, in words; then parted [s]: from when on the
+    two go different ways, None: they do not."""
 
     error: float
     body: str
@@ -39,6 +41,7 @@ class Accuracy:
     until: float | None
     blind: str
     scales: Scales
+    parted: float | None = None
 
 
 @dataclass(frozen=True)
@@ -56,14 +59,18 @@ def look(run: Run) -> Accuracy:
     found = error_from_finer(run.result, finer.result, finer.refinement.left, rounded)
     until = finer.until if finer.ended else None
     words, blind = finer.refinement.words, blindness(run.items)
-    return Accuracy(found.value, found.row, found.time, words, until, blind, run.scales)
+    branching = any(item.name in BRANCHING and item.verdict != "green" for item in run.items)
+    parted = parting(run.result, finer.result, run.scales.size) if branching else None
+    return Accuracy(found.value, found.row, found.time, words, until, blind, run.scales, parted)
 
 
 def say(found: Accuracy) -> Item:
     """How far the motion is from the exact one."""
     fraction = found.error / found.scales.size
     by = f"by a second run with {found.refinement}"
-    if found.blind:
+    if found.parted is not None:
+        said = f"not known: a second run with {found.refinement} goes another way from t = {found.parted:.6g} s on, and {found.blind}"
+    elif found.blind:
         agrees = f"a second run with {found.refinement} agrees within {number(found.error)} m"
         said = f"{agrees}, but both may have the same error: {found.blind}"
     elif fraction < ROUND_OFF:
@@ -115,6 +122,13 @@ def error_from_finer(result: Readable, finer: Readable, left: float, rounded: fl
     floor = max(round_off(motion), rounded * extent(motion, size))
     error = max(float(apart[k, body]) * size * factor(left), floor)
     return Peak(error, motion.bodies[body], float(time[k]))
+
+
+def parting(result: Readable, finer: Readable, size: float) -> float | None:
+    """The time [s] from which on two runs are visibly apart; None where they are not."""
+    time, apart = distances(Motion.of(result), Motion.of(finer), size)
+    far = np.flatnonzero(~(apart.max(axis=1, initial=0.0) < THRESHOLD.amber))
+    return float(time[far[0]]) if len(far) else None
 
 
 def extent(motion: Motion, size: float) -> float:

@@ -90,7 +90,7 @@ class RowPivots:
         saddle, n = self.motion.system.record.saddle, self.rank
         x, last = np.zeros(len(saddle.order)), np.zeros(n)
         last[-1] = 1.0
-        x[saddle.pivot[:n]] = solve_triangular(saddle.dense[:n, :n], last, lower=True, trans="T")
+        x[saddle.pivot[:n]] = solve_triangular(saddle.dense[:n, :n], last, lower=True, trans=1)
         return x
 
 

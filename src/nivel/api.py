@@ -647,15 +647,10 @@ class Machine(Model):
             entries += run_entries(run)
         build(entries, listener)
         # what follows takes longer to import
-        from nivel.analysis.linearise.other_elements import with_note
-        from nivel.analysis.linearise.run import linearise
-        from nivel.analysis.run.prepared_state import run_until
+        from nivel.analysis.linearise.linearise import linearise
 
         with self._faults_in_file():
-            posture = None if run is None else run_until(run, listener or Listener())
-            source = self.origin.source
-            model = linearise(plain, methods, asked, posture=posture, source=source, listener=listener)
-        return with_note(model, plain, methods, asked, run) if asked.verify else model
+            return linearise(plain, methods, asked, run=run, source=self.origin.source, listener=listener)
 
     @checked_arguments
     def compare(

@@ -103,3 +103,50 @@ def test_kinematics_say_that_functions_in_python_are_not_compared():
     trust = machine.kinematics(drive="hinge", positions=5).trust
     assert (trust.light, trust.not_verified) == ("green", ())
     assert trust.verified_by == ("the closed joints", "the functions of its drivers, evaluated apart")
+
+
+def test_linear_models_say_what_has_examined_them(arm):
+    """A clamped beam: with other elements its slow vibrations are verified, the fastest are marked as wrong."""
+    model = arm.linearise()
+    assert model.trust.light == "green"
+    assert model.trust.verified_by == (
+        "the equilibrium of the state",
+        "a machine with half as many elements of beams",
+    )
+    unresolved = [each.number for each in model.modes if each.unresolved]
+    assert unresolved[0] > 4
+    assert unresolved == list(range(unresolved[0], len(model.modes) + 1))
+    assert model.to_xarray().attrs["verdict"] == "green"
+    single = arm.linearise(verify=False)
+    assert single.trust.not_verified == ("the elements of beams",)
+    assert (single.trust.light, single.to_xarray().attrs["verified"]) == ("not verified", 0)
+    assert single.summary()["trust"]["light"] == "not verified"
+    assert not any(each.unresolved for each in single.modes)
+
+
+def test_a_state_that_a_run_reached_is_not_verified(train):
+    model = train.linearise(about="0.1 s")
+    assert model.trust.not_verified == ("the run to the state at 0.1 s",)
+
+
+def test_eigenvalues_over_a_parameter_are_verified_where_it_is_asked_for(tmp_path):
+    file = tmp_path / "arm.yaml"
+    file.write_text(
+        BEAM.replace("1 cm}", "thick}").replace("format: 1", "format: 1\nparameters: {thick: 1 cm}"), encoding="utf-8"
+    )
+    words = [
+        "linearise",
+        str(file),
+        "--over",
+        "parameters.thick=1:2:2 cm",
+        "--out",
+        str(tmp_path / "over.nc"),
+        "--force",
+        "--json",
+    ]
+    plain = CliRunner().invoke(main, words)
+    assert json.loads(plain.stdout)["trust"]["light"] == "not verified"
+    assert "the elements of beams" in plain.stderr
+    verified = CliRunner().invoke(main, [*words, "--verify"])
+    assert json.loads(verified.stdout)["trust"]["light"] == "green"
+    assert "trust: green, verified by the trust reports of 2 variants" in verified.stderr

@@ -332,7 +332,7 @@ def test_vibrations_are_wrong_by_no_more_than_ten_times_what_is_stated(order, el
 
 # ------------------------------------------------------------------ linear models
 def mesh_note(model: LinearModel) -> str:
-    return next(note for note in model.notes if note.startswith("mesh:"))
+    return next(note for note in model.notes if note.startswith("Mesh:"))
 
 
 def test_linear_models_say_which_vibrations_elements_make_wrong():

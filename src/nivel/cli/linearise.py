@@ -33,8 +33,13 @@ MOST = 1000  # values of a parameter
     callback=separated,
     help="Campbell diagram: multiples of the rotational speed that --over varies.",
 )
+@click.option(
+    "--verify", "with_others", is_flag=True, help="With --over: also vibrations with other elements of beams."
+)
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write an animation of mode N.")
-def command(order: Order, over: str | None, orders: tuple[str, ...] | None, shown: tuple[int, ...]) -> None:
+def command(
+    order: Order, over: str | None, orders: tuple[str, ...] | None, with_others: bool, shown: tuple[int, ...]
+) -> None:
     """Linearise the equations of motion of MACHINE about a state.
 
     Computes natural frequencies, damping and modes of small motions, and the state-space model between inputs and outputs.
@@ -45,8 +50,12 @@ def command(order: Order, over: str | None, orders: tuple[str, ...] | None, show
     from nivel.files.target import check_target
 
     if over is not None:
-        _sweep(order, over, read_orders(orders))
+        if with_others and "verify" in order.settings:
+            raise ModelError(Fault("", 0, 0, "linearise.verify", "--verify and --no-verify contradict each other"))
+        _sweep(order, over, read_orders(orders), verify=with_others)
         return
+    if with_others:
+        raise ModelError(Fault("", 0, 0, "linearise.verify", "belongs to --over; without it models are verified"))
     if orders is not None:
         raise ModelError(Fault("", 0, 0, "linearise.orders", "belongs to --over, and no parameter is given"))
     machine = order.load()
@@ -65,29 +74,29 @@ def command(order: Order, over: str | None, orders: tuple[str, ...] | None, show
     order.keep(name, compute, _said)
 
 
-def _sweep(order: Order, over: str, orders: list[float]) -> None:
-    """Eigenvalues over a parameter."""
-    import numpy as np
-
-    from nivel.results.analyses.linear_sweep import LinearSweep, speed_of
+def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> None:
+    """Eigenvalues over a parameter. verify : each model, though they are many."""
+    from nivel.analysis.linearise.over import over as models_over
+    from nivel.results.analyses.linear_sweep import speed_of
 
     path, values, unit = read_range(over)
     if orders:
         speed_of(unit, path)
     name = order.load().name
-    settings: dict[str, Any] = {**order.settings, "verify": False}  # the models of a sweep are many
+    settings: dict[str, Any] = {**order.settings, "verify": verify}
 
     def compute(listener: Listener) -> LinearSweep:
         models = [
             order.load({path: f"{value!r} {unit}".strip()}).linearise(**settings, listener=listener) for value in values
         ]
-        return LinearSweep(path, unit, np.array(values), tuple(models))
+        return models_over(path, unit, values, models)
 
     def said(sweep: LinearSweep) -> list[str]:
         return [
             f"{name}: eigenvalues at {len(values)} values of {path}",
             *sweep.statements(),
             *(each.words(unit) for each in sweep.crossings(orders)),
+            f"trust: {sweep.trust.told}",
         ]
 
     order.keep(f"{name}-sweep.nc", compute, said, orders)
@@ -132,4 +141,5 @@ def _said(model: LinearModel) -> list[str]:
         *model.notes,
         *(f"mode {mode.number}: {mode_in_words(mode)}" for mode in modes[:SHOWN]),
         *([f"and {len(modes) - SHOWN} more in the data"] if len(modes) > SHOWN else []),
+        f"trust: {model.trust.told}",
     ]

@@ -10,6 +10,7 @@ import numpy as np
 from nivel import __version__
 from nivel.errors import ModelError
 from nivel.report.plots import Line, curves, points
+from nivel.report.story import trusted
 from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 
 HERE = Path(__file__).parent
@@ -26,6 +27,7 @@ def linear_html(model: LinearModel) -> str:
     return environment.get_template("linear.html.j2").render(
         model=model,
         facts=_facts(model),
+        trusted=trusted(model.trust),
         lines=_lines(model),
         beyond=max(0, len(model.modes) - MOST_MODES),
         plane=_plane(model),
@@ -56,8 +58,11 @@ def _lines(model: LinearModel) -> list[tuple[str, ...]]:
         frequency = f"{mode.natural_frequency:.6g}" if value.imag else ""
         ratio = f"{mode.damping_ratio:.4g}" if value.imag and mode.kind != "undamped vibration" else ""
         taking = ", ".join(f"{name} {100 * share:.0f} %" for name, share in mode.participation)
-        tone = "red" if mode.kind.endswith("grows") else "green" if mode.kind.startswith(("damped", "decays")) else ""
-        out.append((str(mode.number), mode.number_in_words, frequency, ratio, mode.kind, taking, tone))
+        sure = model.trust.verified and not mode.unresolved
+        decays = sure and mode.kind.startswith(("damped", "decays"))
+        tone = "red" if mode.kind.endswith("grows") else "green" if decays else ""
+        kind = f"{mode.kind}, {mode.unresolved}" if mode.unresolved else mode.kind
+        out.append((str(mode.number), mode.number_in_words, frequency, ratio, kind, taking, tone))
     return out
 
 

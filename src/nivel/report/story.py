@@ -88,21 +88,33 @@ def headline(result: Result) -> Headline:
         "interrupted": f"{reached}{took}, then it was stopped by hand.",
         "failed": f"{reached}{took}. {_sentence(result.failure)}",
     }.get(result.outcome, f"{reached}{took}")
-    return Headline(outcome, verdict, text, *_trusted(result))
+    believed = trusted(result.trust)
+    return Headline(outcome, verdict, text, believed.answer, believed.tone, believed.text)
 
 
-def _trusted(result: Result) -> tuple[str, Verdict, str]:
-    """Whether to believe it, and how exact it is. Of what was not verified there is no plain yes."""
-    trust = result.trust
+@dataclass(frozen=True)
+class Trusted:
+    """Whether to believe a result: the answer and its colour, how exact it is, and the lines of its trust report."""
+
+    answer: str
+    tone: Verdict
+    text: str
+    lines: list[TrustLine]
+
+
+def trusted(trust: Trust) -> Trusted:
+    """What a trust report says. Of what was not verified there is no plain yes."""
+    lines = trust_lines(trust)
     if trust.light == NOT_VERIFIED:
-        return UNVERIFIED, "amber", _breaking(_sentence(_nothing_against(trust)))
-    return VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline))
+        return Trusted(UNVERIFIED, "amber", _breaking(_sentence(_nothing_against(trust))), lines)
+    return Trusted(VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline)), lines)
 
 
 def _nothing_against(trust: Trust) -> str:
     if trust.verified_by:
         return trust.headline
-    return "nothing below is against it, but no second run says how exact it is"
+    left = f": {' and '.join(trust.not_verified)}" if trust.not_verified else ""
+    return f"nothing below is against it, but nothing says how exact it is{left}"
 
 
 def _reached(result: Result) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 
 from nivel import __version__
 from nivel.report.plots import Line, curves
+from nivel.report.story import trusted
 from nivel.results.analyses.linear_model import ROUND_OFF
 from nivel.results.analyses.linear_sweep import TURN, LinearSweep
 
@@ -27,6 +28,7 @@ def sweep_html(sweep: LinearSweep, orders: Sequence[float] = ()) -> str:
         name=f"{sweep.models[0].name}: eigenvalues over {sweep.parameter}",
         said=said or ["nothing changes its stability"],
         plots=_plots(sweep, orders),
+        trusted=trusted(sweep.trust),
         note=NOTE,
         version=__version__,
         page_style=(HERE / "page.css").read_text(encoding="utf-8"),

@@ -222,7 +222,7 @@ class Trust:
     def _examined(self) -> str:
         """What has examined a result, and what of it nothing has."""
         if not self.verified_by:
-            return NOT_VERIFIED
+            return f"{NOT_VERIFIED}: {' and '.join(self.not_verified)}" if self.not_verified else NOT_VERIFIED
         by = f"by {' and '.join(self.verified_by)}"
         return f"verified in part: {by}{self._lacks()}" if self.not_verified else f"verified {by}"
 
@@ -244,6 +244,15 @@ class Trust:
         """The number beside positions that is wrong most on its own scale; empty where all are exact except for round-off."""
         worst = max(self.found.get("quantities", ()), key=lambda each: each["error"] / each["extent"], default={})
         return worst if worst and worst["error"] > ROUNDED * worst["extent"] else {}
+
+    def attributes(self) -> dict[str, str | int]:
+        """Attributes of a dataset: the light as `verdict`, whether all was `verified` (0 or 1), the `headline`; `trust`, all as JSON."""
+        return {
+            "verdict": self.light,
+            "verified": int(self.verified),
+            "headline": self.headline,
+            "trust": self.to_json(),
+        }
 
     def lines(self) -> list[str]:
         """One line per item: its verdict and its statement."""

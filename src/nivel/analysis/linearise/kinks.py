@@ -23,7 +23,6 @@ FAR, NEAR = 1e-5, 1e-8
 STAYS, SEEN = 0.5, 1e-6
 # or than this share of the steepest slope of that force
 ROUND_OFF = 1e-10
-SHOWN = 4  # kinks in a note
 
 
 @dataclass(frozen=True)
@@ -77,21 +76,6 @@ def kinks(reduction: Reduction) -> list[Kink]:
             lower, upper = slopes[1][k] / each.size, slopes[2][k] / each.size
             out.append(Kink(each.name, *_named(reduction, each.units, k), float(lower), float(upper), bool(jump[k])))
     return out
-
-
-def note(found: list[Kink]) -> list[str]:
-    """What a reader has to know."""
-    more = f"; and {len(found) - SHOWN} more" if len(found) > SHOWN else ""
-    some = "; ".join(str(each) for each in found[:SHOWN]) + more
-    if any(each.jumps for each in found):
-        return [
-            f"the equations jump at this state, so that there are no linear ones whose eigenvalues describe a motion: {some}"
-        ]
-    return (
-        [f"the equations have a kink at this state, and the linear ones have one of two slopes: {some}"]
-        if found
-        else []
-    )
 
 
 def _side(own: Instant, Z: Array, change: _Change, share: float) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""A whole linearisation: from a machine record to its linear model."""
+"""Linear model of a machine record about a state, and what its trust report looks at."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from scipy.spatial.transform import Rotation
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
-from nivel.analysis.linearise.kinks import kinks, note
-from nivel.analysis.linearise.modal_notes import modal_notes
+from nivel.analysis.linearise.kinks import kinks
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
@@ -24,6 +23,7 @@ from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start
+from nivel.analysis.trust.subject import Linearisation
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import LineariseSettings
@@ -43,7 +43,7 @@ class _States:
     scale: Array
 
 
-def linearise(
+def linear_model(
     machine: MachineRecord,
     methods: Methods,
     settings: LineariseSettings,
@@ -51,8 +51,9 @@ def linearise(
     posture: Posture | None = None,
     source: str = "",
     listener: Listener | None = None,
-) -> LinearModel:
-    """The linear model of `machine`. methods : of the machine with neutral settings. posture : of a moment of a run, where it is wanted.
+) -> tuple[LinearModel, Linearisation]:
+    """The linear model of `machine`, without its trust report, and the subject of that. methods : of the machine with neutral settings.
+    posture : of a moment of a run, where it is wanted.
 
     Raises ModelError for what has no linear equations, SolveError where they cannot be evaluated.
     """
@@ -74,12 +75,12 @@ def linearise(
     drift = None if linear.drift is None else linear.drift[np.ix_(kept, kept)]
     found = eigenvalues(space.A, scale, noise, None if apart is None else apart.kept(kept), drift)
     bent = kinks(reduction)
-    steady = linear.steady and not any(each.jumps for each in bent)
+    steady = not linear.unsteady and not any(each.jumps for each in bent)
     found = found if steady else found.unknown()
     shift, turn = _shapes(instant, reduction, found, places)
     second = [rates[:, None] * each * rates for each in reduction.second_order()]
     posed = _posed(machine, source, moment, instant, settings)
-    return LinearModel(
+    model = LinearModel(
         name=machine.name,
         time=moment.t,
         about=settings.words,
@@ -105,8 +106,18 @@ def linearise(
         turn=turn,
         structural_zeros=_zeros(found, states),
         steady=steady,
-        notes=(*linear.notes, *note(bent), *modal_notes(machine, moment.prepared, found.values)),
+        remarks=linear.remarks,
         posed=posed,
+    )
+    return model, Linearisation(
+        outcome="done",
+        machine=machine,
+        prepared=moment.prepared,
+        eigenvalues=found.values,
+        moves=linear.moves,
+        unsteady=linear.unsteady,
+        kinks=tuple(bent),
+        reached=0.0 if posture is None else posture.t,
     )
 
 

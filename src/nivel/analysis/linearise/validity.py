@@ -25,15 +25,17 @@ Found = tuple[Reduction, Array, Array, StateSpace]
 class Judged:
     """Linear equations, and `space` with the signs of the results: places, rates, -1 where a joint coordinate grows against its velocity.
 
-    steady : whether eigenvalues describe the motion. notes : what a reader has to know. drift : by which A changes all the same.
+    moves : whether the machine does. unsteady : why eigenvalues do not describe the motion, in sentences; none where they do. remarks : on
+    what the states are. drift : by which A changes all the same.
     """
 
     reduction: Reduction
     places: Array
     rates: Array
     space: StateSpace
-    steady: bool
-    notes: list[str]
+    moves: bool
+    unsteady: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
     drift: Array | None = None
 
 
@@ -51,8 +53,7 @@ def judged(
 
     if is_at_rest(instant):
         found = equations(Frames())
-        notes = _unrest(moment, instant, found[0], found[-1].A)
-        return Judged(*found, not notes, notes)
+        return Judged(*found, False, tuple(_unrest(moment, instant, found[0], found[-1].A)))
     for frames in candidates(instant):
         found = equations(frames)
 
@@ -63,8 +64,7 @@ def judged(
 
         changed = drift(moment.prepared.motion, instant, later)
         if changed is not None:
-            said = "the machine moves steadily: A is the same at later moments of the motion"
-            return Judged(*found, True, [said, *frames.notes()], changed)
+            return Judged(*found, True, (), tuple(frames.notes()), changed)
     found = equations(Frames())
     spinning = instant.place[instant.free[found[0].selected], 1] != NONE
     hint = (
@@ -73,7 +73,7 @@ def judged(
         else "A, B, C and D hold at this moment alone"
     )
     note = f"A changes while the machine moves, so its eigenvalues describe no motion: {hint}"
-    return Judged(*found, False, [note])
+    return Judged(*found, True, (note,))
 
 
 def coordinate_signs(catalogue: Catalogue, instant: Instant) -> Array:

@@ -142,10 +142,7 @@ def sweep(
         "loop_seconds": loop,
         "processes": processes if left else 1,
         "outcomes": ", ".join(f"{count} {outcome}" for outcome, count in Counter(run.outcome for run in runs).items()),
-        "verdict": trust.light,
-        "verified": int(trust.verified),
-        "headline": trust.headline,
-        "trust": trust.to_json(),
+        **trust.attributes(),
     }
     return collected(variants, runs, attributes)
 

@@ -15,12 +15,15 @@ from nivel.results.scales import Readable, largest_speed, machine_size, speed_of
 from nivel.results.trust import Item
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from nivel.analysis.kinematics.singular import Singularity
+    from nivel.analysis.linearise.kinks import Kink
     from nivel.analysis.plan.plan import Plan
     from nivel.analysis.preparation.preparation import Prepared
     from nivel.analysis.run.dynamics import RunOutcome
     from nivel.analysis.run.second_run import Verified
-    from nivel.analysis.trust.other_elements import Compared
+    from nivel.analysis.trust.other_elements import Compared, Pair
     from nivel.machine.machine_record import MachineRecord
     from nivel.results.estimate import Estimate
     from nivel.results.result import Result
@@ -170,6 +173,32 @@ class Positions(Recorded, Computed):
 
 
 @dataclass(frozen=True)
+class OtherVibrations:
+    """Eigenvalues (n,) [1/s] of the machine with other elements of its beams; none where `why` says what stopped it."""
+
+    pair: Pair
+    eigenvalues: NDArray[np.complex128]
+    why: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Linearisation(Subject, Computed):
+    """Linear equations about a state. eigenvalues (n,) [1/s] in ascending order of magnitude, not numbers where there are none to read.
+
+    moves : whether the machine moves in this state; unsteady : why it is neither in equilibrium nor in a steady motion, in sentences.
+    kinks : of the equations at the state. reached : the time [s] until which the machine was run to it, 0 where it was not.
+    others : the same of the machine with other elements of its beams, or None.
+    """
+
+    eigenvalues: NDArray[np.complex128]
+    moves: bool = False
+    unsteady: tuple[str, ...] = ()
+    kinks: tuple[Kink, ...] = ()
+    reached: float = 0.0
+    others: OtherVibrations | None = None
+
+
+@dataclass(frozen=True)
 class Variant:
     """A run of a sweep. name : its values, in words. outcome, reason, verdict, verified, headline : as the dataset has them."""
 
@@ -183,6 +212,8 @@ class Variant:
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep(Subject):
-    """Runs of one machine with other values."""
+    """Runs, or linear models, of one machine with other values. by : what verifies them; without : that nothing did, in words."""
 
     variants: tuple[Variant, ...]
+    by: str = "second runs"
+    without: str = "no second runs were made"

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -16,6 +17,7 @@ from nivel.extras import needed
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.pages import page_maker
+from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
     import xarray
@@ -37,7 +39,8 @@ class Mode:
     """An eigenvalue [1/s], or a pair of complex ones by that with the positive imaginary part.
 
     natural_frequency [Hz] : |λ|/2π. damping_ratio : -Re λ/|λ|, not a number for λ = 0. structural : exactly zero, whatever the numbers of
-    the machine. participation : (name, share) of the states that take part most.
+    the machine. participation : (name, share) of the states that take part most. unresolved : what makes it wrong, in words: elements of
+    beams, or modes of a flexible body; empty where nothing is known against it.
     """
 
     number: int
@@ -46,6 +49,7 @@ class Mode:
     damping_ratio: float
     structural: bool
     participation: tuple[tuple[str, float], ...]
+    unresolved: str = ""
 
     @property
     def kind(self) -> str:
@@ -77,7 +81,8 @@ class LinearModel(Tabulated):
     states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
     coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair; no numbers
     where the machine does not move steadily.
-    notes : what a reader has to know; steady : whether eigenvalues describe the motion (at rest, or the same A later on).
+    steady : whether eigenvalues describe the motion (at rest, or the same A later on). remarks : on what the states are. trust : the trust
+    report.
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
     """
 
@@ -106,8 +111,16 @@ class LinearModel(Tabulated):
     turn: Complex
     structural_zeros: tuple[str, ...]
     steady: bool
-    notes: tuple[str, ...]
+    remarks: tuple[str, ...]
     posed: Any = None
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader has to know: on the states, and what checks have found that is more than that all is well."""
+        found = [item for item in self.trust.items if item.name != "outcome"]
+        said = [item.text for item in found if item.verdict != "green" or item.name != "steady"]
+        return (*self.remarks, *said)
 
     @property
     def stable(self) -> bool:
@@ -143,9 +156,19 @@ class LinearModel(Tabulated):
                     ratio,
                     bool(self.structural[k]),
                     taking,
+                    self._unresolved(len(out) + 1, complex(value)),
                 )
             )
         return tuple(out)
+
+    def _unresolved(self, number: int, value: complex) -> str:
+        """What makes a mode wrong, as the trust report has it."""
+        found, frequency = self.trust.found, abs(value) / (2.0 * np.pi)
+        first = found.get("elements_of_vibrations", {}).get("first")
+        if value.imag and first is not None and number >= first:
+            return "not resolved by the elements of beams"
+        bodies = [each["body"] for each in found.get("modes_of_vibrations", ()) if frequency > each["limit"]]
+        return f"beyond the modes of {', '.join(bodies)}" if value.imag and bodies else ""
 
     def state_space(self) -> Any:
         """`scipy.signal.StateSpace` of A, B, C, D. Raises ModelError without inputs or outputs."""
@@ -219,7 +242,13 @@ class LinearModel(Tabulated):
             "input": list(self.inputs),
             "output": list(self.outputs),
         }
-        facts = {"machine": self.name, "about": self.about, "time": self.time, "steady": int(self.steady)}
+        facts: dict[str, Any] = {
+            "machine": self.name,
+            "about": self.about,
+            "time": self.time,
+            "steady": int(self.steady),
+        }
+        facts |= self.trust.attributes()
         return xarray.Dataset(values, coords=coordinates, attrs=facts)
 
     def _rows(self, select: list[str]) -> Rows:
@@ -259,6 +288,8 @@ class LinearModel(Tabulated):
             "outputs": list(self.outputs),
             "steady": self.steady,
             "stable": self.stable if self.steady else None,
+            "headline": self.trust.headline,
+            "trust": json.loads(self.trust.to_json()),
             "notes": list(self.notes),
             "structural_zeros": list(self.structural_zeros),
             "modes": [
@@ -268,6 +299,7 @@ class LinearModel(Tabulated):
                     "damping_ratio": None if np.isnan(each.damping_ratio) else each.damping_ratio,
                     "structural": each.structural,
                     "participation": dict(each.participation),
+                    "unresolved": each.unresolved,
                 }
                 for each in (self.modes if self.steady else ())
             ],
@@ -284,7 +316,7 @@ class LinearModel(Tabulated):
             raise ModelError(f"the model has no {' and no '.join(missing)}: name some when linearising")
 
     def __str__(self) -> str:
-        head = f"{self.name}, linear about {self.about}: {len(self.states)} states"
+        head = f"{self.name}, linear about {self.about}: {len(self.states)} states; {self.trust.told}"
         if not self.steady:
             return "\n".join([head, *self.notes])
         lines = [f"  {each.number}: {mode_in_words(each)}" for each in self.modes[:LISTED]]
@@ -304,4 +336,5 @@ def mode_in_words(mode: Mode) -> str:
         said += f" ({mode.number_in_words} 1/s)"
     else:
         said = f"{mode.number_in_words} 1/s, {mode.kind}"
+    said += f", {mode.unresolved}" if mode.unresolved else ""
     return f"{said}; {taking}" if taking else said

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from os import PathLike
@@ -20,6 +21,7 @@ from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.dataset_file import write_dataset
 from nivel.results.pages import page_maker
+from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
     import xarray
@@ -55,7 +57,7 @@ class Crossing:
 class LinearSweep:
     """Models at ascending `values` of a parameter, all with the same states.
 
-    Modes are followed from value to value by their eigenvectors, |wᴴ x|, and their eigenvalues.
+    Modes are followed from value to value by their eigenvectors, |wᴴ x|, and their eigenvalues. trust : the trust report of all models.
     Raises ModelError where the states differ or values do not ascend.
     """
 
@@ -63,6 +65,7 @@ class LinearSweep:
     unit: str
     values: Array
     models: tuple[LinearModel, ...]
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     def __post_init__(self) -> None:
         if len(self.values) < 2 or len(self.values) != len(self.models) or np.any(np.diff(self.values) <= 0.0):
@@ -106,9 +109,11 @@ class LinearSweep:
             "eigenvalue_imag": (dims, found.imag, {"units": "1/s"}),
             "natural_frequency": (dims, size / TURN, {"units": "Hz"}),
             "damping_ratio": (dims, ratio, {"units": "1"}),
+            "verdict": (dims[:1], [each.trust.light for each in self.models], {}),
         }
+        facts = {"parameter": self.parameter, "unit": self.unit, **self.trust.attributes()}
         coordinates = {"value": self.values, "mode": np.arange(1, found.shape[1] + 1)}
-        return xarray.Dataset(values, coords=coordinates, attrs={"parameter": self.parameter, "unit": self.unit})
+        return xarray.Dataset(values, coords=coordinates, attrs=facts)
 
     def stability_changes(self) -> list[tuple[float, float]]:
         """Pairs of values between which the machine becomes stable or unstable."""
@@ -164,6 +169,8 @@ class LinearSweep:
             "values": self.values.tolist(),
             "eigenvalues": [[[z.real, z.imag] for z in row] for row in found] if np.isfinite(found).all() else None,
             "stability_changes": self.stability_changes(),
+            "headline": self.trust.headline,
+            "trust": json.loads(self.trust.to_json()),
         }
 
     def report(self, path: str | PathLike[str], orders: Sequence[float] = ()) -> Path:

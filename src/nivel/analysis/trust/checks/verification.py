@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.checks.followed import not_compared
 from nivel.analysis.trust.other_elements import Compared
-from nivel.analysis.trust.subject import Equilibria, Positions, Run, Sweep
+from nivel.analysis.trust.subject import Equilibria, Linearisation, Positions, Run, Sweep
 from nivel.machine.machine_record import MachineRecord
 
 SHOWN = 4  # names in a sentence
@@ -24,7 +24,7 @@ class Verification:
 def look_at_run(run: Run) -> Verification:
     """The second run, and the one with other elements."""
     if run.second is None or not len(run.second.result.time):
-        return Verification((), ("the motion, as no second run was made",))
+        return Verification((), ("no second run was made",))
     by, lacks = examined_elements(run.machine, run.elements)
     return Verification((f"a second run with {run.second.refinement.words}", *by), lacks)
 
@@ -43,24 +43,38 @@ def look_at_positions(subject: Positions) -> Verification:
     return Verification(tuple(each for each in ("the closed joints", by) if each), lacks)
 
 
+def look_at_linear(subject: Linearisation) -> Verification:
+    """What eigenvalues are of: an equilibrium, or a motion that was followed; and vibrations with other elements."""
+    if subject.unsteady or any(each.jumps for each in subject.kinks):
+        return Verification((), ("the linear equations, which describe no motion",))
+    by = "A at two later moments of the motion" if subject.moves else "the equilibrium of the state"
+    judged = subject.others is not None and not subject.others.why
+    more, lacks = _elements(subject.machine, subject.others.pair.words if subject.others and judged else "")
+    run = (f"the run to the state at {subject.reached:.6g} s",) if subject.reached else ()
+    return Verification((by, *more), (*lacks, *run))
+
+
 def look_at_sweep(sweep: Sweep) -> Verification:
     """The variants that were verified, and those that were not."""
     ran = [each for each in sweep.variants if each.verdict]
     left = [each for each in ran if not each.verified]
     if len(left) == len(ran):
-        return Verification((), ("the variants, as no second runs were made",))
-    lacks = (f"{len(left)} of {len(ran)} variants",) if left else ()
+        return Verification((), (sweep.without,))
     count = len(ran) - len(left)
-    return Verification((f"second runs of {count} variants" if count > 1 else "a second run of the variant",), lacks)
+    lacks = (f"{len(left)} of {len(ran)} variants",) if left else ()
+    return Verification((f"{sweep.by} of {count} variant{'s' * (count > 1)}",), lacks)
 
 
 def examined_elements(machine: MachineRecord, elements: Compared | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """(by, lacks) of the elements of beams, nothing of machines without."""
+    return _elements(machine, elements.pair.words if elements is not None and elements.errors is not None else "")
+
+
+def _elements(machine: MachineRecord, words: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """words : which other elements there were; empty where none have told anything."""
     if not machine.beams:
         return (), ()
-    if elements is None or elements.errors is None:
-        return (), ("the elements of beams",)
-    return (f"a machine with {elements.pair.words} elements of beams",), ()
+    return ((f"a machine with {words} elements of beams",), ()) if words else ((), ("the elements of beams",))
 
 
 def listed(names: list[str]) -> str:
@@ -72,5 +86,6 @@ CHECKS = (
     Check("verification", Run, look_at_run, lambda _: None, 1),
     Check("verification", Equilibria, look_at_equilibria, lambda _: None, 1),
     Check("verification", Positions, look_at_positions, lambda _: None, 1),
+    Check("verification", Linearisation, look_at_linear, lambda _: None, 1),
     Check("verification", Sweep, look_at_sweep, lambda _: None, 1),
 )

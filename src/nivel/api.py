@@ -504,6 +504,7 @@ class Machine(Model):
         from nivel.analysis.inverse.friction_efforts import acting_drivers, driven_alone, efforts_of_drivers, rubs
         from nivel.analysis.inverse.refusals import refuse_for_inverse
         from nivel.analysis.inverse.trajectory import along_trajectory
+        from nivel.analysis.inverse.trust import with_trust
         from nivel.analysis.plan.equations_only import neutral
         from nivel.machine.settings.inverse import InverseSettings
         from nivel.machine.settings.values import settings_of
@@ -517,7 +518,8 @@ class Machine(Model):
             if rubs(record):
                 drivers = acting_drivers(record, wanted, recorded=motion is not None)
                 driven = Machine.from_record(driven_alone(record, wanted), self.origin)
-                return efforts_of_drivers(wanted, drivers, driven.kinematics(positions=positions, listener=listener))
+                followed = driven.kinematics(positions=positions, listener=listener)
+                return with_trust(efforts_of_drivers(wanted, drivers, followed), record.drivers, followed)
             from nivel.analysis.inverse.run import inverse, without_actuators
 
             plain, _ = neutral(without_actuators(record, wanted), "absolute")
@@ -533,7 +535,9 @@ class Machine(Model):
                 message = f"a result or the name of its file was expected, got {type(motion).__name__}"
                 raise ModelError(Fault("", 0, 0, "inverse.motion", message))
         with self._faults_in_file():
-            return inverse(methods, wanted, followed, listener=listener)
+            found = inverse(methods, wanted, followed, listener=listener)
+        replaced = [each for each in record.drivers if motion is not None and each.name not in wanted.hold]
+        return with_trust(found, record.drivers, followed, replaced)
 
     @checked_arguments
     def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:

@@ -36,14 +36,34 @@ def test_a_driver_from_the_start_is_followed():
 def test_a_driver_that_is_not_followed_is_told(off, verdict):
     """The positions of another driver, which turns further by `off` in a second; a whole turn more is another position too."""
     made = turned(f"(2 + {off!r})*time").kinematics(duration=1, positions=5)
-    layout = SimpleNamespace(coordinates={"joint_coordinate": ("hinge.angle",)})
-    system = SimpleNamespace(layout=layout, coordinate_units=("rad",))
     subject = SimpleNamespace(
         result=made,
-        machine=turned("2*time").record,
-        prepared=SimpleNamespace(motion=SimpleNamespace(system=system)),
+        drivers=turned("2*time").record.drivers,
+        joint_coordinates={"hinge.angle": "rad"},
         scales=SimpleNamespace(size=1.0, size_kind="size"),
     )
     found = followed.look(subject)
     assert found.missed == pytest.approx(off, rel=1e-3, abs=1e-13)
     assert followed.say(found).verdict == verdict
+
+
+def test_efforts_compare_their_motion_with_drivers_that_hold():
+    """The motion of another driver: where the driver holds, the motion contradicts it; where the actuator takes its place, it is said."""
+    made = turned("2.01*time").kinematics(duration=1, positions=5)
+    machine = turned("2*time")
+    held = machine.inverse(actuators="hinge", motion=made, hold="turn").trust
+    assert held.found["followed"]["missed"] == pytest.approx(0.01)
+    assert held.verdict == "red"
+    freed = machine.inverse(actuators="hinge", motion=made)
+    assert freed.trust.verdict == "green"
+    assert "off by up to 0.01 rad" in freed.statements()[0]
+
+
+def test_efforts_compare_the_motion_of_the_drivers_with_their_functions():
+    trust = turned("2*time").inverse(positions=5).trust
+    assert line(SimpleNamespace(trust=trust)).verdict == "green"
+    assert trust.verified_by == (
+        "the balance of forces at every time",
+        "the functions of its drivers, evaluated apart",
+    )
+    assert trust.light == "green"

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from nivel import __version__
 from nivel.report.plots import TONES, Line, curves
+from nivel.report.story import trusted
 from nivel.results.analyses.efforts import Efforts
 
 HERE = Path(__file__).parent
@@ -19,7 +20,7 @@ def efforts_html(efforts: Efforts) -> str:
     return environment.get_template("efforts.html.j2").render(
         efforts=efforts,
         facts=efforts.facts(),
-        said=efforts.statements(),
+        trusted=trusted(efforts.trust),
         plots=_plots(efforts),
         version=__version__,
         page_style=(HERE / "page.css").read_text(encoding="utf-8"),

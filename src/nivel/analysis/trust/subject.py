@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from nivel.analysis.run.dynamics import RunOutcome
     from nivel.analysis.run.second_run import Verified
     from nivel.analysis.trust.other_elements import Compared, Pair
+    from nivel.machine.joints.driver import Driver
     from nivel.machine.machine_record import MachineRecord
+    from nivel.results.analyses.efforts import Efforts
     from nivel.results.estimate import Estimate
     from nivel.results.result import Result
 
@@ -170,6 +172,39 @@ class Positions(Recorded, Computed):
     @cached_property
     def scales(self) -> Scales:
         return Scales(*machine_size(self.result), max(largest_speed(self.result), 1e-300))
+
+    @cached_property
+    def joint_coordinates(self) -> dict[str, str]:
+        """Names and units of the joint coordinates."""
+        system = self.prepared.motion.system
+        return dict(zip(system.layout.coordinates["joint_coordinate"], system.coordinate_units, strict=True))
+
+    @property
+    def drivers(self) -> tuple[Driver, ...]:
+        """The drivers that the positions are to follow."""
+        return self.machine.drivers
+
+
+@dataclass(frozen=True, kw_only=True)
+class Actuated(Subject):
+    """Efforts of actuators over the motion `result`. drivers : that the motion is to follow; replaced : those that another motion was
+    given in place of."""
+
+    result: Result
+    efforts: Efforts
+    drivers: tuple[Driver, ...]
+    replaced: tuple[Driver, ...] = ()
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Size of the machine."""
+        return Scales(*machine_size(self.result))
+
+    @cached_property
+    def joint_coordinates(self) -> dict[str, str]:
+        """Names and units of the joint coordinates of the motion."""
+        names = self.result.coordinates.get("joint_coordinate_name", ())
+        return {name: self.result.units(name) for name in names} if "joint_coordinate" in self.result.variables else {}
 
 
 @dataclass(frozen=True)

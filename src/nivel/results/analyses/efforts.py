@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.pages import page_maker
+from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
     import xarray
@@ -20,9 +22,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 # generalised forces missing below this share are round-off
 NONE_MISSING = 1e-6
-# a motion whose joints are open by more than this share of their scales is not one of the machine
-OPEN = 1e-6
-NAMED = 4  # states in a sentence
+# lines of the trust report that are said where they are green too
+SAID = ("replaced", "unique")
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Efforts(Tabulated):
     missing (T,) : effort on the joint coordinate `missing_at` that would do most of what no actuator gives; missing_share (T,) of the
     generalised forces. limits (m,) : greatest magnitudes; limited : whether they hold efforts back. freedoms : of the machine without the
     efforts. rank : independent ones of the actuators. violation : by how much the motion has joints open, as a share of their scales.
-    held : first-order states that the motion does not have, which keep their values of the start.
+    held : first-order states that the motion does not have, which keep their values of the start. trust : the trust report.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Efforts(Tabulated):
     rank: int
     violation: float = 0.0
     held: tuple[str, ...] = ()
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     @property
     def power(self) -> Array:
@@ -90,33 +92,9 @@ class Efforts(Tabulated):
         return out
 
     def statements(self) -> list[str]:
-        """What a reader has to know."""
-        out = []
-        if self.violation > OPEN:
-            out.append(
-                f"the motion has joints open by {self.violation:.3g} of their scales, so it is not quite one of this machine: is it of "
-                "another one?"
-            )
-        if self.held:
-            some = ", ".join(self.held[:NAMED]) + (
-                f" and {len(self.held) - NAMED} more" if len(self.held) > NAMED else ""
-            )
-            said = f"the motion has no history of {some}: they keep their initial values"
-            out.append(f"{said}, and what forces make of them is not that of the motion; give the result of a run")
-        if not self.complete:
-            k = int(np.argmax(self.missing_share))
-            where = f", most of it as {self.missing[k]:.4g} on {self.missing_at}" if self.missing_at else ""
-            why = "limits hold the actuators back" if self.limited else "no actuator gives it"
-            out.append(
-                f"the efforts do not make this motion: {100.0 * self.missing_share[k]:.3g} % of the generalised forces are missing at "
-                f"t = {self.time[k]:.6g} s{where}; {why}"
-            )
-        if not self.unique:
-            more = len(self.actuators) - self.rank
-            out.append(
-                f"{more} more actuator{'s' * (more > 1)} than needed: the efforts are those of least weighted norm, others do as well"
-            )
-        return out
+        """What a reader has to know: lines of the trust report that are not green, or are said in any case."""
+        told = [item for item in self.trust.items if item.verdict != "green" or item.name in SAID]
+        return [item.text for item in told]
 
     def to_xarray(self) -> xarray.Dataset:
         """Histories with names and units."""
@@ -129,9 +107,8 @@ class Efforts(Tabulated):
             "power": (dims, self.power, {"units": "W"}),
             "missing_share": (("time",), self.missing_share, {"units": "1"}),
         }
-        return xarray.Dataset(
-            values, coords={"time": self.time, "actuator": list(self.actuators)}, attrs={"machine": self.name}
-        )
+        facts = {"machine": self.name, **self.trust.attributes()}
+        return xarray.Dataset(values, coords={"time": self.time, "actuator": list(self.actuators)}, attrs=facts)
 
     def summary(self) -> dict[str, Any]:
         """Numbers and words for programs."""
@@ -143,6 +120,8 @@ class Efforts(Tabulated):
             "largest_missing_share": float(np.max(self.missing_share, initial=0.0)),
             "missing_at": self.missing_at,
             "statements": self.statements(),
+            "headline": self.trust.headline,
+            "trust": json.loads(self.trust.to_json()),
         }
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
@@ -156,4 +135,5 @@ class Efforts(Tabulated):
             f"work {each['work_done']:.6g} J done, {0.0 - each['work_taken']:.6g} J taken back"
             for each in self.facts()
         ]
-        return "\n".join([f"{self.name}: efforts at {len(self.time)} times", *lines, *self.statements()])
+        head = f"{self.name}: efforts at {len(self.time)} times"
+        return "\n".join([head, *lines, *self.statements(), f"trust: {self.trust.told}"])

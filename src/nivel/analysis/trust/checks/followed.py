@@ -1,23 +1,23 @@
-"""Drivers of a kinematic analysis: whether the positions that were found are those that the drivers' functions of time ask for.
+"""Drivers of kinematics and inverse dynamics: whether the positions that were found are those that the drivers' functions of time ask for.
 
 The functions are evaluated here once more, as the machine file has them, and compared with the joint coordinates of the result.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from nivel.analysis.trust.check import FRAMES, Check
-from nivel.analysis.trust.subject import Positions, Scales
+from nivel.analysis.trust.subject import Actuated, Positions, Scales
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.table import Table
-from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.trust import Item, Verdict, number
-from nivel.system.system import Array, System
+from nivel.system.system import Array
 
 # [lengths of the machine, rad] by which a driver may be missed: green, and no worse than amber
 GREEN, AMBER = 1e-9, 1e-7
@@ -37,36 +37,40 @@ class Followed:
     scales: Scales
 
 
-def look(subject: Positions) -> Followed | None:
+def look(subject: Positions | Actuated) -> Followed | None:
     """The largest distance of a joint coordinate from its driver; None where no driver of a joint coordinate can be compared."""
+    return farthest(subject, subject.drivers)
+
+
+def farthest(subject: Positions | Actuated, drivers: Sequence[Driver]) -> Followed | None:
+    """The same of these drivers."""
     time, result = subject.result.time, subject.result
-    names = list(subject.prepared.motion.system.layout.coordinates["joint_coordinate"])
+    known = subject.joint_coordinates
     found = []
-    for driver in subject.machine.drivers:
+    for driver in drivers:
         wanted = wanted_values(driver, time)
-        name = _coordinate(driver, names)
+        name = _coordinate(driver, list(known))
         if wanted is None or name is None:
             continue
-        units = subject.prepared.motion.system.coordinate_units[names.index(name)]
-        value = result.array("joint_coordinate")[:, names.index(name)]
+        value = result.array("joint_coordinate")[:, list(known).index(name)]
         missed = np.abs(value - wanted)
         if driver.from_start:
             missed = np.abs(value - value[0] - (wanted - wanted[0]))
-        share = missed / (subject.scales.size if units == "m" else 1.0)
+        share = missed / (subject.scales.size if known[name] == "m" else 1.0)
         worst = int(np.argmax(share))
-        found.append((float(share[worst]), driver.name, name, units, float(missed[worst]), float(time[worst])))
+        found.append((float(share[worst]), driver.name, name, known[name], float(missed[worst]), float(time[worst])))
     if not found:
         return None
     _, driver_name, name, units, most, when = max(found)
-    return Followed(driver_name, name, units, most, when, len(found), len(subject.machine.drivers), subject.scales)
+    return Followed(driver_name, name, units, most, when, len(found), len(drivers), subject.scales)
 
 
-def not_compared(machine: MachineRecord, system: System) -> list[str]:
+def not_compared(subject: Positions | Actuated) -> list[str]:
     """Drivers of which `look` cannot compare what they prescribe: those of markers, and functions in Python."""
-    names, start = list(system.layout.coordinates["joint_coordinate"]), np.zeros(1)
+    names, start = list(subject.joint_coordinates), np.zeros(1)
     return [
         driver.name
-        for driver in machine.drivers
+        for driver in subject.drivers
         if wanted_values(driver, start) is None or _coordinate(driver, names) is None
     ]
 
@@ -106,4 +110,20 @@ def say(found: Followed) -> Item:
     return Item("followed", verdict, f"{said} at t = {found.time:.6g} s{some} {limits}", time=found.time)
 
 
-CHECKS = (Check("followed", (Positions,), look, say, place=25, needs=(FRAMES,), title="Drivers followed"),)
+def look_at_replaced(subject: Actuated) -> Followed | None:
+    """What another motion than that of the drivers is off from these."""
+    found = farthest(subject, subject.replaced)
+    return found if found is not None and found.missed > AMBER else None
+
+
+def say_replaced(found: Followed) -> Item:
+    """That efforts are those of the motion, not of the driver. It is what was asked for."""
+    said = f"Drivers: the motion is not that which {found.driver} prescribes: {found.coordinate} is off by up to"
+    text = f"{said} {number(found.missed)} {found.units} at t = {found.time:.6g} s (said, always green)"
+    return Item("replaced", "green", text, time=found.time)
+
+
+CHECKS = (
+    Check("followed", (Positions, Actuated), look, say, place=25, needs=(FRAMES,), title="Drivers followed"),
+    Check("replaced", Actuated, look_at_replaced, say_replaced, place=26, needs=(FRAMES,), title="Drivers replaced"),
+)

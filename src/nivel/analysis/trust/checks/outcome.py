@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from nivel.analysis.trust.check import Check
-from nivel.analysis.trust.subject import Equilibria, Linearisation, Motion, Positions, Subject, Sweep
+from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Motion, Positions, Subject, Sweep
 from nivel.results.trust import Item, Verdict
 
 VERDICTS: dict[str, Verdict] = {"done": "green", "interrupted": "amber", "failed": "red", "running": "amber"}
@@ -26,6 +26,7 @@ SAID: dict[type[Subject], dict[str, str]] = {
         "interrupted": "interrupted; the result has the positions up to there",
         "failed": "the machine cannot move any further; the result has the positions up to there",
     },
+    Actuated: {"done": "efforts were found for every time of the motion"},
     Linearisation: {"done": "the linear equations were found"},
     Sweep: {
         "done": "every variant was tried",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.checks.followed import not_compared
 from nivel.analysis.trust.other_elements import Compared
-from nivel.analysis.trust.subject import Equilibria, Linearisation, Positions, Run, Sweep
+from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Positions, Run, Sweep
 from nivel.machine.machine_record import MachineRecord
 
 SHOWN = 4  # names in a sentence
@@ -37,10 +37,24 @@ def look_at_equilibria(subject: Equilibria) -> Verification:
 
 def look_at_positions(subject: Positions) -> Verification:
     """Constraints, and functions of drivers that are evaluated apart from them."""
-    left = not_compared(subject.machine, subject.prepared.motion.system)
+    by, lacks = _followed(subject)
+    return Verification(("the closed joints", *by), lacks)
+
+
+def look_at_efforts(subject: Actuated) -> Verification:
+    """The balance of forces, what the motion says of itself, and the functions of the drivers."""
+    by, lacks = _followed(subject)
+    motion = subject.result.trust
+    if not motion.verified:
+        lacks = ("the motion", *lacks)
+    return Verification(("the balance of forces at every time", *by), lacks)
+
+
+def _followed(subject: Positions | Actuated) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    left = not_compared(subject)
     lacks = (f"what {listed(left)} prescribe{'s' * (len(left) == 1)}",) if left else ()
-    by = "the functions of its drivers, evaluated apart" if len(left) < len(subject.machine.drivers) else ""
-    return Verification(tuple(each for each in ("the closed joints", by) if each), lacks)
+    compared = len(left) < len(subject.drivers)
+    return ("the functions of its drivers, evaluated apart",) if compared else (), lacks
 
 
 def look_at_linear(subject: Linearisation) -> Verification:
@@ -86,6 +100,7 @@ CHECKS = (
     Check("verification", Run, look_at_run, lambda _: None, 1),
     Check("verification", Equilibria, look_at_equilibria, lambda _: None, 1),
     Check("verification", Positions, look_at_positions, lambda _: None, 1),
+    Check("verification", Actuated, look_at_efforts, lambda _: None, 1),
     Check("verification", Linearisation, look_at_linear, lambda _: None, 1),
     Check("verification", Sweep, look_at_sweep, lambda _: None, 1),
 )

@@ -150,3 +150,71 @@ def test_eigenvalues_over_a_parameter_are_verified_where_it_is_asked_for(tmp_pat
     verified = CliRunner().invoke(main, [*words, "--verify"])
     assert json.loads(verified.stdout)["trust"]["light"] == "green"
     assert "trust: green, verified by the trust reports of 2 variants" in verified.stderr
+
+
+WALL = """
+format: 1
+bodies:
+  block: {mass: 1, inertia: [1, 1, 1], velocity: [1, 0, 0]}
+joints:
+  rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}
+forces:
+  wall: {type: motor, coordinate: rail, effort: "-1e7*exp(-((rail.displacement - 0.45678)/1e-6)^2)"}
+simulation: {duration: 1 s, step: 5 ms}
+"""
+
+
+def test_a_comparison_whose_references_share_a_blind_spot_says_so(tmp_path):
+    """A wall of 17.7 J, 2 µm wide: a block of 0.5 J turns back at it. Both references step over it and agree."""
+    file = tmp_path / "wall.yaml"
+    file.write_text(WALL, encoding="utf-8")
+    comparison = nivel.load(file).compare(integrators=["rk4"], repeat=1)
+    assert len(comparison.references) == 2
+    assert comparison.rows[0].motion_error < 1e-9
+    assert all("their steps miss" in each.blind for each in comparison.references)
+    assert (comparison.trust.verdict, comparison.trust.verified) == ("amber", False)
+    assert "may have the same error as the runs: their steps miss wall" in str(comparison)
+    assert type(comparison).from_json(comparison.to_json()).trust == comparison.trust
+
+
+def test_a_comparison_whose_references_check_each_other_is_green(train):
+    comparison = train.compare(steps=[1e-3], duration=0.05, repeat=1)
+    assert comparison.trust.light == "green"
+    assert len(comparison.trust.verified_by) == 2
+
+
+def test_loads_carry_the_verdict_of_their_result(train, tmp_path):
+    result = train.simulate(duration=0.2, out=tmp_path / "train.nc")
+    assert result.reactions().attrs["verdict"] == "not verified"
+    done = CliRunner().invoke(main, ["loads", str(tmp_path / "train.nc"), "--json"])
+    assert json.loads(done.stdout)["trust"]["reactions"] == {
+        "verdict": "not verified",
+        "verified": 0,
+        "headline": result.reactions().attrs["headline"],
+    }
+    said = CliRunner().invoke(main, ["loads", str(tmp_path / "train.nc")]).stdout
+    assert "trust: not verified" in said
+    verified = train.simulate(duration=0.2, verify=True, step="0.1 ms", output_interval="0.1 ms")
+    assert verified.cycles("slide.displacement").attrs["verdict"] == "green"
+
+
+def test_loads_say_what_frames_may_hide(train):
+    """x = 5 cm (1 - cos 100 t) with 6.3 frames in a period: the highest frame is at 1 - cos 3, 0.5 % below the peak."""
+    result = train.simulate(duration=0.2, verify=True, step="0.1 ms", output_interval="10 ms")
+    cycles = result.cycles("slide.displacement")
+    assert cycles.attrs["verdict"] == "not verified"
+    assert "peaks between frames" in cycles.attrs["headline"]
+
+
+def test_steps_and_libraries_say_that_they_are_not_verified(train, tmp_path):
+    sim = train.start(record=True)
+    sim.step()
+    assert not sim.verified
+    assert repr(sim).endswith("not verified>")
+    assert not sim.result().trust.verified
+    written = train.export_c(tmp_path / "c")
+    assert not written.verified
+    assert (
+        "Not verified: the library makes single runs with steps of 0.01 s"
+        in (written.folder / f"{written.name}.h").read_text()
+    )

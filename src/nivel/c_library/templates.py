@@ -7,6 +7,9 @@ from string import Template
 HEADER = Template("""/* $name: a machine as a C library. Nothing is needed but libc and libm; nothing is allocated.
    Written by nivel $version.
 
+   Not verified: the library makes single runs with steps of $step s, whose error nothing estimates. `nivel run` with this step does,
+   for the inputs of the machine file.
+
    A machine lives in a block of ${NAME}_SIZE bytes, aligned to ${NAME}_ALIGNMENT. Blocks are independent of each other. */
 #ifndef ${NAME}_H
 #define ${NAME}_H

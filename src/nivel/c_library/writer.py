@@ -25,7 +25,7 @@ RUNTIME = "nivel_machine.h"
 @dataclass(frozen=True)
 class Files:
     """What was written. outputs : names of the numbers that the library gives after each step. inputs : names of what can be set.
-    size : bytes of one machine.
+    size : bytes of one machine. verified : no; a library makes single runs, whose error nothing estimates.
     """
 
     folder: Path
@@ -33,6 +33,7 @@ class Files:
     outputs: tuple[str, ...]
     inputs: tuple[str, ...]
     size: int
+    verified: bool = False
 
 
 def write_c_library(plan: Plan, folder: Path, select: Sequence[str] = ()) -> Files:

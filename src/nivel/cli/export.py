@@ -102,6 +102,9 @@ def _write_c_library(machine: str, folder: str, select: list[str], overrides: di
         f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",
         err=True,
     )
+    click.echo(
+        "not verified: the library makes single runs; `nivel run` with the same step estimates their error", err=True
+    )
 
 
 def _write_fmu(

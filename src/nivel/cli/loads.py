@@ -47,7 +47,8 @@ def command(result: str, signals: tuple[str, ...] | None, repeating: bool, perio
     opened = Result.open(result)
     tables = _tables(opened, signals or (), repeating, period)
     if as_json:
-        click.echo(json.dumps({name: _plain(table) for name, table in tables.items()}, indent=2))
+        plain = {name: _plain(table) for name, table in tables.items()}
+        click.echo(json.dumps({**plain, "trust": {name: _trust(table) for name, table in tables.items()}}, indent=2))
         return
     for name, table in tables.items():
         _print(name, table)
@@ -69,6 +70,11 @@ def _tables(result: Result, signals: tuple[str, ...], repeating: bool, period: s
     return out
 
 
+def _trust(table: xarray.Dataset) -> dict[str, Any]:
+    """What the numbers of a table are worth."""
+    return {name: table.attrs[name] for name in ("verdict", "verified", "headline")}
+
+
 def _plain(table: xarray.Dataset) -> dict[str, Any]:
     return {str(name): values.to_numpy().tolist() for name, values in {**table.coords, **table.data_vars}.items()}
 
@@ -78,6 +84,8 @@ def _print(title: str, table: xarray.Dataset) -> None:
     from rich.table import Table
     from rich.text import Text
 
+    from nivel.results.trust import told
+
     names = [str(name) for name in table.data_vars]
     shown = Table(title=Text(title), title_justify="left")
     rows = next(iter(table.sizes.values()))
@@ -86,7 +94,9 @@ def _print(title: str, table: xarray.Dataset) -> None:
         shown.add_column(Text(heading), justify="left" if heading == "of" else "right")
     for k in range(rows):
         shown.add_row(*labels[k : k + 1], *(f"{float(table[name].to_numpy()[k]):.6g}" for name in names))
-    Console(highlight=False, width=140).print(shown)
+    console = Console(highlight=False, width=140)
+    console.print(shown)
+    console.print(Text(f"trust: {told(table.attrs['verdict'], table.attrs['headline'])}"), soft_wrap=True)
 
 
 def _heading(table: xarray.Dataset, name: str) -> str:

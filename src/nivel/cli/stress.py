@@ -182,6 +182,8 @@ def _write(
 
 def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
     """The facts as tables for people: on standard output, unless JSON is there."""
+    from nivel.results.trust import told
+
     out = console(stderr=to_standard_error)
     out.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
     for spot in facts["hot_spots"]:
@@ -209,3 +211,4 @@ def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
         )
         for low, high, number in node["cycles"]:
             out.print(f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa", markup=False)
+    out.print(f"trust: {told(facts['trust']['verdict'], facts['trust']['headline'])}", markup=False, soft_wrap=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from nivel.report.story import trusted
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Row
 from nivel.results.comparison.comparison_files import write_text
@@ -118,6 +119,7 @@ def comparison_html(comparison: Comparison) -> str:
 
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     return environment.get_template("compare.html.j2").render(
+        trusted=trusted(comparison.trust),
         comparison=comparison,
         title=_title(comparison),
         facts=_facts(comparison),

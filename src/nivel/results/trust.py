@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
@@ -232,7 +232,7 @@ class Trust:
     @property
     def told(self) -> str:
         """`amber, within 1e-3 m of …`: the light and the headline in a line; without a light where that would be green by mistake."""
-        return self.headline if self.light == NOT_VERIFIED else f"{self.light}, {self.headline}"
+        return told(self.light, self.headline)
 
     def _doubt(self) -> str:
         """The title of a red line that is no estimate of an error; empty where there is none."""
@@ -244,6 +244,14 @@ class Trust:
         """The number beside positions that is wrong most on its own scale; empty where all are exact except for round-off."""
         worst = max(self.found.get("quantities", ()), key=lambda each: each["error"] / each["extent"], default={})
         return worst if worst and worst["error"] > ROUNDED * worst["extent"] else {}
+
+    def of_derived(self, *lacks: str) -> Trust:
+        """The trust report of numbers that were computed from the result: the same, of which also `lacks` is not verified, in words."""
+        if not lacks:
+            return self
+        by = self.verified_by or ((self.accuracy_refinement,) if self.accuracy_refinement else ())
+        found = {**self.found, "verification": {"by": by, "lacks": (*self.not_verified, *lacks)}}
+        return replace(self, found=found)
 
     def attributes(self) -> dict[str, str | int]:
         """Attributes of a dataset: the light as `verdict`, whether all was `verified` (0 or 1), the `headline`; `trust`, all as JSON."""
@@ -260,6 +268,11 @@ class Trust:
 
     def __str__(self) -> str:
         return "\n".join(self.lines())
+
+
+def told(light: str, headline: str) -> str:
+    """Light and headline in a line."""
+    return headline if light == NOT_VERIFIED else f"{light}, {headline}"
 
 
 def amount(value: float, units: str) -> str:

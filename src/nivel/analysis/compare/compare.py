@@ -12,6 +12,8 @@ from nivel.analysis.compare.reference import Solution, solve
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.in_memory import run_in_memory
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Methods
 from nivel.errors import ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Method, Row, Spread
@@ -52,7 +54,13 @@ def compare(machine: MachineRecord, grid: Grid, *, repeat: int = 3, listener: Li
         note=note,
         nivel_version=nivel.__version__,
     )
-    return _spread(_orders(comparison), bench.finest)
+    return _trusted(_spread(_orders(comparison), bench.finest))
+
+
+def _trusted(comparison: Comparison) -> Comparison:
+    """`comparison` with its trust report."""
+    subject = Methods(outcome=comparison.outcome, references=comparison.references, rows=comparison.rows)
+    return replace(comparison, trust=assess(subject))
 
 
 class _Bench:
@@ -80,14 +88,15 @@ class _Bench:
         what = f"step {seconds(row.step)}" if row.step else f"tolerance {number(row.tolerance)}"
         self.listener.say(f"{place}: {', '.join(dict.fromkeys(cell.method))}, {what}", cell.plan.settings.duration)
         try:
-            result, finished = run_in_memory(cell.plan, self.listener.progress)
+            run = run_in_memory(cell.plan, self.listener.progress)
         except ModelError as error:
             self.rows.append(replace(row, outcome="refused", reason=reasons(error)))
             return
+        result, finished = run.result, run.finished
         times = [finished.timing["loop_seconds"]]
         try:
             for _ in range(self.repeat - 1 if finished.failure is None else 0):
-                again = run_in_memory(cell.plan, self.listener.progress)[1]
+                again = run_in_memory(cell.plan, self.listener.progress).finished
                 times.append(again.timing["loop_seconds"])
         finally:  # also where the repeats were interrupted
             self.rows.append(self._measured(_timed(row, result, finished, min(times)), result))

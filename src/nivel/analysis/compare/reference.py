@@ -15,14 +15,14 @@ import numpy as np
 from nivel.analysis.compare.compare_grid import REFERENCES, Grid
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.in_memory import run_in_memory
+from nivel.analysis.trust.report import assess, blindness
+from nivel.analysis.trust.subject import Run
 from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison.comparison import Reference
 from nivel.results.comparison.comparison_table import seconds
 from nivel.results.motion import Motion, common_frames, distance
-from nivel.results.result import Result
 from nivel.results.scales import largest_kinetic_energy, machine_size
 
 TIGHT, EXTRAPOLATED = REFERENCES
@@ -65,24 +65,27 @@ def _tight(machine: MachineRecord, grid: Grid, listener: Listener) -> Solution |
     """A run at TOLERANCE; its error is at most about its distance from one at a looser tolerance."""
     runs = []
     for tolerance in (LOOSER * TOLERANCE, TOLERANCE):
-        result, finished = _run(machine, grid, listener, integrator=TIGHT, stabilisation="direct", tolerance=tolerance)
-        if finished.outcome != "done":
+        run = _run(machine, grid, listener, integrator=TIGHT, stabilisation="direct", tolerance=tolerance)
+        if run.outcome != "done":
             return None
-        runs.append(result)
-    size = machine_size(runs[-1])[0]
-    motions = [Motion.of(result) for result in runs]
+        runs.append(run)
+    last = runs[-1].result
+    size = machine_size(last)[0]
+    motions = [Motion.of(run.result) for run in runs]
     error = distance(motions[0], motions[1], size).value
     how = f"its distance from a run at tolerance {LOOSER * TOLERANCE:.0e}"
-    facts = Reference(f"{TIGHT} at tolerance {TOLERANCE:.0e}", TIGHT, error, how)
-    return Solution(facts, motions[1], size, largest_kinetic_energy(runs[-1], size))
+    facts = Reference(f"{TIGHT} at tolerance {TOLERANCE:.0e}", TIGHT, error, how, _blind(runs[-1]))
+    return Solution(facts, motions[1], size, largest_kinetic_energy(last, size))
 
 
 def _extrapolated(machine: MachineRecord, grid: Grid, listener: Listener) -> Solution | None:
     """rk4 with halved steps until Richardson's extrapolations no longer change; None where too few runs came to the end."""
     best: Solution | None = None
+    finest: Run | None = None
     plain: Motion | None = None
     former: Motion | None = None
-    for step, result in _halvings(machine, grid, listener):
+    for step, run in _halvings(machine, grid, listener):
+        result = None if run is None else run.result
         motion = None if result is None else Motion.of(result)
         finer = None if plain is None or motion is None else _richardson(plain, motion)
         if result is not None and former is not None and finer is not None:
@@ -94,21 +97,23 @@ def _extrapolated(machine: MachineRecord, grid: Grid, listener: Listener) -> Sol
             if best is None or error < best.facts.error:
                 name = f"{EXTRAPOLATED} extrapolated from steps of {seconds(2.0 * step)} and {seconds(step)}"
                 facts = Reference(name, EXTRAPOLATED, error, "its distance from the extrapolation of twice these steps")
-                best = Solution(facts, finer, size, largest_kinetic_energy(result, size))
+                best, finest = Solution(facts, finer, size, largest_kinetic_energy(result, size)), run
             if ends:
                 break
         plain, former = motion, finer
-    return best
+    if best is None or finest is None:
+        return None
+    return replace(best, facts=replace(best.facts, blind=_blind(finest)))
 
 
-def _halvings(machine: MachineRecord, grid: Grid, listener: Listener) -> Iterator[tuple[float, Result | None]]:
+def _halvings(machine: MachineRecord, grid: Grid, listener: Listener) -> Iterator[tuple[float, Run | None]]:
     """(step [s], run with rk4) for halved steps, None where it failed; ends where the next would take too long."""
     parts = ceil(grid.interval / grid.coarsest * (1.0 - 1e-9))
     for level in range(LEVELS[1]):
         step = grid.interval / (parts * 2**level)
-        result, finished = _run(machine, grid, listener, integrator=EXTRAPOLATED, stabilisation="none", step=step)
-        yield step, result if finished.outcome == "done" else None
-        if level + 1 >= LEVELS[0] and 2.0 * finished.timing["loop_seconds"] > LONGEST:
+        run = _run(machine, grid, listener, integrator=EXTRAPOLATED, stabilisation="none", step=step)
+        yield step, run if run.outcome == "done" else None
+        if level + 1 >= LEVELS[0] and 2.0 * run.finished.timing["loop_seconds"] > LONGEST:
             return
 
 
@@ -134,7 +139,12 @@ def _checked(first: Solution, second: Solution) -> list[Solution]:
     ]
 
 
-def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: object) -> tuple[Result, RunOutcome]:
+def _blind(run: Run) -> str:
+    """What both this run and one with finer steps may have wrong alike."""
+    return blindness(assess(run).items)
+
+
+def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: object) -> Run:
     fixed = {"formulation": "newton-euler", "coordinates": "absolute"}
     step = {"step": min(machine.simulation.step, grid.interval), "output_interval": grid.interval}
     own = changed(machine.simulation, {**fixed, **step, **settings})

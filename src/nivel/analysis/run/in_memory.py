@@ -5,15 +5,15 @@ from __future__ import annotations
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Progress
-from nivel.analysis.run.dynamics import RunOutcome, march
+from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
+from nivel.analysis.trust.subject import Run, run_of
 from nivel.integrate.loop.sink import Header
 from nivel.results.memory import Memory
-from nivel.results.result import Result
 
 
-def run_in_memory(plan: Plan, progress: Progress | None = None) -> tuple[Result, RunOutcome]:
-    """Prepare and run.
+def run_in_memory(plan: Plan, progress: Progress | None = None) -> Run:
+    """Prepare and run; what its trust report would look at.
 
     The result holds the frames and what is known before the first of them, no trust report. Raises ModelError before anything is
     computed, KeyboardInterrupt where Ctrl-C came.
@@ -24,4 +24,4 @@ def run_in_memory(plan: Plan, progress: Progress | None = None) -> tuple[Result,
     finished = march(prepared, plan.settings, [sink], progress=progress)
     if finished.asked_to_stop:
         raise KeyboardInterrupt
-    return sink.result(), finished
+    return run_of(plan, prepared, finished, sink.result())

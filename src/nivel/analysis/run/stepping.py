@@ -81,8 +81,10 @@ class Simulation:
     """A machine in motion: ``sim = machine.start(step="1 ms")``, then ``sim.step()`` or ``sim.advance(0.1)``.
 
     ``sim.time`` and ``sim["hinge.angle"]`` say where it is; names are those of results. ``sim.state`` keeps the moment,
-    ``sim.restore(state)`` goes back to it.
+    ``sim.restore(state)`` goes back to it. verified : no; nothing estimates the error of the steps, and ``sim.result()`` says so.
     """
+
+    verified: Final = False
 
     def __init__(self, plan: Plan, *, source: str = "", record: bool = False) -> None:
         refuse_chosen_steps(plan)
@@ -313,9 +315,7 @@ class Simulation:
         return [array for array in every if array.size and array.dtype != np.uint64]
 
     def __repr__(self) -> str:
-        return (
-            f"<Simulation of {self._plan.machine.name}: t = {self.time:.6g} s, {self.steps} steps of {self._step:g} s>"
-        )
+        return f"<Simulation of {self._plan.machine.name}: t = {self.time:.6g} s, {self.steps} steps of {self._step:g} s, not verified>"
 
 
 def refuse_chosen_steps(plan: Plan) -> None:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from nivel.machine.joints.driver import Driver
     from nivel.machine.machine_record import MachineRecord
     from nivel.results.analyses.efforts import Efforts
+    from nivel.results.comparison.comparison import Reference, Row
     from nivel.results.estimate import Estimate
     from nivel.results.result import Result
 
@@ -252,3 +253,11 @@ class Sweep(Subject):
     variants: tuple[Variant, ...]
     by: str = "second runs"
     without: str = "no second runs were made"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Methods(Subject):
+    """A comparison of methods: what their motions were held against, and the runs."""
+
+    references: tuple[Reference, ...]
+    rows: tuple[Row, ...]

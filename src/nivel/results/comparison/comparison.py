@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 from nivel.results.pages import page_maker
+from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
@@ -86,12 +87,14 @@ class Row:
 
 @dataclass(frozen=True)
 class Reference:
-    """A solution that others are held against. error : its own, estimated as `how` says, in the measure of motion errors."""
+    """A solution that others are held against. error : its own, estimated as `how` says, in the measure of motion errors. blind : why that
+    estimate, and other methods too, may miss something, in words."""
 
     name: str
     integrator: str
     error: float
     how: str
+    blind: str = ""
 
 
 @dataclass(frozen=True)
@@ -115,7 +118,8 @@ class Comparison:
 
     rows : a Row for every cell. references : what the motions were held against, none where nothing could be computed (`note` says
     why). spread : how far the methods agree, None for less than two. size : of the machine [m]; kinetic_energy : its largest [J].
-    duration, output_interval [s]. outcome : done, or interrupted: then some cells are missing.
+    duration, output_interval [s]. outcome : done, or interrupted: then some cells are missing. trust : the trust report: whether errors of
+    motions are known.
     """
 
     machine: str
@@ -130,6 +134,7 @@ class Comparison:
     outcome: str = "done"
     note: str = ""
     nivel_version: str = ""
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     @property
     def completed(self) -> tuple[Row, ...]:
@@ -234,4 +239,4 @@ def method_label(method: Method, varying: Iterable[str]) -> str:
 
 def as_record(item: Any) -> dict[str, Any]:
     """The fields of a flat dataclass by name."""
-    return {field.name: getattr(item, field.name) for field in fields(item)}
+    return {each.name: getattr(item, each.name) for each in fields(item)}

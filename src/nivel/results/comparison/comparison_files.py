@@ -13,6 +13,7 @@ from typing import Any, Final
 from nivel.errors import ModelError
 from nivel.files.target import check_target
 from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread, as_record
+from nivel.results.trust import Trust
 
 UNITS: Final = {
     "step": "s",
@@ -43,6 +44,7 @@ def json_text(comparison: Comparison) -> str:
     data["rows"] = [as_record(row) for row in comparison.rows]
     data["references"] = [as_record(each) for each in comparison.references]
     data["spread"] = comparison.spread and as_record(comparison.spread)
+    data["trust"] = json.loads(comparison.trust.to_json())
     return json.dumps(_finite(data), indent=2, ensure_ascii=False) + "\n"
 
 
@@ -56,6 +58,8 @@ def read_json(text: str) -> Comparison:
                 "rows": tuple(Row(**row) for row in data["rows"]),
                 "references": tuple(Reference(**each) for each in data["references"]),
                 "spread": data["spread"] and Spread(**data["spread"]),
+                # files of earlier versions have none
+                "trust": Trust.from_json(json.dumps(data["trust"])) if "trust" in data else Trust("green", "done"),
             }
         )
     except (ValueError, TypeError, KeyError) as error:

@@ -65,6 +65,8 @@ def lines(comparison: Comparison) -> list[str]:
         out.append(spread_line(comparison))
     if comparison.outcome != "done":
         out.append("interrupted: cells are missing")
+    out += [item.text for item in comparison.trust.items if item.verdict != "green" and item.name != "outcome"]
+    out.append(f"trust: {comparison.trust.told}")
     return out
 
 

@@ -18,25 +18,48 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 Array = NDArray[np.float64]
+PARABOLA = 3  # frames
+SEEN = 2e-3  # of the largest peak: what frames may hide of it without a word
 
 
 def reactions(result: Result) -> xarray.Dataset:
     """Largest magnitude, its time and RMS over time of the force [N] and torque [N m] of every joint.
 
-    Raises ModelError for a result without reactions.
+    The attributes have the trust report of the result; peaks that the frames do not show are not verified. Raises ModelError for a result
+    without reactions.
     """
     import xarray
 
     if "joint_force" not in result.variables or not len(result.time):
         raise ModelError("the result has no reactions of joints")
-    values = {}
+    values, hidden = {}, 0.0
     for word, unit in (("force", "N"), ("torque", "N m")):
         size = np.linalg.norm(result.array(f"joint_{word}"), axis=2)
+        hidden = max(hidden, hidden_between_frames(size))
         at = np.argmax(size, axis=0)
         values[f"peak_{word}"] = (("joint",), size[at, np.arange(size.shape[1])], {"units": unit})
         values[f"peak_{word}_time"] = (("joint",), result.time[at], {"units": "s"})
         values[f"rms_{word}"] = (("joint",), _rms(size, result.time), {"units": unit})
-    return xarray.Dataset(values, coords={"joint": list(result.coordinates["joint"])})
+    return xarray.Dataset(values, coords={"joint": list(result.coordinates["joint"])}, attrs=_trusted(result, hidden))
+
+
+def hidden_between_frames(history: Array) -> float:
+    """How much larger the peaks of histories (t, n) may be between frames, as a share of the largest peak: the top of the parabola through
+    the largest number and its neighbours."""
+    largest = float(np.max(np.abs(history), initial=0.0))
+    if len(history) < PARABOLA or not largest > 0.0:
+        return 0.0
+    at = np.clip(np.argmax(np.abs(history), axis=0), 1, len(history) - 2)
+    columns = np.arange(history.shape[1])
+    before, peak, after = (np.abs(history[at + k, columns]) for k in (-1, 0, 1))
+    bend = 2.0 * peak - before - after
+    above = np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(bend), where=bend > 0.0)
+    return float(np.max(above, initial=0.0)) / largest
+
+
+def _trusted(result: Result, hidden: float) -> dict[str, str | int]:
+    lacks = (f"peaks between frames, which may be {100.0 * hidden:.2g} % larger",) if hidden > SEEN else ()
+    return result.trust.of_derived(*lacks).attributes()
 
 
 def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
@@ -62,7 +85,8 @@ def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
         work = _work_of_cycle(history, result.time, period)
         values["work_per_cycle"] = (dims, work, {"units": "J"})
         values["mean_power"] = (dims, work / period, {"units": "W"})
-    return xarray.Dataset(values, coords={"element": [name.removesuffix(".power") for name in names]})
+    elements = [name.removesuffix(".power") for name in names]
+    return xarray.Dataset(values, coords={"element": elements}, attrs=_trusted(result, hidden_between_frames(history)))
 
 
 def _work_of_cycle(power: Array, time: Array, period: float) -> Array:
@@ -104,7 +128,7 @@ def cycles(result: Result, name: str, *, repeating: bool = False) -> xarray.Data
         "mean": (("cycle",), columns[:, 1], units),
         "count": (("cycle",), columns[:, 2], {"units": "1"}),
     }
-    return xarray.Dataset(data, attrs={"signal": name})
+    return xarray.Dataset(data, attrs={"signal": name, **_trusted(result, hidden_between_frames(values[:, None]))})
 
 
 def _whole(found: list[Cycle]) -> list[Cycle]:

@@ -28,6 +28,7 @@ from nivel.flexible.body.recovery import (
     von_mises,
 )
 from nivel.results.stress.body_sources import source_of
+from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
@@ -64,6 +65,12 @@ class RecoveredBody:
         self._result = result
         if not len(self.time):
             raise ModelError(f"the result has no frame yet, so {self.name} has no stress")
+
+    @property
+    def trust(self) -> Trust:
+        """The trust report of the run, of which the stress itself is not verified: nothing estimates what the modes and the elements of the
+        body make wrong of it."""
+        return self._result.trust.of_derived(f"the stress that modes and elements of {self.name} give")
 
     # --- where and when ---
 

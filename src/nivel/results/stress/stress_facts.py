@@ -12,6 +12,7 @@ from nivel.results.stress.recovered import RecoveredBody
 
 def facts(body: RecoveredBody, *, count: int, nodes: list[int], times: list[float]) -> dict[str, Any]:
     """Hot spots over the run, the histories at `nodes`, the states at `times` [s]."""
+    trust = body.trust
     spots = [
         {
             "node": spot.node_id,
@@ -29,6 +30,7 @@ def facts(body: RecoveredBody, *, count: int, nodes: list[int], times: list[floa
         "hot_spots": spots,
         "nodes": [_at_node(body, node) for node in nodes],
         "states": [_at_time(body, time) for time in times],
+        "trust": {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline},
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from nivel.analysis.trust.check import Check
-from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Motion, Positions, Subject, Sweep
+from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Methods, Motion, Positions, Subject, Sweep
 from nivel.results.trust import Item, Verdict
 
 VERDICTS: dict[str, Verdict] = {"done": "green", "interrupted": "amber", "failed": "red", "running": "amber"}
@@ -28,6 +28,7 @@ SAID: dict[type[Subject], dict[str, str]] = {
     },
     Actuated: {"done": "efforts were found for every time of the motion"},
     Linearisation: {"done": "the linear equations were found"},
+    Methods: {"done": "every cell was tried", "interrupted": "interrupted; cells are missing"},
     Sweep: {
         "done": "every variant was tried",
         "interrupted": "interrupted; some variants are not run",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.checks.followed import not_compared
 from nivel.analysis.trust.other_elements import Compared
-from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Positions, Run, Sweep
+from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Methods, Positions, Run, Sweep
 from nivel.machine.machine_record import MachineRecord
 
 SHOWN = 4  # names in a sentence
@@ -68,6 +68,18 @@ def look_at_linear(subject: Linearisation) -> Verification:
     return Verification((by, *more), (*lacks, *run))
 
 
+def look_at_methods(subject: Methods) -> Verification:
+    """The references, each of which checks the other."""
+    references, rows = subject.references, [each for each in subject.rows if each.outcome == "done"]
+    if not references or not rows:
+        return Verification((), ("the motions, as there is no reference",))
+    if any(each.blind for each in references):
+        return Verification((), ("errors of motions, as references may have the same",))
+    if len(references) == 1:
+        return Verification((references[0].name,), ("the reference, as no other method came to the end",))
+    return Verification(tuple(each.name for each in references))
+
+
 def look_at_sweep(sweep: Sweep) -> Verification:
     """The variants that were verified, and those that were not."""
     ran = [each for each in sweep.variants if each.verdict]
@@ -102,5 +114,6 @@ CHECKS = (
     Check("verification", Positions, look_at_positions, lambda _: None, 1),
     Check("verification", Actuated, look_at_efforts, lambda _: None, 1),
     Check("verification", Linearisation, look_at_linear, lambda _: None, 1),
+    Check("verification", Methods, look_at_methods, lambda _: None, 1),
     Check("verification", Sweep, look_at_sweep, lambda _: None, 1),
 )

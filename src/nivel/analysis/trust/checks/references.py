@@ -34,7 +34,7 @@ def say(found: Held) -> Item:
         return Item("references", "amber", f"References: there are none, so no error of a motion is known {limits}")
     blind = next((each for each in found.blind if each), "")
     if all(found.blind):
-        several = "all of them" if len(found.names) > 1 else found.names[0]
+        several = "all of them" if len(found.names) > 1 else "the only one"
         said = f"{several} may have the same error as the runs: {blind}; errors of motions may be larger than they are shown"
         return Item("references", "amber", f"References: {said} {limits}")
     if blind:

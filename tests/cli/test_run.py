@@ -96,7 +96,7 @@ def test_a_run_without_verification_is_never_a_plain_yes(folder):
     assert "trust: not verified" in done.stderr
     assert "green," not in done.stderr
     result = Result.open(folder / "pendulum.nc")
-    assert result.trust.headline == "not verified"
+    assert result.trust.headline == "not verified: no second run was made"
     assert np.isnan(result.estimated_error("hinge.angle")).all()
     page = (folder / "pendulum.html").read_text(encoding="utf-8")
     assert "Not verified" in page

@@ -12,6 +12,7 @@ from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FILE_WORDS, TOP_WORDS
+from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.files.writer import write_machine
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine import (
@@ -208,6 +209,7 @@ def test_every_key_of_a_part_is_mentioned(title, record):
 def test_every_section_is_described():
     assert {*TOP_WORDS, *FILE_WORDS} == first_column("Shape of a file")
     assert MASS_PROPERTIES in first_column("Bodies")
+    assert ROTOR_INERTIA in first_column("Joints")
     assert {*FILE_WORDS, MASS_PROPERTIES, "python"} == first_column("Several files")
     assert {"format", "parameters", "functions", *field_words(MachineRecord)} == set(TOP_WORDS)
 

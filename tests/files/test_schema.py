@@ -11,7 +11,7 @@ from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCo
 from nivel.machine.uses.references import SECTIONS
 
 SCHEMA = schema()
-OF_FILES = {"Body": {"mass_properties"}}  # keys that only files have
+OF_FILES = {"Body": {"mass_properties"}, "Joint": {"rotor_inertia"}}  # keys that only files have
 
 
 def definition(record):

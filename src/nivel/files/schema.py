@@ -9,6 +9,7 @@ from nivel.files.assembly import Assembly
 from nivel.files.include import Include
 from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FORMAT
+from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.machine import MachineRecord, Record
 from nivel.machine.laws.time_function import CURVE
 from nivel.machine.uses.references import SECTIONS
@@ -25,6 +26,10 @@ def schema() -> dict[str, Any]:
     definitions, properties = machine["$defs"], machine["properties"]
     included, assembly = _definition(Include, definitions), _definition(Assembly, definitions)
     definitions["Body"]["properties"][MASS_PROPERTIES] = {"type": "string", "description": "file with mass and inertia"}
+    definitions["Joint"]["properties"][ROTOR_INERTIA] = {
+        "anyOf": [*_QUANTITY["anyOf"], {"type": "object", "additionalProperties": _QUANTITY}],
+        "description": "inertia of what turns with the coordinate, such as the rotor of a motor times its squared gear ratio",
+    }
     named = set()
     for section in SECTIONS:
         items = properties[section].pop("items")

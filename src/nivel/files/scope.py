@@ -25,6 +25,7 @@ from nivel.files.mesh_file import read_meshes
 from nivel.files.outline import VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of
 from nivel.files.python_laws import read_python_laws
+from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
@@ -117,6 +118,7 @@ def _tree_of(
     if user is not None:
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
         given_parameters(tree, *user)
+    add_rotors(tree)
     read_meshes(tree, sources)
     read_python_laws(tree, sources)
     read_csv_tables(tree, sources)

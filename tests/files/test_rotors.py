@@ -1,0 +1,64 @@
+"""`rotor_inertia` of a joint adds ½ I ċ² to the kinetic energy, and nothing else."""
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.files import parse_machine
+
+G, M, C, J = 9.81, 2.0, 0.4, 0.05
+PENDULUM = f"""format: 1
+gravity: [0, 0, -{G}]
+parameters: {{I: 0.3 kg*m^2}}
+bodies:
+  bob: {{position: [{C}, 0, 0], mass: {M}, inertia: [{J}, {J}, {J}]}}
+joints:
+  pivot: {{type: revolute, bodies: [ground, bob], point: [0, 0, 0], axis: [0, 1, 0], rotor_inertia: I}}
+simulation: {{duration: 2 ms, step: 1 ms}}
+"""
+
+
+def machine(text=PENDULUM):
+    return nivel.Machine.from_record(parse_machine(text))
+
+
+def test_it_is_added_to_the_mass_matrix_and_to_no_other_term():
+    mechanics = machine().mechanics()
+    np.testing.assert_allclose(mechanics.mass_matrix(), [[J + M * C**2 + 0.3]], rtol=1e-14)
+    np.testing.assert_allclose(mechanics.bias(), [-M * G * C], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "formulation"),
+    [("relative", "newton-euler"), ("absolute", "newton-euler"), ("absolute", "lagrange")],
+)
+def test_the_first_acceleration_is_that_of_the_closed_form(coordinates, formulation):
+    result = machine().simulate(coordinates=coordinates, formulation=formulation, verify=False)
+    assert result.array("bob.angular_acceleration.y")[0] == pytest.approx(M * G * C / (J + M * C**2 + 0.3), rel=1e-12)
+
+
+def test_of_a_length_it_is_a_mass_and_of_two_angles_each_has_its_own():
+    slide = PENDULUM.replace("type: revolute", "type: translational").replace("rotor_inertia: I", "rotor_inertia: 3 kg")
+    np.testing.assert_allclose(machine(slide).mechanics().mass_matrix(), [[M + 3.0]], rtol=1e-14)
+    cross = PENDULUM.replace("type: revolute", "type: universal").replace(
+        "axis: [0, 1, 0]", "axes: [[0, 1, 0], [0, 0, 1]]"
+    )
+    both = machine(cross.replace("rotor_inertia: I", "rotor_inertia: {angle_1: 0.1, angle_2: I}")).mechanics()
+    about = J + M * C**2
+    np.testing.assert_allclose(both.mass_matrix(), np.diag([about + 0.1, about + 0.3]), atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("rotor_inertia: -1", r"machine\.yaml:7:\d+: bodies\.pivot_rotor\.inertia: "),
+        ("rotor_inertia: {angel: 1}", "there is no coordinate `angel`; its coordinate is `angle`"),
+        ("rotor_inertia: 2 m", r"machine\.yaml:7:\d+: "),
+    ],
+)
+def test_what_is_wrong_is_said_at_the_joint(given, message):
+    with pytest.raises(nivel.ModelError, match=message):
+        parse_machine(PENDULUM.replace("rotor_inertia: I", given))
+    spherical = PENDULUM.replace("type: revolute", "type: spherical").replace(", axis: [0, 1, 0]", "")
+    with pytest.raises(nivel.ModelError, match="has no coordinate that a rotor could follow"):
+        parse_machine(spherical)

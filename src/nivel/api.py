@@ -799,7 +799,7 @@ def import_model(
     base: Literal["fixed", "free"] | None = None,
     package_paths: Sequence[str | PathLike[str]] = (),
 ) -> Machine:
-    """The machine that a model of another program describes: a URDF or SDF file.
+    """The machine that a model of another program describes: a URDF, SDF or MJCF file (MJCF with the extra `robots`).
 
     base : whether the first link is fixed to the ground; default fixed for URDF, else as the model says. package_paths : folders in which
     meshes at ``package://`` are searched for. What is not translated is listed by `nivel import`.

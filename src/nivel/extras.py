@@ -24,6 +24,7 @@ LIBRARIES: Final = {
     "imageio_ffmpeg": Library("ffmpeg", "film"),
     "matplotlib": Library("matplotlib", "plot"),
     "meshio": Library("meshio", "flex"),
+    "mujoco": Library("mujoco-core", "robots"),
     "pandas": Library("pandas", ""),
     "PIL": Library("pillow", "film"),
     "skfem": Library("scikit-fem", "flex"),

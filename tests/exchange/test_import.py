@@ -174,3 +174,10 @@ def test_a_document_of_too_many_elements_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr("nivel.files.xml_source.MOST_ELEMENTS", 50)
     with pytest.raises(nivel.ModelError, match=r"a\.urdf:1:\d+: the file has more than 50 elements"):
         read_model(written(tmp_path, "<robot>" + 60 * "<a/>" + "</robot>", "a.urdf"))
+
+
+@pytest.mark.parametrize("name", ["arm.yaml", "leg.yaml"])
+def test_imported_examples_run(name):
+    result = nivel.load(ARM.with_name(name)).simulate(duration=0.1, verify=False)
+    assert result.outcome == "done"
+    assert abs(result.array("energy_error")).max() < 1e-6

@@ -38,7 +38,7 @@ def command(
     quiet: bool,
     force: bool,
 ) -> None:
-    """Translate MODEL, a URDF or SDF file, into a machine file.
+    """Translate MODEL, a URDF, SDF or MJCF file, into a machine file.
 
     The list of what was translated, in another form or not at all, is printed and stands in the comments of the file.
     """

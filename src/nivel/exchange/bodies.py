@@ -156,11 +156,16 @@ def marker_frame(mechanism: Mechanism, group: Group, name: str) -> Frame:
 def offset(mechanism: Mechanism, groups: dict[str, Group]) -> None:
     """Move what joints carry that follow another one with an offset: to where both agree while the other one is at zero."""
     for each in mechanism.connections:
-        if each.mimic is None or not each.mimic[2] or each.kind not in ("revolute", "translational"):
+        other = next((joint for joint in mechanism.connections if each.mimic and joint.name == each.mimic[0]), None)
+        if each.mimic is None or other is None or each.kind not in ("revolute", "translational"):
+            continue
+        wanted = each.mimic[1] * other.placed + each.mimic[2]
+        way = wanted - each.placed
+        if not way:
             continue
         axis = each.axes[0] / np.linalg.norm(each.axes[0])
-        turned = elementary_turn(axis, each.mimic[2]) if each.kind == "revolute" else np.eye(3)
-        shift = each.point - turned @ each.point if each.kind == "revolute" else each.mimic[2] * axis
+        turned = elementary_turn(axis, way) if each.kind == "revolute" else np.eye(3)
+        shift = each.point - turned @ each.point if each.kind == "revolute" else way * axis
         motion = Frame(turned, shift)
         beyond = set(carried(mechanism, groups, each))
         for name in beyond:
@@ -169,7 +174,7 @@ def offset(mechanism: Mechanism, groups: dict[str, Group]) -> None:
             if other is not each and other.bodies[0] in beyond:
                 other.point = motion.axes @ other.point + motion.origin
                 other.axes = tuple(motion.axes @ axis for axis in other.axes)
-        each.placed = each.mimic[2]
+        each.placed = wanted
 
 
 def elementary_turn(axis: Array, angle: float) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
-from nivel.exchange.mechanism import Connection, Mechanism
+from nivel.exchange.mechanism import Actuator, Connection, Mechanism
 from nivel.exchange.names import Names
 from nivel.exchange.numbers import number
 
@@ -85,7 +85,7 @@ def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> Non
         if each.mimic is not None or not each.coordinate:
             continue
         ends = _ends(each)
-        start = each.start or 0.0
+        start = each.placed if each.start is None else each.start
         low, high = ends.get("lower", -math.inf), ends.get("upper", math.inf)
         if not low <= start <= high and low < high:
             start = 0.5 * (low + high) if math.isfinite(low) and math.isfinite(high) else min(max(start, low), high)
@@ -94,8 +94,29 @@ def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> Non
     for each in mechanism.connections:
         if each.mimic is not None and each.mimic[0] in starts:
             starts[each.name] = each.mimic[1] * starts[each.mimic[0]] + each.mimic[2]
-    if not any(starts.values()):
+    if all(starts[each.name] == each.placed for each in mechanism.connections if each.name in starts):
         return
     for each in mechanism.connections:  # all of them: the assembly would move those that are left open
         if each.name in starts:
             joints[names.name("joint", each.name)]["start"] = {each.coordinate: number(starts[each.name])}
+
+
+def actuated(
+    actuator: Actuator, control: str, mechanism: Mechanism, names: Names
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The input of an actuator by the name `control`, and its motor."""
+    joint = next(each for each in mechanism.connections if each.name == actuator.joint)
+    coordinate = coordinate_of(joint, names)
+    signal = f"{control}.value"
+    given: dict[str, Any] = {"units": "N m" if joint.coordinate == "angle" else "N"} if actuator.gain == 1.0 else {}
+    if actuator.control is not None:
+        given["range"] = [number(each) for each in actuator.control]
+        signal = f"min(max({signal}, {number(actuator.control[0])!r}), {number(actuator.control[1])!r})"
+    terms = [signal if actuator.gain == 1.0 else f"{number(actuator.gain)!r}*{signal}"]
+    terms += [
+        f"{number(factor)!r}*{symbol}" if symbol else repr(number(factor))
+        for factor, symbol in zip(actuator.bias, ("", coordinate, f"{coordinate}_rate"), strict=True)
+        if factor
+    ]
+    motor = {"type": "motor", "coordinate": coordinate, "effort": " + ".join(terms).replace("+ -", "- ")}
+    return given, motor | ({} if actuator.limit is None else {"limit": number(actuator.limit)})

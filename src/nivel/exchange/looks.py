@@ -58,6 +58,8 @@ class Drawing:
     def _shape(self, look: Look, at: Frame, name: str) -> dict[str, Any]:
         if look.kind == "mesh":
             return self._mesh(look, at)
+        if look.surface is not None:
+            return self._surface(name, look.surface, at)
         if not all(0.0 < size < 1e6 for size in look.sizes):
             raise NotFoundError(f"a {look.kind} without size")
         centre = {"centre": triple(at.origin)} if np.any(at.origin) else {}
@@ -65,7 +67,9 @@ class Drawing:
             return {"type": "sphere", "radius": number(look.sizes[0]), **centre}
         order = np.argmax(np.abs(at.axes), axis=0)
         straight = bool(np.all(np.abs(at.axes).max(axis=0) > 1.0 - ALONG))
-        if not straight and not (look.kind != "box" and np.abs(at.axes[:, 2]).max() > 1.0 - ALONG):
+        if look.kind == "ellipsoid" or (
+            not straight and not (look.kind != "box" and np.abs(at.axes[:, 2]).max() > 1.0 - ALONG)
+        ):
             return self._surface(name, _solid(look), at)
         if look.kind == "box":
             sizes = [0.0, 0.0, 0.0]
@@ -161,6 +165,10 @@ def _solid(look: Look) -> tuple[Array, Triangles]:
         corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * 0.5 * np.array(look.sizes)
         quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
         return corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], dtype=np.uint32)
+    if look.kind == "ellipsoid":
+        angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 13)
+        points, triangles = _lathe([(float(np.cos(a)), float(np.sin(a))) for a in angles])
+        return points * look.sizes, triangles
     radius, length = look.sizes
     rings = [(0.0, -0.5 * length), (radius, -0.5 * length), (radius, 0.5 * length), (0.0, 0.5 * length)]
     if look.kind == "capsule":

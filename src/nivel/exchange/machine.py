@@ -19,7 +19,7 @@ from nivel.exchange.bodies import (
     offset,
     possible,
 )
-from nivel.exchange.joint_forces import coupling_of, forces_of, starts_of
+from nivel.exchange.joint_forces import actuated, coupling_of, forces_of, starts_of
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
 from nivel.exchange.names import Names
@@ -60,17 +60,15 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
         for suffix, force in forces_of(each, names, effective + each.armature, mechanism).items():
             forces[names.new(f"{each.name}_{suffix}", "force")] = force
-    kinds = {each.name: each for each in mechanism.connections}
-    for name, joint, factor, limit in mechanism.actuators:
-        control = names.new(name, "input")
-        inputs[control] = {"unit": "N*m" if kinds[joint].coordinate == "angle" else "N"}
-        effort = control if factor == 1.0 else f"{factor:.17g}*{control}"
-        force = {
-            "type": "motor",
-            "coordinate": f"{names.name('joint', joint)}.{kinds[joint].coordinate}",
-            "effort": effort,
-        }
-        forces[names.new(name, "force")] = force | ({} if limit is None else {"limit": number(limit)})
+    for actuator in mechanism.actuators:
+        control = names.new(actuator.name, "input")
+        inputs[control], forces[names.new(actuator.name, "force")] = actuated(actuator, control, mechanism, names)
+    for link, point, vector in mechanism.lifts:
+        group = groups[link]
+        if group.first != WORLD:
+            at = marker_frame(mechanism, group, link) @ Frame(origin=point)
+            force = {"type": "force", "body": names.name("body", group.first), "position": triple(at.origin)}
+            forces[names.new(f"{link}_gravcomp", "force")] = force | {"vector": [number(each) for each in vector]}
     markers = _markers(mechanism, groups, names)
     changed = names.changed(("body", "marker", "joint"))
     if changed:
@@ -90,8 +88,10 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     if _is_tree(mechanism, groups) and _nearly_parallel(mechanism):
         data["assembly"] = {"parallel": 0.0}
         mechanism.notes.change("axes that are parallel to six digits only stay as they are: `assembly: {parallel: 0}`")
+    settings: dict[str, Any] = {} if mechanism.step is None else {"step": mechanism.step}
     if any(LIGHT in each for each in mechanism.notes.changed):
-        data["simulation"] = {"coordinates": "relative"}
+        settings["coordinates"] = "relative"
+    data |= {"simulation": settings} if settings else {}
     return Translation(file, mechanism.format, data, mechanism.notes, drawing.made)
 
 
@@ -205,8 +205,9 @@ def _inertia(inertial: Inertial) -> Any:
 
 def _joint(each: Connection, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
     bodies = [GROUND if groups[name].first == WORLD else names.name("body", groups[name].first) for name in each.bodies]
+    rotor = {"rotor_inertia": number(each.armature)} if each.armature else {}
     if each.placed:
-        return {"type": each.kind, "markers": _joint_markers(each, mechanism, groups, bodies)}
+        return {"type": each.kind, "markers": _joint_markers(each, mechanism, groups, bodies), **rotor}
     out: dict[str, Any] = {"type": each.kind, "bodies": bodies, "point": triple(each.point)}
     if len(each.axes) == 1:
         out["axis"] = triple(each.axes[0])
@@ -214,7 +215,7 @@ def _joint(each: Connection, mechanism: Mechanism, groups: dict[str, Group], nam
         out["axes"] = [triple(axis) for axis in each.axes]
     if each.pitch is not None:
         out["pitch"] = number(each.pitch)
-    return out
+    return out | rotor
 
 
 def _joint_markers(
@@ -245,4 +246,10 @@ def _markers(mechanism: Mechanism, groups: dict[str, Group], names: Names) -> di
         place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
         out[names.name("marker", name)] = {"body": body, **place, **turn(frame.axes)}
         mechanism.notes.change("links on fixed joints are parts of their bodies, their frames are markers", name)
+    for name, link, inside in mechanism.sites:
+        group = groups[link]
+        frame = inside if link == WORLD else marker_frame(mechanism, group, link) @ inside
+        body = GROUND if group.first == WORLD else names.name("body", group.first)
+        place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
+        out[names.name("marker", name)] = {"body": body, **place, **turn(frame.axes)}
     return out

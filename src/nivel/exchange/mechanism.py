@@ -62,16 +62,18 @@ class Inertial:
 class Look:
     """A solid that is drawn. place : of its middle in the frame of the link, cylinders and capsules along its z axis.
 
-    sizes : three lengths of a box; radius and length; radius. file, scale : of a mesh, one factor for each of its axes.
+    sizes : three lengths of a box, radii of an ellipsoid; radius and length; radius. file, scale : of a mesh, one factor for each of its
+    axes. surface : vertices and triangles.
     """
 
-    kind: Literal["box", "cylinder", "capsule", "sphere", "mesh"]
+    kind: Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "surface"]
     place: Frame
     sizes: tuple[float, ...] = ()
     file: str = ""
     scale: Triple = (1.0, 1.0, 1.0)
     colour: str = ""
     line: int = 0
+    surface: tuple[Array, NDArray[np.uint32]] | None = None
 
 
 @dataclass
@@ -120,9 +122,24 @@ class Connection:
 
 
 @dataclass
+class Actuator:
+    """An effort on the coordinate c of a joint: gain · control + bias[0] + bias[1] c + bias[2] ċ, at most `limit`. control : its range."""
+
+    name: str
+    joint: str
+    gain: float
+    bias: Triple = (0.0, 0.0, 0.0)
+    limit: float | None = None
+    control: tuple[float, float] | None = None
+
+
+@dataclass
 class Mechanism:
-    """links by name, and what connects them. gravity : (3,) [m/s²]. actuators : efforts on coordinates from outside, (name, joint, factor,
-    limit)."""
+    """links by name, and what connects them. gravity : (3,) [m/s²].
+
+    sites : further frames, (name, link, frame in the link). lifts : constant forces, (link, point in the link, force in global axes).
+    step : of its simulation [s].
+    """
 
     name: str
     format: str
@@ -130,7 +147,10 @@ class Mechanism:
     links: dict[str, Link] = field(default_factory=dict)
     connections: list[Connection] = field(default_factory=list)
     notes: Notes = field(default_factory=Notes)
-    actuators: list[tuple[str, str, float, float | None]] = field(default_factory=list)
+    actuators: list[Actuator] = field(default_factory=list)
+    sites: list[tuple[str, str, Frame]] = field(default_factory=list)
+    lifts: list[tuple[str, Array, Array]] = field(default_factory=list)
+    step: float | None = None
 
     def roots(self) -> list[str]:
         """Links that are the second of no connection."""

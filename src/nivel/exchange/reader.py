@@ -11,6 +11,7 @@ from nivel.errors import Fault, ModelError
 from nivel.exchange.looks import Drawing
 from nivel.exchange.machine import machine_of
 from nivel.exchange.mechanism import Mechanism
+from nivel.exchange.mjcf import read_mjcf
 from nivel.exchange.sdf import read_sdf
 from nivel.exchange.translation import Translation
 from nivel.exchange.urdf import read_urdf
@@ -98,6 +99,8 @@ def _mechanism(content: bytes, file: str, base: Base | None) -> Mechanism:
         )
         raise ModelError(Fault(file, macro.line, macro.column, macro.shown, message))
     match root.tag:
+        case "mujoco":
+            return read_mjcf(Path(file), document, base)
         case "robot":
             return read_urdf(document, base)
         case "sdf":

@@ -42,11 +42,10 @@ def add_rotors(tree: Tree) -> None:
 def _which(free: tuple[str, ...]) -> str:
     if not free:
         return "this type of joint has no coordinate that a rotor could follow"
-    return (
-        f"a mapping such as `{{{free[0]}: 0.01 kg*m^2}}` was expected"
-        if len(free) > 1
-        else f"its coordinate is `{free[0]}`"
-    )
+    first = free[0]
+    if len(free) > 1:
+        return f"a mapping such as `{{{first}: 0.01 kg*m^2}}` was expected"
+    return f"its coordinate is `{first}`"
 
 
 def _add(tree: Tree, name: str, joint: dict[str, Any], coordinate: str, value: Any, *, single: bool) -> None:

@@ -1,0 +1,302 @@
+"""MJCF: models of MuJoCo, read by its own library, with closed loops made exact.
+
+MuJoCo compiles the model, with its defaults, replications and inertias of geometries; the numbers of the compiled model are those of the
+machine. Bodies are placed as in `qpos0`.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.exchange.mechanism import MOST_LINKS, WORLD, Actuator, Connection, Frame, Inertial, Link, Look, Mechanism
+from nivel.exchange.mjcf_equalities import read_equalities
+from nivel.exchange.urdf import digits
+from nivel.extras import needed
+from nivel.files.sources import read_bytes
+from nivel.files.xml_source import Document, Element
+
+KINDS: Final = {2: "translational", 3: "revolute", 1: "spherical"}  # mjtJoint: free 0, ball 1, slide 2, hinge 3
+FREE, BALL = 0, 1
+JOINT_TRANSMISSIONS: Final = (0, 1)  # mjtTrn: on a joint, on a joint in the parent
+DEEPEST: Final = 10  # files that include files
+SHOWN_GROUPS: Final = 3  # geoms of the groups 0, 1 and 2 are drawn, as by MuJoCo's viewer
+OFF: Final = {
+    "limits": "mjDSBL_LIMIT",
+    "friction": "mjDSBL_FRICTIONLOSS",
+    "springs": "mjDSBL_SPRING",
+    "dampers": "mjDSBL_DAMPER",
+    "equalities": "mjDSBL_EQUALITY",
+    "actuators": "mjDSBL_ACTUATION",
+}
+
+
+def read_mjcf(path: Path, document: Document, base: str | None) -> Mechanism:
+    """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says. Raises ModelError."""
+    mj = needed("mujoco", "models in MJCF need")
+    _check_source(document, path, {path.resolve()})
+    document.raise_faults()
+    said: list[warnings.WarningMessage] = []
+    try:
+        with warnings.catch_warnings(record=True) as said:
+            model = mj.MjSpec.from_file(str(path)).compile()
+    except (ValueError, RuntimeError) as error:
+        text = " ".join(str(error).split())
+        raise ModelError(Fault(document.file, 1, 1, "", f"MuJoCo cannot compile the model: {text}")) from None
+    off = {what for what, flag in OFF.items() if model.opt.disableflags & int(getattr(mj.mjtDisableBit, flag))}
+    weightless = bool(model.opt.disableflags & int(mj.mjtDisableBit.mjDSBL_GRAVITY))
+    x, y, z = (0.0, 0.0, 0.0) if weightless else model.opt.gravity.tolist()
+    mechanism = Mechanism(document.root.get("model") or path.stem, "MJCF", (x, y, z))
+    for each in said:
+        mechanism.notes.change(f"MuJoCo: {' '.join(str(each.message).split())}")
+    mechanism.step = float(model.opt.timestep)
+    for what in sorted(off):
+        mechanism.notes.leave(f"{what}, which the model switches off")
+    data = mj.MjData(model)
+    mj.mj_resetData(model, data)
+    data.qpos[:] = model.qpos0
+    mj.mj_kinematics(model, data)
+    _Reader(mj, model, data, mechanism, off).read(base)
+    _leave(model, mechanism)
+    return mechanism
+
+
+def _check_source(document: Document, path: Path, seen: set[Path], depth: int = 0) -> None:
+    """Refuse what would make a model larger than its file, and files outside of the folder of the model."""
+    folder = path.parent.resolve()
+    for element, count in _repeated(document.root, 1):
+        if count > MOST_LINKS:
+            document.fault(element, f"{count} repetitions; up to {MOST_LINKS} are read")
+    pending = [document.root]
+    while pending:
+        element = pending.pop()
+        pending += element.children
+        for key in ("file", "meshdir", "texturedir", "assetdir"):
+            given = element.get(key)
+            if given and not (folder / given).resolve().is_relative_to(folder):
+                document.fault(element, f'{key}="{given}" leaves the folder of the model, and is not read')
+        if element.tag == "include" and not document.faults:
+            _include(document, element, folder, seen, depth)
+
+
+def _include(document: Document, element: Element, folder: Path, seen: set[Path], depth: int) -> None:
+    inner = (folder / element.get("file")).resolve()
+    if inner in seen or depth > DEEPEST:
+        document.fault(element, f"`{element.get('file')}` is included twice, or leads back to itself")
+    elif not inner.is_file():
+        document.fault(element, f"there is no file `{element.get('file')}`")
+    else:
+        seen.add(inner)
+        included = Document(read_bytes(inner), str(inner))
+        _check_source(included, inner, seen, depth + 1)
+        document.faults += included.faults
+
+
+def _repeated(element: Element, times: int) -> Iterator[tuple[Element, int]]:
+    """Elements that repeat what stands in them or make many bodies, with the number of all repetitions."""
+    stack = [(element, times)]
+    while stack:
+        each, count = stack.pop()
+        if each.tag in ("replicate", "composite", "flexcomp"):
+            for word in each.get("count", "1").split():
+                count *= (
+                    abs(int(float(word)))
+                    if word.replace(".", "").replace("e", "").isalnum() and word[0].isdigit()
+                    else 1
+                )
+            yield each, count
+        stack += [(child, count) for child in each.children]
+
+
+class _Reader:
+    """The parts of a compiled model; `d` holds the kinematics of qpos0."""
+
+    def __init__(self, mj: Any, m: Any, d: Any, mechanism: Mechanism, off: set[str]) -> None:
+        self.mj, self.m, self.d, self.mechanism, self.off = mj, m, d, mechanism, off
+        self.joints: dict[int, Connection] = {}
+
+    def read(self, base: str | None) -> None:
+        """Fill the mechanism."""
+        for b in range(1, self.m.nbody):
+            self._body(b)
+        for b in range(1, self.m.nbody):
+            self._joints(b, base)
+        for s in range(self.m.nsite):
+            self._site(s)
+        if "equalities" not in self.off:
+            read_equalities(self.mj, self.m, self.mechanism, self.joints, self.body)
+        if "actuators" not in self.off:
+            for a in range(self.m.nu):
+                self._actuator(a)
+
+    def body(self, b: int) -> str:
+        """The name of the link of a body."""
+        return WORLD if b == 0 else self.m.body(b).name or f"body_{b}"
+
+    def _frame(self, at: Any, axes: Any) -> Frame:
+        return Frame(np.array(axes, dtype=float).reshape(3, 3), np.array(at, dtype=float))
+
+    def _body(self, b: int) -> None:
+        m, d = self.m, self.d
+        place = self._frame(d.xpos[b], d.xmat[b])
+        inertial = None
+        if m.body_mass[b] > 0.0:
+            own = self._quaternion(m.body_iquat[b])
+            inertial = Inertial(float(m.body_mass[b]), m.body_ipos[b].copy(), own @ np.diag(m.body_inertia[b]) @ own.T)
+        name = self.body(b)
+        looks = [
+            look
+            for g in range(m.body_geomadr[b], m.body_geomadr[b] + m.body_geomnum[b])
+            if (look := self._look(g, name))
+        ]
+        self.mechanism.links[name] = Link(name, place, inertial, looks)
+        if m.body_gravcomp[b] and inertial is not None and any(self.mechanism.gravity):
+            lift = -float(m.body_gravcomp[b]) * inertial.mass * np.array(self.mechanism.gravity)
+            self.mechanism.lifts.append((name, inertial.centre, lift))
+            self.mechanism.notes.change("gravcomp is a force at the centre of mass", name)
+
+    def _quaternion(self, parameters: Any) -> Any:
+        out = np.zeros(9)
+        self.mj.mju_quat2Mat(out, np.asarray(parameters, dtype=float))
+        return out.reshape(3, 3)
+
+    def _joints(self, b: int, base: str | None) -> None:
+        m, name = self.m, self.body(b)
+        before, first = self.body(int(m.body_parentid[b])), int(m.body_jntadr[b])
+        joints = range(first, first + int(m.body_jntnum[b]))
+        if not joints:
+            self.mechanism.connections.append(Connection(f"{name}_weld", "fixed", (before, name), np.zeros(3)))
+        for j in joints:
+            if m.jnt_type[j] == FREE:
+                if base == "fixed":
+                    self.mechanism.connections.append(Connection(f"{name}_base", "fixed", (WORLD, name), np.zeros(3)))
+                continue
+            after = name
+            if j != joints[-1]:
+                after = f"{name}_{self._joint_name(j)}"
+                self.mechanism.links[after] = Link(after, self._frame(self.d.xanchor[j], self.d.xmat[b]))
+            self.joints[j] = self._joint(j, before, after)
+            self.mechanism.connections.append(self.joints[j])
+            before = after
+
+    def _joint_name(self, j: int) -> str:
+        return self.m.joint(j).name or f"joint_{j}"
+
+    def _joint(self, j: int, before: str, after: str) -> Connection:
+        m, notes = self.m, self.mechanism.notes
+        name, v, q = self._joint_name(j), int(m.jnt_dofadr[j]), int(m.jnt_qposadr[j])
+        joint = Connection(name, KINDS[int(m.jnt_type[j])], (before, after), self.d.xanchor[j].copy())
+        if m.jnt_type[j] == BALL:
+            given = (m.dof_armature[v], m.dof_damping[v], m.jnt_stiffness[j], m.dof_frictionloss[v], m.jnt_limited[j])
+            for value, what in zip(given, ("armature", "damping", "stiffness", "friction", "limits"), strict=True):
+                if value:
+                    notes.leave(f"{what} of ball joints", name)
+            return joint
+        joint.axes = (self.d.xaxis[j].copy(),)
+        joint.placed = float(m.qpos0[q])
+        joint.armature = float(m.dof_armature[v])
+        if "dampers" not in self.off:
+            joint.damping = float(m.dof_damping[v])
+        if "springs" not in self.off:
+            joint.stiffness, joint.free = float(m.jnt_stiffness[j]), float(m.qpos_spring[q])
+        if "friction" not in self.off:
+            joint.friction = float(m.dof_frictionloss[v])
+        if "limits" not in self.off and m.jnt_limited[j]:
+            joint.lower, joint.upper = map(float, m.jnt_range[j])
+        curved = [getattr(m, key, None) for key in ("jnt_stiffnesspoly", "dof_dampingpoly")]
+        for poly, k in zip(curved, (j, v), strict=True):
+            if poly is not None and np.any(poly[k]):
+                notes.leave("parts of springs and dampers that are not linear", name)
+        return joint
+
+    def _look(self, g: int, name: str) -> Look | None:
+        m = self.m
+        if m.geom_group[g] >= SHOWN_GROUPS:
+            return None
+        size, material = m.geom_size[g], int(m.geom_matid[g])
+        colour = (
+            m.mat_rgba[material] if material >= 0 and np.all(m.geom_rgba[g] == (0.5, 0.5, 0.5, 1.0)) else m.geom_rgba[g]
+        )
+        place = self._frame(m.geom_pos[g], self._quaternion(m.geom_quat[g]))
+        common: dict[str, Any] = {"place": place, "colour": digits(colour)}
+        match self.mj.mjtGeom(int(m.geom_type[g])).name:
+            case "mjGEOM_SPHERE":
+                return Look("sphere", sizes=(float(size[0]),), **common)
+            case "mjGEOM_CAPSULE":
+                return Look("capsule", sizes=(float(size[0]), 2.0 * float(size[1])), **common)
+            case "mjGEOM_CYLINDER":
+                return Look("cylinder", sizes=(float(size[0]), 2.0 * float(size[1])), **common)
+            case "mjGEOM_BOX":
+                return Look("box", sizes=tuple(2.0 * float(each) for each in size), **common)
+            case "mjGEOM_ELLIPSOID":
+                return Look("ellipsoid", sizes=tuple(map(float, size)), **common)
+            case "mjGEOM_MESH":
+                k = int(m.geom_dataid[g])
+                vertices = m.mesh_vert[m.mesh_vertadr[k] : m.mesh_vertadr[k] + m.mesh_vertnum[k]].astype(float)
+                faces = m.mesh_face[m.mesh_faceadr[k] : m.mesh_faceadr[k] + m.mesh_facenum[k]]
+                return Look("surface", surface=(vertices, faces.astype(np.uint32)), **common)
+            case kind:
+                self.mechanism.notes.leave(f"looks: geoms of type {kind.removeprefix('mjGEOM_').lower()}", name)
+        return None
+
+    def _site(self, s: int) -> None:
+        m = self.m
+        name = m.site(s).name
+        if name:
+            at = self._frame(m.site_pos[s], self._quaternion(m.site_quat[s]))
+            self.mechanism.sites.append((name, self.body(int(m.site_bodyid[s])), at))
+
+    def _actuator(self, a: int) -> None:
+        m, notes = self.m, self.mechanism.notes
+        name = m.actuator(a).name or f"actuator_{a}"
+        joint = (
+            self.joints.get(int(m.actuator_trnid[a, 0])) if int(m.actuator_trntype[a]) in JOINT_TRANSMISSIONS else None
+        )
+        if joint is None or not joint.coordinate:
+            notes.leave("actuators on other elements than hinges and slides", name)
+            return
+        # force = gain · control + b0 + b1 · length + b2 · speed, with the length gear · coordinate
+        gain_type, bias_type = int(m.actuator_gaintype[a]), int(m.actuator_biastype[a])
+        if int(m.actuator_dyntype[a]) != 0 or gain_type != 0 or bias_type > 1:
+            notes.leave("actuators with a state, muscles and gains that are not fixed", name)
+            return
+        bias = m.actuator_biasprm[a][:3] if bias_type == 1 else np.zeros(3)
+        gear = float(m.actuator_gear[a, 0])
+        made = Actuator(name, joint.name, gear * float(m.actuator_gainprm[a, 0]))
+        made.bias = (gear * float(bias[0]), gear**2 * float(bias[1]), gear**2 * float(bias[2]))
+        if m.actuator_ctrllimited[a]:
+            made.control = (float(m.actuator_ctrlrange[a, 0]), float(m.actuator_ctrlrange[a, 1]))
+        if m.actuator_forcelimited[a]:
+            low, high = (float(each) * abs(gear) for each in m.actuator_forcerange[a])
+            if low == -high:
+                made.limit = high
+            else:
+                notes.leave("limits of force that differ in the two directions", name)
+        self.mechanism.actuators.append(made)
+
+
+def _leave(m: Any, mechanism: Mechanism) -> None:
+    """Note what no part of the reader has asked for."""
+    notes = mechanism.notes
+    for count, what in (
+        (m.ntendon, "tendons"),
+        (m.nflex, "flexible elements"),
+        (m.nsensor, "sensors"),
+        (m.nkey, "keyframes"),
+        (m.nplugin, "plugins"),
+        (m.nexclude, "excluded contacts"),
+        (m.npair, "pairs of contact"),
+    ):
+        if count:
+            notes.leave(f"{what} ({count})")
+    if np.any((m.geom_contype > 0) | (m.geom_conaffinity > 0)):
+        notes.leave("contacts of geoms; a contact is a force of type `contact`")
+    if m.opt.density or m.opt.viscosity:
+        notes.leave("forces of the fluid around the bodies (density, viscosity)")
+    if np.any(m.body_mocapid >= 0):
+        notes.change("mocap bodies stand on the ground")

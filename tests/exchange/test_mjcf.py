@@ -1,0 +1,167 @@
+"""MJCF: mass matrix, bias and inverse dynamics against MuJoCo itself, loops against the exact equations, and everything beside them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from needing import needs
+from nivel.exchange import read_model
+
+mj = needs("mujoco")
+
+SLIDE = '<joint name="slide" type="slide" axis="1 0 0.3" armature="0.5"/>'
+TREE = f"""<mujoco model="tree">
+<option gravity="0.5 0 -9.81" timestep="0.001"/>
+<default><geom density="800"/></default>
+<worldbody>
+  <body name="cart" pos="0 0 1">{SLIDE}<geom type="box" size=".2 .1 .1"/>
+    <body name="hip" pos=".1 0 0" euler="10 20 30">
+      <joint name="yaw" axis="0 0 1" ref="25"/><joint name="roll" axis="1 0 0" pos="0 .01 0" armature="0.02"/>
+      <joint name="pitch" axis="0 1 .2"/>
+      <geom type="capsule" size=".05 .3" pos="0 0 -.3"/>
+      <body name="foot" pos="0 0 -.6" euler="0 0 40"><geom type="ellipsoid" size=".1 .05 .02"/><site name="sole" pos="0 0 -.02"/>
+        <body name="toe" pos=".1 0 0" gravcomp="0.4"><joint name="bend" axis="0 1 0"/><geom type="cylinder" size=".02 .05"/></body>
+      </body>
+    </body>
+  </body>
+</worldbody></mujoco>"""
+TREE_JOINTS = ("slide", "yaw", "roll", "pitch", "bend")
+
+
+def written(folder, text, name="model.xml"):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def matrices(model, q, v, a):
+    """Mass matrix, bias and efforts of MuJoCo; gravcomp is one of its passive forces."""
+    data = mj.MjData(model)
+    data.qpos[:], data.qvel[:] = q, v
+    mj.mj_forward(model, data)
+    M, bias = np.zeros((model.nv, model.nv)), data.qfrc_bias - data.qfrc_passive
+    mj.mj_fullM(model, data, M)
+    data.qacc[:] = a
+    mj.mj_inverse(model, data)
+    return M, bias, data.qfrc_inverse.copy()
+
+
+def test_a_tree_with_armature_stacked_joints_and_a_lifted_body_has_the_equations_of_mujoco(tmp_path):
+    path = written(tmp_path, TREE)
+    model = mj.MjSpec.from_file(str(path)).compile()
+    model.opt.disableflags |= int(mj.mjtDisableBit.mjDSBL_CONTACT)
+    mechanics = nivel.import_model(path).mechanics()
+    index = [TREE_JOINTS.index(name.split(".")[0].removesuffix("_rotor")) for name in mechanics.names]
+    places = [TREE_JOINTS.index(name.split(".")[0].removesuffix("_rotor")) for name in mechanics.position_names]
+    zero = np.array(
+        [
+            model.qpos0[k] * name.endswith("_rotor.angle")
+            for k, name in zip(places, mechanics.position_names, strict=True)
+        ]
+    )
+    assert sorted(index) == [0, 1, 2, 3, 4]
+    for q, v, a in np.random.default_rng(1).uniform(-1.0, 1.0, (3, 3, 5)):
+        M, bias, efforts = matrices(model, model.qpos0 + q, v, a)
+        ours = (model.qpos0 + q)[places] - zero
+        np.testing.assert_allclose(mechanics.mass_matrix(ours), M[np.ix_(index, index)], atol=1e-12 * np.abs(M).max())
+        np.testing.assert_allclose(mechanics.bias(ours, v[index]), bias[index], atol=1e-12 * np.abs(bias).max())
+        found = mechanics.inverse_dynamics(ours, v[index], a[index])
+        np.testing.assert_allclose(found, efforts[index], atol=1e-12 * np.abs(efforts).max())
+
+
+BAR = '<geom type="capsule" fromto="0 0 0 {0}" size=".02" density="1000"/>'
+LOOP = f"""<mujoco><option gravity="0 -9.81 0"/><worldbody>
+<body name="crank"><joint name="a" axis="0 0 1"/>{BAR.format(".3 .2 0")}
+  <body name="coupler" pos=".3 .2 0"><joint name="b" axis="0 0 1"/>{BAR.format(".6 .1 0")}</body></body>
+<body name="rocker" pos="1.1 0 0"><joint name="c" axis="0 0 1"/>{BAR.format("-.2 .3 0")}</body>
+</worldbody><equality><connect name="pin" body1="coupler" body2="rocker" anchor=".6 .1 0"/></equality></mujoco>"""
+
+
+def test_a_loop_is_exact_where_mujoco_is_soft(tmp_path):
+    """Accelerations of the exact equations, M a + Jᵀ λ = -h and J a = 0 from rest, with the matrices of MuJoCo."""
+    path = written(tmp_path, LOOP)
+    model = mj.MjSpec.from_file(str(path)).compile()
+    data = mj.MjData(model)
+    model.opt.disableflags |= int(mj.mjtDisableBit.mjDSBL_EQUALITY) | int(mj.mjtDisableBit.mjDSBL_CONTACT)
+    mj.mj_forward(model, data)
+    M, jacobians = np.zeros((3, 3)), np.zeros((2, 3, 3))
+    mj.mj_fullM(model, data, M)
+    for k, body in enumerate(("coupler", "rocker")):
+        mj.mj_jac(model, data, jacobians[k], None, np.array([0.9, 0.3, 0.0]), model.body(body).id)
+    J = (jacobians[0] - jacobians[1])[:2]
+    saddle = np.block([[M, J.T], [J, np.zeros((2, 2))]])
+    exact = np.linalg.solve(saddle, np.concatenate([-data.qfrc_bias, np.zeros(2)]))[:3]
+    mechanics = nivel.import_model(path).mechanics()
+    assert len(mechanics.names) == 1
+    found = mechanics.forward_dynamics(mechanics.start, [0.0], [0.0])
+    assert found[0] == pytest.approx(exact[("a", "b", "c").index(mechanics.names[0].split(".")[0])], rel=1e-10)
+
+
+def test_springs_limits_friction_actuators_and_sites(tmp_path):
+    text = """<mujoco><worldbody><body name="a"><geom size=".1" rgba="1 0 0 1"/><site name="tip" pos="0 0 1"/>
+    <joint name="j" axis="0 1 0" damping=".1" stiffness="2" springref="10" range="-90 90" frictionloss=".2" ref="20"/></body>
+    </worldbody><actuator><position name="hold" joint="j" kp="10" kv="2" gear="3" ctrlrange="-1 1" forcerange="-5 5"/>
+    <motor name="push" joint="j" gear="4"/><cylinder name="oil" joint="j" timeconst=".1"/></actuator></mujoco>"""
+    machine = nivel.import_model(written(tmp_path, text))
+    spring, stop = machine.forces["j_spring"], machine.forces["j_stop"]
+    assert (spring.stiffness, spring.damping) == (2.0, 0.1)
+    assert spring.free_value == pytest.approx(np.deg2rad(10))
+    assert (stop.lower, stop.upper) == pytest.approx((-np.pi / 2, np.pi / 2))
+    assert machine.forces["j_friction"].normal_load == pytest.approx(0.2)
+    assert machine.forces["hold"].limit == pytest.approx(15.0)
+    # gear · (10 u - 10 · gear · q - 2 · gear · q̇), at q = 20 deg and u = 0
+    assert machine.simulate(duration=1e-3, step=1e-3, verify=False).array("force.hold.magnitude")[0] == pytest.approx(
+        -15.0
+    )
+    assert machine.inputs["hold"].range == (-1.0, 1.0)
+    assert machine.forces["push"].effort.text == "4.0*push.value"
+    assert machine.markers["tip"].position == (0.0, 0.0, 1.0)
+    assert machine.bodies["a"].looks[0].colour == "#ff0000"
+    said = "\n".join(read_model(tmp_path / "model.xml").summary())
+    assert "actuators with a state, muscles and gains that are not fixed: oil" in said
+
+
+def test_joints_follow_each_other_from_where_they_are_placed(tmp_path):
+    text = """<mujoco><worldbody><body name="a"><joint name="p" axis="0 0 1" ref="30"/><geom size=".1" pos=".5 0 0"/></body>
+    <body name="b"><joint name="q" axis="0 0 1" ref="-10"/><geom size=".1" pos="0 .5 0"/></body></worldbody>
+    <equality><joint joint1="q" joint2="p" polycoef="0.2 -3 0 0 0"/></equality></mujoco>"""
+    mechanics = nivel.import_model(written(tmp_path, text)).mechanics()
+    values = dict(zip(mechanics.position_names, mechanics.close(mechanics.start + 0.3), strict=True))
+    expected = np.deg2rad(-10) + 0.2 - 3 * (values["p.angle"] - np.deg2rad(30))
+    assert values["q.angle"] == pytest.approx(expected, abs=1e-12)
+
+
+def test_gravity_that_is_switched_off_is_off(tmp_path):
+    text = TREE.replace('timestep="0.001"/>', 'timestep="0.001"><flag gravity="disable"/></option>')
+    data = read_model(written(tmp_path, text)).data
+    assert data["gravity"] == [0.0, 0.0, 0.0]
+    assert "forces" not in data
+    assert data["simulation"] == {"step": 0.001, "coordinates": "relative"}
+
+
+MANY = '<replicate count="100000"><replicate count="1000"><geom size="1"/></replicate></replicate>'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("<worldbody>", '<include file="../secret.xml"/><worldbody>', r'xml:4:1: <include>: file="\.\./secret\.xml" leaves the folder'),
+        ("<worldbody>", '<compiler meshdir="/"/><worldbody>', 'meshdir="/" leaves the folder'),
+        ("<worldbody>", f"<worldbody>{MANY}", "100000000 repetitions; up to 10000 are read"),
+        ("<worldbody>", '<include file="model.xml"/><worldbody>', "is included twice, or leads back to itself"),
+        ('type="box"', 'type="bix"', "MuJoCo cannot compile the model: "),
+        ("<mujoco", "<!DOCTYPE a []><mujoco", "a document type"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_or_hostile_is_refused(tmp_path, old, new, message):
+    with pytest.raises(nivel.ModelError, match=message):
+        read_model(written(tmp_path, TREE.replace(old, new, 1)))
+
+
+def test_the_example_of_a_leg_is_the_translation_of_its_model():
+    folder = Path(__file__).parents[2] / "examples" / "robots"
+    ours, example = nivel.import_model(folder / "leg.xml").record, nivel.load(folder / "leg.yaml").record
+    for section in ("bodies", "markers", "joints", "couplings", "forces", "gravity"):
+        assert getattr(ours, section) == getattr(example, section)

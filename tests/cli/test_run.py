@@ -362,7 +362,7 @@ bodies:
   a: {mass: 1e-15, inertia: [1e-28, 1e-28, 1e-28], position: [1 um, 0, 0]}
 joints:
   hinge: {type: revolute, bodies: [ground, a], point: [0, 0, 0], axis: [0, 0, 1]}
-simulation: {duration: 100 ms, step: 0.5 ms, output_interval: 1 ms}
+simulation: {duration: 100 ms, step: 0.5 ms, output_interval: 1 ms, integrator: rk4}
 """
     (folder / "tiny.yaml").write_text(tiny)
     done = nivel(folder, "run", "tiny.yaml", "--no-report")

@@ -14,6 +14,7 @@ from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
+from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
 from nivel.c_library.failures import Failure, failures_of
 from nivel.c_library.image import LINE, WORD, Image, UnknownAddressError
@@ -148,7 +149,7 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
             f"{what} takes steps of one length, and {plan.settings.integrator} chooses them; "
             "take --integrator rk4, or --step-control fixed"
         )
-    prepared = prepare(plan.methods)
+    plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
     loop = _endless(start_loop(prepared, plan.settings))
     entries = tuple(dict.fromkeys(run_entries(plan)))
     twins = [prepared.motion.twin] if prepared.motion.twin is not None else []

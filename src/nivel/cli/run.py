@@ -60,6 +60,8 @@ def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]
     out.print(done)
     for note in notes:
         out.print(f"note: {note}", markup=False, soft_wrap=True)
+    if reason := result.settings.get("reason"):
+        out.print(f"method: {result.settings['integrator']}, because {reason}", markup=False, soft_wrap=True)
     for line in assembly_lines(result):
         out.print(line)
     for line in in_words(result.events, result.stopped_by):

@@ -13,6 +13,7 @@ import numpy as np
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
+from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
@@ -131,5 +132,5 @@ class LiveRun:
 
 def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
     """Assemble the machine. Raises ModelError where it cannot be assembled."""
-    prepared = prepare(plan.methods)
+    plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
     return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

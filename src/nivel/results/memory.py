@@ -61,6 +61,10 @@ class Memory:
         self._buffer[self._count : end] = frames
         self._count = end
 
+    def discard(self) -> None:
+        """Give up what was taken."""
+        self._header, self._count = None, 0
+
     def forget_after(self, time: float) -> None:
         """Drop the frames after `time` [s]. Results that were given keep them."""
         self._buffer = self._buffer.copy()

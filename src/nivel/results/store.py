@@ -126,6 +126,12 @@ class Store:
             self._space.close()
         self._file, self._space = None, None
 
+    def discard(self) -> None:
+        """Give up what was written; the file is removed."""
+        self._refuse_foreign()
+        self._finish()
+        self.path.unlink(missing_ok=True)
+
     def result(self) -> Result:
         """What was written so far; the run may go on."""
         from nivel.results.result import Result

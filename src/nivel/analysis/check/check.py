@@ -26,6 +26,7 @@ from nivel.analysis.plan.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.run.fitting import fitting
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
@@ -149,6 +150,7 @@ class Check:
     followed: tuple[str, ...]  # of the bodies whose velocities were changed those for which none was given
     cut: tuple[str, ...]  # joints that stay constraints in relative coordinates
     settings: RunSettings
+    reason: str  # for its integrator, where nobody asked for it
     unsettled: tuple[str, str] = (
         "",
         "",
@@ -219,6 +221,8 @@ def _lines(facts: Check) -> Iterator[str]:
         yield f"coordinates: relative, {cut}"
     else:
         yield f"coordinates: {facts.settings.coordinates}"
+    if facts.reason:
+        yield f"method: {facts.settings.integrator}, because {facts.reason}"
 
 
 def _beam_lines(beam: BeamFacts) -> Iterator[str]:
@@ -288,8 +292,9 @@ def _vector(values: tuple[float, ...], digits: int = 6) -> str:
 
 def check(plan: Plan) -> Check:
     """Assemble the machine of a plan. Raises ModelError with what is wrong."""
-    own, machine, settings = plan.machine, plan.methods.machine, plan.settings
     prepared, unsettled = _prepared(plan.methods)
+    plan = fitting(plan, prepared)
+    own, machine, settings = plan.machine, plan.methods.machine, plan.settings
     system = prepared.absolute.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
     from nivel.kernels.output.observe import observe
@@ -348,6 +353,7 @@ def check(plan: Plan) -> Check:
         followed=assembly.followed,
         cut=_cut(plan.methods) if settings.coordinates == "relative" else (),
         settings=settings,
+        reason=plan.reason,
         unsettled=unsettled,
     )
 

@@ -26,14 +26,19 @@ TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
 BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
 # Tangents in relative coordinates are full matrices: of more bodies than this the sparse ones of absolute coordinates are faster.
 MOST_DENSE = 60
+STIFF_CIRCUITS = "circuits are stiff, and every step of it costs the same"
+
+
+def names_no_integrator(machine: MachineRecord) -> bool:
+    """Whether its settings leave the integrator, and how it chooses steps, to nivel."""
+    return "integrator" not in machine.simulation.model_fields_set and machine.simulation.step_control == "own"
 
 
 def with_integrator(machine: MachineRecord) -> MachineRecord:
     """The machine with an integrator that suits it, where none was asked for: circuits are stiff, and have one of fixed cost."""
-    simulation = machine.simulation
-    if not machine.hydraulics or "integrator" in simulation.model_fields_set or simulation.step_control != "own":
+    if not machine.hydraulics or not names_no_integrator(machine):
         return machine
-    return machine.replace(simulation=simulation.replace(integrator="extrapolated-euler"))
+    return machine.replace(simulation=machine.simulation.replace(integrator="extrapolated-euler"))
 
 
 def choose_coordinates(machine: MachineRecord) -> str:

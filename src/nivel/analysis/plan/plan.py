@@ -6,7 +6,14 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from types import ModuleType
 
-from nivel.analysis.plan.choice import choose_coordinates, choose_cut, slides, with_integrator
+from nivel.analysis.plan.choice import (
+    STIFF_CIRCUITS,
+    choose_coordinates,
+    choose_cut,
+    names_no_integrator,
+    slides,
+    with_integrator,
+)
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.analysis.plan.modal_stiffness import integrator_of
 from nivel.analysis.plan.nonholonomic_refusals import refuse_rolling_by_positions
@@ -106,11 +113,16 @@ class Methods:
 
 @dataclass(frozen=True)
 class Plan:
-    """One run: the machine as it was written, its settings completed, and its methods."""
+    """One run: the machine as it was written, its settings completed, and its methods.
+
+    is_open : the machine names no integrator, and has the usual one. reason : why it has its integrator where nobody asked for it.
+    """
 
     machine: MachineRecord
     settings: RunSettings
     methods: Methods
+    is_open: bool = False
+    reason: str = ""
 
     @property
     def stabilisation(self) -> ModuleType:
@@ -123,7 +135,7 @@ def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
 
     Raises ModelError with everything that does not go together.
     """
-    machine = with_integrator(machine)
+    is_open, machine = names_no_integrator(machine), with_integrator(machine)
     coordinates, formulation = choose_coordinates(machine), machine.simulation.formulation
     settings: list[RunSettings] = []
 
@@ -149,7 +161,9 @@ def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
             faults += error.faults
     if faults:
         raise ModelError(faults)
-    return Plan(machine, settings[0], methods_of(machine, formulation, coordinates))
+    methods = methods_of(machine, formulation, coordinates)
+    reason = STIFF_CIRCUITS if is_open and machine.hydraulics else ""
+    return Plan(machine, settings[0], methods, is_open and not machine.hydraulics, reason)
 
 
 def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordinates: str = "absolute") -> Methods:

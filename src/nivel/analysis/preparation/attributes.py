@@ -27,9 +27,12 @@ class Settings(Protocol):
 
 
 def run_attributes(
-    machine: MachineRecord, source: str, prepared: Prepared, settings: Settings
+    machine: MachineRecord, source: str, prepared: Prepared, settings: Settings, reason: str = ""
 ) -> dict[str, str | float | int]:
-    """The attributes of a result, see `nivel.integrate.loop.sink.Header`; `source` is the text of the machine's file."""
+    """The attributes of a result, see `nivel.integrate.loop.sink.Header`.
+
+    source : text of the machine's file. reason : why it has its integrator where nobody asked for it.
+    """
     system, assembly = prepared.motion.system, prepared.assembly
     coordinates = system.layout.coordinates["joint_coordinate"]
     return {
@@ -39,7 +42,7 @@ def run_attributes(
         "scene": json.dumps(
             scene(with_nodes(machine), prepared.absolute.system)
         ),  # relative coordinates move body frames
-        "settings": json.dumps(settings.as_dict()),
+        "settings": json.dumps({**settings.as_dict(), **({"reason": reason} if reason else {})}),
         "nivel_version": nivel.__version__,
         RESULT_FORMAT: FORMAT,
         "outcome": "running",

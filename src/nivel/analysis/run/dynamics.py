@@ -80,7 +80,8 @@ class RunOutcome:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
-    steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end.
+    steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end, of a
+    run that failed in the last state that was accepted.
     """
 
     outcome: str
@@ -151,7 +152,9 @@ def march(
         finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
-    finished.pace, finished.last = run.pace, (float(run.clock[TIME]), run.y.copy())
+    failed = finished.outcome == "failed"
+    finished.pace = run.pace
+    finished.last = float(run.clock[ACCEPTED if failed else TIME]), (run.previous if failed else run.y).copy()
     finished.timing = {
         **counts_of(system, run),
         "loop_seconds": loop_seconds,

@@ -14,6 +14,7 @@ from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.elements_run import ElementsRun, Found
+from nivel.analysis.run.fitting import FasterError, fitted, implicit, refuse_faster
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.analysis.trust.checks.accuracy import factor
@@ -46,6 +47,7 @@ def simulate(
     compile_seconds : what was spent on compiling before, for the result's timing.
     verify : a second run goes beside this one, with finer steps on other times, and its distance tells how exact this one is; it goes on
     after it for `verify_limit` [s] at most, by default as long again as it took.
+    A machine that names no integrator, and becomes too fast for the one that it has, begins anew with another.
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails, SystemExit where SIGTERM
     came, with the result closed.
     """
@@ -53,17 +55,23 @@ def simulate(
     sink = Memory(plan.settings.frames + 1) if out is None else Store(out, force)  # a failure adds one
     begin = time.perf_counter()
     listener.say("preparing")
-    prepared = prepare(plan.methods)
-    second = SecondRun(plan, verify_limit, prepared=prepared.again()) if verify else None
-    elements = ElementsRun.beside(second, plan, verify_limit) if second is not None else None
-    try:
-        with terminable():
-            return _run(plan, prepared, sink, second, elements, source, listener, begin, compile_seconds)
-    finally:
-        if second is not None:
-            second.cancel()
-        if elements is not None:
-            elements.run.cancel()
+    plan, prepared = fitted(plan, prepare(plan.methods), listener=listener)
+    while True:
+        second = SecondRun(plan, verify_limit, prepared=prepared.again()) if verify else None
+        elements = ElementsRun.beside(second, plan, verify_limit) if second is not None else None
+        try:
+            with terminable():
+                return _run(plan, prepared, sink, second, elements, source, listener, begin, compile_seconds)
+        except FasterError as faster:
+            listener.say(f"beginning anew, because {faster.found.what} became fast")
+            sink.discard()
+            sink = Memory(plan.settings.frames + 1) if out is None else Store(out, force)
+            plan, prepared = implicit(replace(plan, is_open=False), prepared, faster.found, listener=listener)
+        finally:
+            if second is not None:
+                second.cancel()
+            if elements is not None:
+                elements.run.cancel()
 
 
 def _run(
@@ -79,12 +87,14 @@ def _run(
 ) -> Result:
     """The run, with the second one beside it, and one with other elements of its beams."""
     machine, settings = plan.machine, plan.settings
-    sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
+    sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings, plan.reason)))
     prepare_seconds = time.perf_counter() - begin
     listener.say("running", settings.duration)
     finished = march(
         prepared, settings, [sink], progress=listener.progress, pacing=second.leader if second is not None else None
     )
+    if plan.is_open and not finished.asked_to_stop and finished.last is not None:
+        refuse_faster(plan, prepared, *finished.last)
     verified = None
     if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
         verified = second.wait(listener)

@@ -19,6 +19,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, failure_of, jam_of, start_loop, taken_events
+from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.writer import write_machine
@@ -88,8 +89,9 @@ class Simulation:
 
     def __init__(self, plan: Plan, *, source: str = "", record: bool = False) -> None:
         refuse_chosen_steps(plan)
+        plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
         self._plan, self._settings = plan, plan.settings
-        self._prepared: Prepared = prepare(plan.methods)
+        self._prepared: Prepared = prepared
         self._run, self._advance = _endless(self._prepared, plan)
         self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
         self._step = float(plan.settings.step)
@@ -98,7 +100,7 @@ class Simulation:
         self._inputs = {each.name: function for each, function in zip(inputs, functions, strict=True)}
         self._ranges = {each.name: each.range for each in inputs}
         layout = self._prepared.motion.system.layout
-        self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings))
+        self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
         self._observed = -np.inf
         self._now = Result(MemoryContents(self._header, self._frame, dict(self._header.attributes)))

@@ -103,7 +103,9 @@ class SimulationSettings(Checked):
         description="time between frames; with a fixed step a multiple of it",
         absent="up to 1000 intervals",
     )
-    integrator: OneRecord[Integrator] = Field(default="rk4", description="time integration method")
+    integrator: OneRecord[Integrator] = Field(
+        default="rk4", description="time integration method", absent="by the fastest rate of the machine"
+    )
     formulation: Formulation = Field(default="newton-euler", description="equations of motion")
     coordinates: Coordinates = Field(default="auto", description="coordinates of the equations")
     rotations: Rotations = Field(default="euler-parameters", description="rotation coordinates of lagrange")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,8 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.core.placement import frame_from_axes
-from nivel.machine.forces import Bushing, Contact
+from nivel.machine.forces import Bushing, Contact, Material, Stop
+from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.hulls import hull_of, row_of
 from nivel.system.forces.kind import ForceKind
@@ -68,11 +70,7 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         markers = [_shape_marker(builder, body), builder.end(force.plane)]
         kind, size = _shape(contact, body)
         curvature = 1.0 / size[0]
-    stiffness = force.stiffness
-    if force.materials is not None:
-        # Hertz: K = 4/3 E* √R, 1/E* = Σ (1 - ν²)/E, 1/R = Σ 1/r
-        compliance = sum((1.0 - each.poisson_ratio**2) / each.youngs_modulus for each in force.materials)
-        stiffness = 4.0 / 3.0 / compliance / math.sqrt(curvature)
+    stiffness = force.stiffness if force.materials is None else hertzian(force.materials, curvature)
     law = NONE
     if force.law is not None:
         symbols = {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
@@ -87,6 +85,31 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         corners = _corners(builder.machine.body_named[str(force.body)])
         numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
     builder.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
+
+
+def tangent_stiffness(machine: MachineRecord, force: Contact | Stop, load: float) -> float | None:
+    """About the stiffness [N/m or N m/rad] of a contact at one point or an end stop under a `load` [N or N m], or of a foundation over a
+    whole side of the smaller body; None with a law of its own."""
+    if isinstance(force, Stop):
+        return force.exponent * load / (load / force.stiffness) ** (1.0 / force.exponent)
+    if force.foundation_modulus is not None:
+        hulls = [hull_of(machine.body_named[name]) for name in force.bodies or ()]
+        sides = [sorted(np.ptp(hull.corners, axis=0)) for hull in hulls]
+        return force.foundation_modulus * min(float(side[1] * side[2]) for side in sides)
+    stiffness = force.stiffness
+    if force.materials is not None:
+        names = force.bodies or (force.body,)
+        shapes = [machine.body_named[name].shape for name in names if name is not None]
+        curvature = sum(1.0 / shape.radius for shape in shapes if isinstance(shape, Sphere))
+        stiffness = hertzian(force.materials, curvature)
+    # F = K d^n: dF/dd = n F/d
+    return None if stiffness is None else force.exponent * load / (load / stiffness) ** (1.0 / force.exponent)
+
+
+def hertzian(materials: Sequence[Material], curvature: float) -> float:
+    """K [N/m^1.5] of a force K depth^1.5 between spheres, 4/3 E* √R: 1/E* = Σ (1 - ν²)/E, curvature 1/R = Σ 1/r [1/m] (Hertz 1881)."""
+    compliance = sum((1.0 - each.poisson_ratio**2) / each.youngs_modulus for each in materials)
+    return 4.0 / 3.0 / compliance / math.sqrt(curvature)
 
 
 def _add_hulls(builder: SystemBuilder, force: Contact, first: int) -> None:

@@ -1,0 +1,182 @@
+"""The method of a run whose machine names none, by the fastest rate of the machine.
+
+The default is explicit and has steps of one length, which costs least. It is left where a step turns the fastest rate by more than it
+follows: rates at the start are eigenvalues of the equations there (`nivel.analysis.failures.fastest`); those of contacts and end stops
+that may touch later follow from their stiffness and the masses beside them, those of beams from their elements. What comes in its place
+is implicit: with steps that it chooses, or for live operation, stepping and C libraries with steps of one length and one cost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+
+from nivel.analysis.failures.fastest import fastest
+from nivel.analysis.plan.beam_facts import fastest_frequency
+from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.plan.plan import Plan, plan_run
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.preparation import prepare
+from nivel.errors import ModelError
+from nivel.integrate.catalogue import INTEGRATORS
+from nivel.machine.bodies.inertia import mass_properties
+from nivel.machine.forces import Contact, Stop
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
+from nivel.system.forces.contacts import tangent_stiffness
+from nivel.system.states.relative import bodies_of
+from nivel.system.system import Array
+
+# The largest rate times step that an explicit method of order four follows to some digits; of impacts, which last for half a turn: thirty
+# steps in each.
+FOLLOWED, IN_IMPACTS = 1.0, np.pi / 30.0
+# What comes in place of it, the first that goes with the machine and its other settings; the latter for vibrations of many modes.
+CHOSEN, OF_MODES = ("radau", "bdf", "generalised-alpha"), ("generalised-alpha", "radau", "bdf")
+FIXED = ("ros2",)
+# loads at which the stiffness of a contact is taken, as multiples of the weight
+HIT = 10.0
+STANDARD_GRAVITY = 9.81
+NONE_GOES = "no implicit method goes with its other settings"
+
+
+@dataclass(frozen=True)
+class Rate:
+    """The fastest rate [1/s] of something, the step [s] with which an explicit method follows it, and what it is of, in words."""
+
+    rate: float
+    followed: float
+    what: str
+
+
+class FasterError(Exception):
+    """What a run that names no integrator became too fast for."""
+
+    def __init__(self, found: Rate) -> None:
+        super().__init__(found.what)
+        self.found = found
+
+
+def refuse_faster(plan: Plan, prepared: Prepared, time: float, y: Array) -> None:
+    """Raise FasterError where steps of the plan do not follow the rates in the state y that a run has come to."""
+    found = fastest_rate(plan, prepared, y, time)
+    if found is not None and plan.settings.step > found.followed:
+        raise FasterError(replace(found, what=f"{found.what} (at t = {time:.4g} s)"))
+
+
+def fitted(
+    plan: Plan, prepared: Prepared, *, fixed: bool = False, listener: Listener | None = None
+) -> tuple[Plan, Prepared]:
+    """The plan and its machine made ready, with another integrator where none was asked for and its own misses the fastest rate.
+
+    fixed : steps of one length and one cost. The plan says in `reason` why it has its integrator.
+    Raises SolveError as preparing does.
+    """
+    if not plan.is_open:
+        return plan, prepared
+    found = fastest_rate(plan, prepared, prepared.start, 0.0)
+    if found is None or plan.settings.step <= found.followed:
+        return replace(plan, reason=_explicit(plan, found)), prepared
+    return implicit(plan, prepared, found, fixed=fixed, listener=listener)
+
+
+def fitting(plan: Plan, prepared: Prepared) -> Plan:
+    """The plan that a run of it will have."""
+    if not plan.is_open:
+        return plan
+    found = fastest_rate(plan, prepared, prepared.start, 0.0)
+    if found is None or plan.settings.step <= found.followed:
+        return replace(plan, reason=_explicit(plan, found))
+    return next(
+        _implicit_plans(plan, found, fixed=False), replace(plan, reason=f"{_implicit(plan, found)}; {NONE_GOES}")
+    )
+
+
+def implicit(
+    plan: Plan, prepared: Prepared, found: Rate, *, fixed: bool = False, listener: Listener | None = None
+) -> tuple[Plan, Prepared]:
+    """The same with an implicit integrator because of a rate; as it is where none goes with the machine."""
+    for new in _implicit_plans(plan, found, fixed=fixed):
+        build(run_entries(new), listener)
+        try:
+            return new, prepare(new.methods)
+        except ModelError:  # of what only a machine that was assembled shows
+            continue
+    return replace(plan, reason=f"{_implicit(plan, found)}; {NONE_GOES}"), prepared
+
+
+def _implicit_plans(plan: Plan, found: Rate, *, fixed: bool) -> Iterator[Plan]:
+    """The same run with other integrators, those first that fit best."""
+    machine = plan.machine
+    modes = bool(machine.beams or machine.is_flexible) and not _touching(machine)
+    for name in FIXED if fixed else OF_MODES if modes else CHOSEN:
+        try:
+            new = plan_run(machine.replace(simulation=machine.simulation.replace(integrator=name)))
+        except ModelError:
+            continue
+        yield replace(new, reason=_implicit(plan, found))
+
+
+def _explicit(plan: Plan, found: Rate | None) -> str:
+    if found is None:
+        return "the machine has no rates that could be found, and names no integrator"
+    return f"nothing is faster than {found.rate:.2g}/s ({found.what}), which steps of {plan.settings.step:.3g} s follow"
+
+
+def _implicit(plan: Plan, found: Rate) -> str:
+    name, step = plan.settings.integrator, plan.settings.step
+    too_fast = f"steps of {name} would have to be below {found.followed:.2g} s, not {step:.3g} s"
+    return f"{found.what} has a rate of {found.rate:.2g}/s, for which {too_fast}"
+
+
+def fastest_rate(plan: Plan, prepared: Prepared, y: Array, t: float) -> Rate | None:
+    """That which needs the shortest steps, in the state y at time t [s] or, of what may touch, ever; None where nothing is known."""
+    rates = [*_of_contacts(plan.machine), *_of_beams(plan.machine)]
+    now = fastest(prepared.motion, t, y)
+    if now is not None:
+        rates.append(Rate(now.rate, FOLLOWED / now.rate, now.part or "the motion"))
+    return min(rates, key=lambda each: each.followed, default=None)
+
+
+def _touching(machine: MachineRecord) -> list[Contact | Stop]:
+    return [each for each in machine.forces if isinstance(each, Contact | Stop)]
+
+
+def _of_contacts(machine: MachineRecord) -> Iterator[Rate]:
+    """Of contacts hit by some times the weight of what touches, of their friction near rest, and of end stops."""
+    gravity = float(np.linalg.norm(machine.gravity)) or STANDARD_GRAVITY
+    for each in _touching(machine):
+        kind = "contact" if isinstance(each, Contact) else "end stop"
+        mass = _mass_at(machine, each)
+        stiffness = tangent_stiffness(machine, each, HIT * mass * gravity)
+        if stiffness is not None and stiffness > 0.0:
+            rate = sqrt(stiffness / mass)
+            yield Rate(rate, IN_IMPACTS / rate, f"the {kind} {each.name}")
+        if isinstance(each, Contact) and each.friction > 0.0 and each.friction_transition_speed is not None:
+            rate = each.friction * gravity / each.friction_transition_speed
+            yield Rate(rate, INTEGRATORS["rk4"].held / rate, f"the friction of the contact {each.name}")
+
+
+def _mass_at(machine: MachineRecord, force: Contact | Stop) -> float:
+    """What two bodies that touch move against each other, the ground being at rest: the mass 1/Σ 1/m, of angles the like of moments of
+    inertia, at least [kg or kg m²]."""
+    if isinstance(force, Contact):
+        names = force.bodies or (force.body,)
+        turns = False
+    else:
+        joint, coordinate = resolve(force.coordinate, machine.joints)
+        names = bodies_of(machine, next(each for each in machine.joints if each.name == joint))
+        turns = COORDINATE_KINDS[coordinate] == "angle"
+    bodies = [machine.body_named[name] for name in names if name is not None and name in machine.body_named]
+    its = [mass_properties(body) for body in bodies]
+    parts = [float(np.linalg.eigvalsh(each.inertia)[-1]) if turns else each.mass for each in its]
+    return 1.0 / sum(1.0 / part for part in parts if part > 0.0) if any(part > 0.0 for part in parts) else np.inf
+
+
+def _of_beams(machine: MachineRecord) -> Iterator[Rate]:
+    for beam in machine.beams:
+        rate = 2.0 * np.pi * fastest_frequency(beam, beam.properties)
+        yield Rate(rate, FOLLOWED / rate, f"an element of the beam {beam.name}")

@@ -155,7 +155,8 @@ class Machine(Model):
         from nivel.analysis.check.check import check
 
         with self._faults_in_file():
-            return replace(check(plan), name_notes=self.name_notes)
+            notes = (*self.name_notes, *map(str, self.remarks))
+            return replace(check(plan), notes=notes)
 
     @checked_arguments
     def mass_properties(

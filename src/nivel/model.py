@@ -40,6 +40,7 @@ from nivel.machine.control import ControlBlock
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import entry
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
+from nivel.machine.plausible import remarks
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word
@@ -227,6 +228,11 @@ class Model(Elements):
         return read_name_notes(
             origin.source, origin.file, Sources(origin.allow_code).inside(origin.file), overrides=origin.values
         )
+
+    @property
+    def remarks(self) -> tuple[Fault, ...]:
+        """Values that are far from those of real machines, with the place where each stands; the machine is computed as it is."""
+        return tuple(self.origin.placed(Fault("", 0, 0, each.place, each.message) for each in remarks(self.record)))
 
     @property
     def parameters(self) -> Mapping[str, float]:

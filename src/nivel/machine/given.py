@@ -21,11 +21,22 @@ Written_contra = TypeVar("Written_contra", contravariant=True)
 
 
 @dataclass(frozen=True)
+class Usual:
+    """What a quantity of real machines is between: `least` and `most`, in `unit`, and an `example` as it is written in a file."""
+
+    least: float
+    most: float
+    unit: str
+    example: str = ""
+
+
+@dataclass(frozen=True)
 class Shown:
-    """What is shown of a setting besides its schema: its option of the command line, and what holds where it is absent."""
+    """What is known of a field besides its schema: its option of the command line, what holds where it is absent, and what is usual."""
 
     option: str = ""
     absent: str = ""
+    usual: Usual | None = None
 
     def __call__(self, schema: dict[str, Any]) -> None:
         """Nothing of this stands in the schema."""
@@ -80,11 +91,13 @@ if TYPE_CHECKING:
         optional: bool = False,
         option: str = "",
         absent: str = "",
+        usual: Usual | None = None,
     ) -> Any:
         """Default and meaning of a field.
 
         key : by which a machine file has it, where that is no name in Python. optional : its word in the schema need not be given.
         option : of the command line, where it is not what name and type say: `--from VALUE`. absent : what holds where it is None.
+        usual : range beyond which `nivel check` and the trust report remark on the value.
         """
 
 else:
@@ -105,10 +118,10 @@ else:
     SomeNumbers = SomeRows = Any
     ModelMetaclass = type(BaseModel)
 
-    def Field(*, key=None, optional=False, option="", absent="", **words):
+    def Field(*, key=None, optional=False, option="", absent="", usual=None, **words):
         if absent:
             words["description"] += f"; default: {absent}"
-        extra = {"optional": True} if optional else Shown(option, absent)
+        extra = {"optional": True} if optional else Shown(option, absent, usual)
         return pydantic.Field(json_schema_extra=extra, **words, **({} if key is None else {"alias": key}))
 
 

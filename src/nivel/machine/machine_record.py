@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Annotated, Any, Final, Self
+from typing import Annotated, Any, ClassVar, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +31,9 @@ from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import entry, restated
+from nivel.machine.core.usual import GRAVITY, SIZE
 from nivel.machine.forces import Force
-from nivel.machine.given import Field, ManyRecords, OneRecord
+from nivel.machine.given import Field, ManyRecords, OneRecord, Usual
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
@@ -85,13 +86,14 @@ class MachineRecord(Checked):
     """Everything that describes a machine. SI, angles in radians."""
 
     tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2, "surroundings": 2}  # noqa: RUF012
+    usual: ClassVar[Mapping[str, Usual]] = {"size": SIZE}
 
     name: Title
     description: str = ""
     surroundings: Annotated[ManyRecords[Shape], BeforeValidator(_solids)] = Field(
         default=(), description="solids that are drawn on the ground, at global places; nothing touches them"
     )
-    gravity: AccelerationVector = Field(default=(0.0, 0.0, 0.0))
+    gravity: AccelerationVector = Field(default=(0.0, 0.0, 0.0), usual=GRAVITY)
     bodies: ManyRecords[Body] = Field(default=())
     beams: ManyRecords[Beam] = Field(default=())
     markers: ManyRecords[Marker] = Field(default=())

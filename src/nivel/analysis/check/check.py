@@ -155,7 +155,9 @@ class Check:
         "",
         "",
     )  # why no equilibrium was found to start from, and what to try: then it is shown as drawn
-    name_notes: tuple[str, ...] = ()  # on parameters that have the name of a unit or of a constant
+    notes: tuple[
+        str, ...
+    ] = ()  # on names of parameters that mean something else, and on values that no real machine has
 
     def __repr__(self) -> str:
         extra = f", redundant: {', '.join(self.redundant_rows)}" if self.redundant_rows else ""
@@ -175,7 +177,7 @@ def _freedoms(facts: Check) -> str:
 def _lines(facts: Check) -> Iterator[str]:
     """The facts in words, for people."""
     yield f"{facts.name}: {_freedoms(facts)}, gravity {_vector(facts.gravity)} m/s²"
-    yield from (f"note: {note}" for note in facts.name_notes)
+    yield from (f"note: {note}" for note in facts.notes)
     if facts.bodies:
         yield "bodies"
     for body in facts.bodies:

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import SectionLength
+from nivel.machine.core.usual import DENSITY
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Density, Quantity, Scalar
 
@@ -26,7 +27,7 @@ class Material(Checked):
 
     youngs_modulus: Stress
     poisson_ratio: Scalar
-    density: Density
+    density: Density = Field(usual=DENSITY)
 
     @property
     def shear_modulus(self) -> float:

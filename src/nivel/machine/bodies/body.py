@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator
@@ -15,7 +15,8 @@ from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
 from nivel.machine.core.orientation import Orientation
 from nivel.machine.core.record import GROUND, Name
-from nivel.machine.given import Field, ManyRecords, Maybe, OneRecord
+from nivel.machine.core.usual import ANGULAR_SPEED, DENSITY, SPEED
+from nivel.machine.given import Field, ManyRecords, Maybe, OneRecord, Usual
 from nivel.machine.units.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
 
 LIGHTEST: Final = 1e-2  # [kg/m³] mean density below which a unit must have slipped: a hundredth of that of air
@@ -42,6 +43,7 @@ class Body(Checked):
 
     collection: ClassVar[str] = "bodies"
     tagged = {"shape": 1, "looks": 2}  # noqa: RUF012
+    usual: ClassVar[Mapping[str, Usual]] = {"velocity": SPEED, "angular_velocity": ANGULAR_SPEED}  # of its results
 
     name: Name
     mass: Maybe[Mass] = Field(default=None)
@@ -58,14 +60,18 @@ class Body(Checked):
     orientation: Maybe[OneRecord[Orientation]] = Field(
         default=None, description="of the body frame; default not turned"
     )
-    velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of the body frame's origin, global axes")
-    angular_velocity: Maybe[AngularVelocityVector] = Field(default=None, description="global axes")
-    angular_velocity_body: Maybe[AngularVelocityVector] = Field(default=None, description="body axes")
+    velocity: VelocityVector = Field(
+        default=(0.0, 0.0, 0.0), description="of the body frame's origin, global axes", usual=SPEED
+    )
+    angular_velocity: Maybe[AngularVelocityVector] = Field(default=None, description="global axes", usual=ANGULAR_SPEED)
+    angular_velocity_body: Maybe[AngularVelocityVector] = Field(
+        default=None, description="body axes", usual=ANGULAR_SPEED
+    )
     shape: Maybe[OneRecord[Shape]] = Field(default=None)
     looks: Annotated[ManyRecords[Shape], BeforeValidator(listed)] = Field(
         default=(), description="further solids that are drawn, in the body frame; they have no mass and touch nothing"
     )
-    density: Maybe[Density] = Field(default=None)
+    density: Maybe[Density] = Field(default=None, usual=DENSITY)
     flexible: Maybe[FlexibleBody] = Field(
         default=None, description="modes by which it bends; its mass is in their file"
     )

@@ -19,6 +19,7 @@ from nivel.machine.bodies.polygon import bad_outline
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.orientation import Orientation
 from nivel.machine.core.record import Record
+from nivel.machine.core.usual import SOLID
 from nivel.machine.given import Field, ManyCorners, Maybe, OneRecord, ThreeNumbers, TwoNumbers
 from nivel.machine.units.quantity import Length, Position, PositiveLength, fault, listed
 
@@ -73,9 +74,9 @@ class Box(_Between):
     """A block: `size` along the body x, y, z axes; or `from`, `to`, `width` (along y) and `height` (along z)."""
 
     type: Literal["box"] = "box"
-    size: Maybe[ThreeNumbers[PositiveLength]] = Field(default=None)
-    width: Maybe[PositiveLength] = Field(default=None)
-    height: Maybe[PositiveLength] = Field(default=None)
+    size: Maybe[ThreeNumbers[PositiveLength]] = Field(default=None, usual=SOLID)
+    width: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
+    height: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
 
     def _extent(self) -> dict[str, object]:
         return {"size": self.size}
@@ -95,8 +96,8 @@ class Cylinder(_Between):
     """A round bar: `radius`, `length` and the body axis it lies `along` (default x); or `radius`, `from` and `to`."""
 
     type: Literal["cylinder"] = "cylinder"
-    radius: PositiveLength
-    length: Maybe[PositiveLength] = Field(default=None)
+    radius: PositiveLength = Field(usual=SOLID)
+    length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
     along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
@@ -114,9 +115,9 @@ class Tube(_Between):
     """
 
     type: Literal["tube"] = "tube"
-    outer_radius: PositiveLength
+    outer_radius: PositiveLength = Field(usual=SOLID)
     inner_radius: PositiveLength
-    length: Maybe[PositiveLength] = Field(default=None)
+    length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
     along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
@@ -138,9 +139,9 @@ class Capsule(_Between):
     """
 
     type: Literal["capsule"] = "capsule"
-    radius: PositiveLength
+    radius: PositiveLength = Field(usual=SOLID)
     length: Maybe[PositiveLength] = Field(
-        default=None, description="of the straight part, between the centres of the balls"
+        default=None, description="of the straight part, between the centres of the balls", usual=SOLID
     )
     along: Along | None = Field(default=None, description="body axis; default x")
 
@@ -166,7 +167,7 @@ class Extrusion(_Between):
     outline: Annotated[ManyCorners[Corner], BeforeValidator(listed)] = Field(
         description="corners in their order, at least three; lines between them do not cross"
     )
-    length: Maybe[PositiveLength] = Field(default=None)
+    length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
     along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
@@ -219,7 +220,7 @@ class Sphere(_Coloured):
     """A solid ball: `radius`."""
 
     type: Literal["sphere"] = "sphere"
-    radius: PositiveLength
+    radius: PositiveLength = Field(usual=SOLID)
     centre: Maybe[Position] = _CENTRE
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
@@ -23,8 +23,9 @@ from nivel.machine.core.coefficient import (
 )
 from nivel.machine.core.record import Name, entry
 from nivel.machine.forces.between import Ends
-from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
+from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.hydraulics.component import Component, Rating
+from nivel.machine.hydraulics.usual import DIAMETER, PISTON_SPEED, PRESSURE, STROKE, VOLUME, WALL_MODULUS
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
@@ -65,26 +66,37 @@ class Actuator(Component):
     early: ClassVar[tuple[str, ...]] = ("pressure_A", "pressure_B", "position", "speed")
     late: ClassVar[tuple[str, ...]] = ("force", "power", "friction")
     gases: ClassVar[bool] = True
+    usual: ClassVar[Mapping[str, Usual]] = {**Component.usual, "speed": PISTON_SPEED}
 
     dead_volume_A: Maybe[Volume] = Field(
-        default=None, description="of A, with its hose, at the start of the stroke; default 2 % of what is swept"
+        default=None,
+        description="of A, with its hose, at the start of the stroke; default 2 % of what is swept",
+        usual=VOLUME,
     )
     dead_volume_B: Maybe[Volume] = Field(
-        default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
+        default=None,
+        description="of B, with its hose, at the end of the stroke; default 2 % of what is swept",
+        usual=VOLUME,
     )
-    wall_modulus: Maybe[Pressure] = Field(default=None, description="as of a volume, of dead volumes with their hoses")
+    wall_modulus: Maybe[Pressure] = Field(
+        default=None, description="as of a volume, of dead volumes with their hoses", usual=WALL_MODULUS
+    )
     heat_conductance: Maybe[ThermalConductance] = Field(
         default=None, description="of gases: of the walls of each chamber; default: none"
     )
     start_A: Maybe[Pressure] = Field(
-        default=None, description="pressure in A at the start; default: what carries the load"
+        default=None, description="pressure in A at the start; default: what carries the load", usual=PRESSURE
     )
     start_B: Maybe[Pressure] = Field(
-        default=None, description="pressure in B at the start; default: what carries the load"
+        default=None, description="pressure in B at the start; default: what carries the load", usual=PRESSURE
     )
     stop_stiffness: StopStiffness = Field(default=2e8, description="of the ends of the stroke")
     stop_restitution: Restitution = Field(default=0.2, description="speed after over speed before the end is met")
     fluid: Name | None = Field(default=None, description="default: the only one")
+
+    @property
+    def inlets(self) -> tuple[str, ...]:
+        return ()
 
     @property
     def chambers(self) -> tuple[str, ...]:
@@ -107,10 +119,12 @@ class HydraulicCylinder(Ends, Actuator):
     nodes: ClassVar[tuple[str, ...]] = (".A", ".B")
 
     type: Literal["cylinder"] = "cylinder"
-    piston: PositiveLength = Field(description="diameter")
+    piston: PositiveLength = Field(description="diameter", usual=DIAMETER)
     rod: Annotated[OneNumber, Quantity("length")] = Field(default=0.0, description="diameter")
-    stroke: PositiveLength
-    retracted_length: PositiveLength = Field(description="distance of its ends at the start of the stroke")
+    stroke: PositiveLength = Field(usual=STROKE)
+    retracted_length: PositiveLength = Field(
+        description="distance of its ends at the start of the stroke", usual=STROKE
+    )
     acting: Literal["double", "single"] = "double"
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
     cushion_A: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the start of the stroke")
@@ -148,10 +162,16 @@ class TelescopicCylinder(Ends, Actuator):
     nodes: ClassVar[tuple[str, ...]] = (".A",)
 
     type: Literal["telescopic-cylinder"] = "telescopic-cylinder"
-    stages: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(description="diameters, falling")
-    strokes: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(description="of each stage")
+    stages: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(
+        description="diameters, falling", usual=DIAMETER
+    )
+    strokes: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(
+        description="of each stage", usual=STROKE
+    )
     transition: PositiveLength = Field(default=5e-3, description="stroke over which one stage passes to the next")
-    retracted_length: PositiveLength = Field(description="distance of its ends at the start of the stroke")
+    retracted_length: PositiveLength = Field(
+        description="distance of its ends at the start of the stroke", usual=STROKE
+    )
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
 
     @property
@@ -189,6 +209,8 @@ class RotaryActuator(Actuator):
 
     may: ClassVar[tuple[str, ...]] = ("A", "B")
     nodes: ClassVar[tuple[str, ...]] = (".A", ".B")
+
+    usual: ClassVar[Mapping[str, Usual]] = Component.usual
 
     type: Literal["rotary-actuator"] = "rotary-actuator"
     coordinate: CoordinateReference = Field(description="angle of a joint")

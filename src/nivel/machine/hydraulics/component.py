@@ -10,7 +10,8 @@ from pydantic import BeforeValidator, WithJsonSchema
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Pressure, Share, SonicConductance, VolumeFlow
 from nivel.machine.core.record import Name, unknown_word
-from nivel.machine.given import Field, Maybe
+from nivel.machine.given import Field, Maybe, Usual
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, POWER, PRESSURE
 from nivel.machine.units.quantity import fault, shown
 
 
@@ -39,6 +40,7 @@ class Component(Checked):
     chamber A. functions : fields that may vary. early : signals known before flows are; late : the others. gases : whether gas may flow
     through it. passes : pairs of ports (from, to) between which fluid passes at any pressure; delivers : port into which it delivers a
     given flow, whatever the pressure; relieves : port whose pressure it bounds. These ask for a relief valve where none is reached.
+    usual : what its results are between, by the words with which their names begin.
     """
 
     collection: ClassVar[str] = "hydraulics"
@@ -52,11 +54,17 @@ class Component(Checked):
     passes: ClassVar[tuple[tuple[str, str], ...]] = ()
     delivers: ClassVar[str] = ""
     relieves: ClassVar[str] = ""
+    usual: ClassVar[Mapping[str, Usual]] = {"pressure": PRESSURE, "flow": FLOW, "power": POWER}
 
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
     ports: Ports = Field(default={}, description="nodes that the ports are connected to")
+
+    @property
+    def inlets(self) -> tuple[str, ...]:
+        """Ports out of which fluid can come into what is connected to them."""
+        return tuple(port for port in self.ports if port not in SENSING)
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:
@@ -89,8 +97,10 @@ def problem_of_share(key: str, value: object, least: float) -> Iterator[Problem]
 class Rating(Checked):
     """What a catalogue states of a restriction: of liquids `flow` at `pressure_drop`, of gases the numbers of ISO 6358."""
 
-    flow: Maybe[VolumeFlow] = Field(default=None, description="through one edge, fully open, at `pressure_drop`")
-    pressure_drop: Maybe[Pressure] = Field(default=None, description="at which `flow` is measured")
+    flow: Maybe[VolumeFlow] = Field(
+        default=None, description="through one edge, fully open, at `pressure_drop`", usual=FLOW
+    )
+    pressure_drop: Maybe[Pressure] = Field(default=None, description="at which `flow` is measured", usual=DIFFERENCE)
     sonic_conductance: Maybe[SonicConductance] = Field(default=None, description="of gases: C of ISO 6358")
     critical_ratio: Maybe[Share] = Field(default=None, description="of gases: b of ISO 6358; default 0.3")
 
@@ -128,7 +138,9 @@ def _listed(names: list[str]) -> str:
 class Rated(Rating, Component):
     """A component with a flow from a catalogue, fully open."""
 
-    transition: Pressure = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+    transition: Pressure = Field(
+        default=0.5e5, description="difference of pressure below which the root is rounded", usual=DIFFERENCE
+    )
 
     def problems(self) -> Iterator[Problem]:
         yield from Component.problems(self)

@@ -12,6 +12,7 @@ from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, OneNumber
+from nivel.machine.hydraulics.usual import BULK_MODULUS, GAS_DENSITY, LIQUID_DENSITY, TEMPERATURE, VISCOSITY
 from nivel.machine.units.quantity import Density, Quantity
 
 AIR_DENSITY = 1.2  # kg/m³ at atmospheric pressure
@@ -27,14 +28,16 @@ class Fluid(Checked):
 
     name: Name
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
-    density: Density = Field(default=870.0, description="of the liquid at atmospheric pressure")
-    bulk_modulus: Pressure = Field(default=1.5e9, description="of the liquid at atmospheric pressure")
+    density: Density = Field(default=870.0, description="of the liquid at atmospheric pressure", usual=LIQUID_DENSITY)
+    bulk_modulus: Pressure = Field(
+        default=1.5e9, description="of the liquid at atmospheric pressure", usual=BULK_MODULUS
+    )
     bulk_modulus_slope: NotNegativeNumber = Field(default=10.0, description="what it grows by with the pressure")
     air: Annotated[OneNumber, Quantity("number", positive=True)] = Field(
         default=0.005, description="undissolved air: its share of the volume at atmospheric pressure"
     )
     gas_exponent: Exponent = Field(default=1.4, description="polytropic exponent of the air: 1.4 fast, 1 slow")
-    viscosity: Viscosity = Field(default=46e-6, description="kinematic")
+    viscosity: Viscosity = Field(default=46e-6, description="kinematic", usual=VISCOSITY)
 
     @property
     def mixed_density(self) -> float:
@@ -58,11 +61,13 @@ class Gas(Checked):
 
     name: Name
     type: Literal["ideal-gas"] = "ideal-gas"
-    density: Density = Field(default=1.185, description="at 20 °C and 1 bar")
+    density: Density = Field(default=1.185, description="at 20 °C and 1 bar", usual=GAS_DENSITY)
     heat_capacity_ratio: Annotated[OneNumber, Quantity("number")] = Field(
         default=1.4, description="c_p over c_v, of gas whose temperature is a state"
     )
-    temperature: Temperature = Field(default=293.15, description="of tanks, of walls, and of all gas at the start")
+    temperature: Temperature = Field(
+        default=293.15, description="of tanks, of walls, and of all gas at the start", usual=TEMPERATURE
+    )
     isothermal: Truth = Field(default=False, description="whether the gas keeps that temperature")
 
     @property

@@ -9,6 +9,7 @@ from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Component, problem_of_share
+from nivel.machine.hydraulics.usual import DIFFERENCE, DISPLACEMENT, FLOW, SHAFT_SPEED
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, Quantity, Whole
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -28,7 +29,9 @@ class FlowSource(Component):
     delivers: ClassVar[str] = "B"
 
     type: Literal["flow-source"] = "flow-source"
-    flow: Annotated[OneFunction, varying("volume flow")] = Field(description="at the density of the side it comes from")
+    flow: Annotated[OneFunction, varying("volume flow")] = Field(
+        description="at the density of the side it comes from", usual=FLOW
+    )
 
 
 class RotaryMachine(Component):
@@ -37,15 +40,19 @@ class RotaryMachine(Component):
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     late: ClassVar[tuple[str, ...]] = ("flow", "torque", "power", "setting")
 
-    displacement: Displacement
+    displacement: Displacement = Field(usual=DISPLACEMENT)
     coordinate: CoordinateReference | None = Field(
         default=None, description="angle of a joint that its shaft turns with"
     )
     ratio: PositiveNumber = Field(default=1.0, description="turns of the shaft per turn of the joint")
     volumetric_efficiency: Share = Field(default=1.0, description="at the nominal point")
     mechanical_efficiency: Share = Field(default=1.0, description="at the nominal point")
-    nominal_pressure: Maybe[Pressure] = Field(default=None, description="difference of pressure of the efficiencies")
-    nominal_speed: Maybe[PositiveAngularVelocity] = Field(default=None, description="speed of the efficiencies")
+    nominal_pressure: Maybe[Pressure] = Field(
+        default=None, description="difference of pressure of the efficiencies", usual=DIFFERENCE
+    )
+    nominal_speed: Maybe[PositiveAngularVelocity] = Field(
+        default=None, description="speed of the efficiencies", usual=SHAFT_SPEED
+    )
     leakage: Leakage = Field(
         default=0.0, description="flow over the difference of pressure, beside that of the efficiency"
     )
@@ -94,14 +101,14 @@ class Pump(RotaryMachine):
     delivers: ClassVar[str] = "B"
 
     type: Literal["pump"] = "pump"
-    speed: Maybe[Speed] = Field(default=None, description="of its shaft, in place of `coordinate`")
+    speed: Maybe[Speed] = Field(default=None, description="of its shaft, in place of `coordinate`", usual=SHAFT_SPEED)
     setting: Setting = Field(default=1.0, description="share of the displacement")
-    margin: Maybe[Pressure] = Field(default=None, description="load sensing: held between B and LS")
+    margin: Maybe[Pressure] = Field(default=None, description="load sensing: held between B and LS", usual=DIFFERENCE)
     control_range: Pressure = Field(
-        default=10e5, description="load sensing: pressure error at which it moves at full speed"
+        default=10e5, description="load sensing: pressure error at which it moves at full speed", usual=DIFFERENCE
     )
     response: Duration = Field(default=0.08, description="load sensing: time from empty to full")
-    cut_off: Maybe[Pressure] = Field(default=None, description="load sensing: greatest pressure at B")
+    cut_off: Maybe[Pressure] = Field(default=None, description="load sensing: greatest pressure at B", usual=DIFFERENCE)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -13,6 +13,7 @@ from nivel.machine.core.coefficient import Volume as VolumeSize
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, PRESSURE, VOLUME, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
 
@@ -28,14 +29,18 @@ class Volume(Component):
     gases: ClassVar[bool] = True
 
     type: Literal["volume"] = "volume"
-    volume: VolumeSize
+    volume: VolumeSize = Field(usual=VOLUME)
     wall_modulus: Maybe[Pressure] = Field(
-        default=None, description="pressure over the relative growth of the volume; default: rigid walls"
+        default=None,
+        description="pressure over the relative growth of the volume; default: rigid walls",
+        usual=WALL_MODULUS,
     )
     heat_conductance: Maybe[ThermalConductance] = Field(
         default=None, description="of gases: heat through the walls over the difference of temperature; default: none"
     )
-    start: Maybe[Pressure] = Field(default=None, description="pressure at the start; default: that of a steady circuit")
+    start: Maybe[Pressure] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
+    )
     fluid: Name | None = Field(default=None, description="default: the only one")
 
 
@@ -48,7 +53,7 @@ class Tank(Component):
     gases: ClassVar[bool] = True
 
     type: Literal["tank"] = "tank"
-    pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute")
+    pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute", usual=PRESSURE)
     fluid: Name | None = Field(default=None, description="default: the only one")
 
     def problems(self) -> Iterator[Problem]:
@@ -67,15 +72,17 @@ class Accumulator(Component):
     late: ClassVar[tuple[str, ...]] = ("flow",)
 
     type: Literal["accumulator"] = "accumulator"
-    volume: VolumeSize = Field(description="of the gas at its precharge")
-    precharge: Pressure = Field(description="pressure of the gas without oil, absolute")
+    volume: VolumeSize = Field(description="of the gas at its precharge", usual=VOLUME)
+    precharge: Pressure = Field(description="pressure of the gas without oil, absolute", usual=PRESSURE)
     gas_exponent: Exponent = Field(default=1.3, description="polytropic exponent of the gas")
     dead_volume: Maybe[VolumeSize] = Field(
         default=None, description="of oil when it is empty; default 2 % of the volume"
     )
-    flow: VolumeFlow = Field(description="through the inlet at `pressure_drop`")
-    pressure_drop: Pressure = Field(description="at which `flow` is measured")
-    start: Maybe[Pressure] = Field(default=None, description="pressure at the start; default: that of a steady circuit")
+    flow: VolumeFlow = Field(description="through the inlet at `pressure_drop`", usual=FLOW)
+    pressure_drop: Pressure = Field(description="at which `flow` is measured", usual=DIFFERENCE)
+    start: Maybe[Pressure] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
+    )
     fluid: Name | None = Field(default=None, description="default: the only one")
 
 

@@ -9,6 +9,7 @@ from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Pressure, Share, Truth
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Component, Rating, problem_of_share
+from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, PIPE_LENGTH
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength
 
@@ -25,11 +26,13 @@ class Orifice(Rating, Component):
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["orifice"] = "orifice"
-    diameter: Maybe[PositiveLength] = Field(default=None)
+    diameter: Maybe[PositiveLength] = Field(default=None, usual=BORE)
     discharge_coefficient: Share = Field(default=0.65)
     leakage: Leakage = Field(default=0.0, description="flow over the difference of pressure, laminar")
     opening: Opening = Field(default=1.0, description="from 0, closed, to 1")
-    transition: Pressure = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+    transition: Pressure = Field(
+        default=0.5e5, description="difference of pressure below which the root is rounded", usual=DIFFERENCE
+    )
 
     def problems(self) -> Iterator[Problem]:
         yield from Component.problems(self)
@@ -57,6 +60,6 @@ class Pipe(Component):
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["pipe"] = "pipe"
-    diameter: PositiveLength
-    length: PositiveLength
+    diameter: PositiveLength = Field(usual=BORE)
+    length: PositiveLength = Field(usual=PIPE_LENGTH)
     inertia: Truth = Field(default=False, description="whether the flow has inertia: a state")

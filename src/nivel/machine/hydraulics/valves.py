@@ -18,6 +18,7 @@ from nivel.machine.core.coefficient import (
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, PRESSURE
 from nivel.machine.laws.time_function import OneFunction, varying
 
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
@@ -34,12 +35,18 @@ class CheckValve(Rated):
 
     type: Literal["check-valve"] = "check-valve"
     opens_at: NotNegativePressure = Field(
-        default=0.5e5, description="difference of pressure at which it begins to open"
+        default=0.5e5, description="difference of pressure at which it begins to open", usual=DIFFERENCE
     )
-    opening_range: Pressure = Field(default=3e5, description="difference of pressure from there to fully open")
+    opening_range: Pressure = Field(
+        default=3e5, description="difference of pressure from there to fully open", usual=DIFFERENCE
+    )
     pilot_ratio: Maybe[PositiveNumber] = Field(default=None, description="area of the pilot over that of the seat")
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
+
+    @property
+    def inlets(self) -> tuple[str, ...]:
+        return ("A", "B") if self.leakage or "X" in self.ports else ("B",)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -58,10 +65,16 @@ class ReliefValve(Rated):
     relieves: ClassVar[str] = "P"
 
     type: Literal["relief-valve"] = "relief-valve"
-    opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open")
-    opening_range: Pressure = Field(description="difference of pressure from there to fully open")
+    opens_at: VaryingPressure = Field(
+        description="difference of pressure at which it begins to open", usual=PRESSURE
+    )
+    opening_range: Pressure = Field(description="difference of pressure from there to fully open", usual=DIFFERENCE)
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
+
+    @property
+    def inlets(self) -> tuple[str, ...]:
+        return ("P", "T") if self.leakage else ("T",)
 
 
 class CounterbalanceValve(Rated):
@@ -75,17 +88,21 @@ class CounterbalanceValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "check_flow", "position")
 
     type: Literal["counterbalance-valve"] = "counterbalance-valve"
-    opens_at: VaryingPressure = Field(description="load pressure at which it begins to open without a pilot")
-    opening_range: Pressure = Field(default=80e5, description="control pressure from there to fully open")
+    opens_at: VaryingPressure = Field(
+        description="load pressure at which it begins to open without a pilot", usual=PRESSURE
+    )
+    opening_range: Pressure = Field(
+        default=80e5, description="control pressure from there to fully open", usual=DIFFERENCE
+    )
     pilot_ratio: PositiveNumber = Field(default=3.0, description="R")
     vented: Truth = Field(default=False, description="whether the pressure at V does not act on it")
     lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
-    check_flow: Maybe[VolumeFlow] = Field(default=None, description="of the check valve; default `flow`")
+    check_flow: Maybe[VolumeFlow] = Field(default=None, description="of the check valve; default `flow`", usual=FLOW)
     check_pressure_drop: Maybe[Pressure] = Field(
-        default=None, description="of the check valve; default `pressure_drop`"
+        default=None, description="of the check valve; default `pressure_drop`", usual=DIFFERENCE
     )
-    check_opens_at: NotNegativePressure = Field(default=0.5e5)
-    check_opening_range: Pressure = Field(default=4e5)
+    check_opens_at: NotNegativePressure = Field(default=0.5e5, usual=DIFFERENCE)
+    check_opening_range: Pressure = Field(default=4e5, usual=DIFFERENCE)
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -105,8 +122,10 @@ class ReducingValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position", "relief_flow")
 
     type: Literal["reducing-valve"] = "reducing-valve"
-    pressure: VaryingPressure = Field(description="at A, absolute, at which it is closed")
-    opening_range: Pressure = Field(default=5e5, description="pressure below that at which it is fully open")
+    pressure: VaryingPressure = Field(description="at A, absolute, at which it is closed", usual=PRESSURE)
+    opening_range: Pressure = Field(
+        default=5e5, description="pressure below that at which it is fully open", usual=DIFFERENCE
+    )
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
@@ -128,7 +147,7 @@ class Compensator(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
 
     type: Literal["compensator"] = "compensator"
-    margin: VaryingPressure = Field(default=7e5, description="held between A and LS")
-    opening_range: Pressure = Field(default=6e5, description="from closed to fully open")
+    margin: VaryingPressure = Field(default=7e5, description="held between A and LS", usual=DIFFERENCE)
+    opening_range: Pressure = Field(default=6e5, description="from closed to fully open", usual=DIFFERENCE)
     lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)

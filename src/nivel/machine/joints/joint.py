@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Final, Literal
 
@@ -16,7 +16,8 @@ from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.marker import TwoMarkers
 from nivel.machine.core.placement import angle_between
 from nivel.machine.core.record import BodyName, Name, Record, unknown_word
-from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces
+from nivel.machine.core.usual import ANGULAR_SPEED, SLIDING_SPEED
+from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces, Usual
 from nivel.machine.units.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
 
 JointType = Literal[
@@ -151,15 +152,17 @@ class CoordinateValues(Record):
 
 
 class CoordinateRates(Record):
-    """Rates of joint coordinates by name."""
+    """Rates of joint coordinates by name. usual : what they are between in results, by their units."""
 
-    angle: Maybe[AngularVelocity] = Field(default=None)
-    angle_1: Maybe[AngularVelocity] = Field(default=None)
-    angle_2: Maybe[AngularVelocity] = Field(default=None)
-    displacement: Maybe[Velocity] = Field(default=None)
-    x: Maybe[Velocity] = Field(default=None)
-    y: Maybe[Velocity] = Field(default=None)
-    distance: Maybe[Velocity] = Field(default=None)
+    usual: ClassVar[Mapping[str, Usual]] = {"rad/s": ANGULAR_SPEED, "m/s": SLIDING_SPEED}
+
+    angle: Maybe[AngularVelocity] = Field(default=None, usual=ANGULAR_SPEED)
+    angle_1: Maybe[AngularVelocity] = Field(default=None, usual=ANGULAR_SPEED)
+    angle_2: Maybe[AngularVelocity] = Field(default=None, usual=ANGULAR_SPEED)
+    displacement: Maybe[Velocity] = Field(default=None, usual=SLIDING_SPEED)
+    x: Maybe[Velocity] = Field(default=None, usual=SLIDING_SPEED)
+    y: Maybe[Velocity] = Field(default=None, usual=SLIDING_SPEED)
+    distance: Maybe[Velocity] = Field(default=None, usual=SLIDING_SPEED)
 
     @property
     def given(self) -> dict[str, float]:

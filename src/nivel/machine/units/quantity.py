@@ -250,6 +250,18 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
     return tree
 
 
+class PlainVolume(float):
+    """A volume per angle that was given as a volume, as `28 cm^3` where `28 cm^3/rev` may be meant: it counts as per radian."""
+
+
+def _is_plain_volume(value: object, parameters: Parameters) -> bool:
+    """Whether a volume per angle is given in units of a volume, by a round number; 28/(2*pi) of them is one that was converted."""
+    if not isinstance(value, str):
+        return isinstance(value, PlainVolume)
+    its, size = measure(constant_tree(value, parameters)), 1e6 * read_quantity(value, ANY, parameters)
+    return its == KINDS["volume"][2] and abs(size - float(f"{size:.4g}")) <= 1e-9 * abs(size)
+
+
 @dataclass(frozen=True)
 class Quantity:
     """Annotation of a float field: it is a quantity of `kind`, and possibly bounded below by zero."""
@@ -268,6 +280,8 @@ class Quantity:
             instead = MASSLESS if self.kind == "mass" and number == 0 else ""
             article = KINDS[self.kind][0] if isinstance(self.kind, str) else "a number"
             raise fault(f"{article} greater than zero was expected, got {shown(value)}{instead}")
+        if self.kind == "displacement" and _is_plain_volume(value, parameters_of(info)):
+            return PlainVolume(number)
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:

@@ -1,0 +1,129 @@
+"""Values of a machine that are far from those of real machines: what stands there, what is usual, and what to write."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from nivel.machine.core.record import Record
+from nivel.machine.given import Shown, Usual
+from nivel.machine.hydraulics import Actuator, Component, Volume
+from nivel.machine.hydraulics.machines import RotaryMachine
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
+from nivel.machine.uses.hydraulic_uses import makers, ports_of
+from nivel.machine.uses.references import SECTIONS
+
+
+@dataclass(frozen=True)
+class Remark:
+    """What is right by its unit and may be a slip all the same.
+
+    place : as in a machine file, ``hydraulics.pump.displacement``. share : by how many times a value is beyond what is usual; infinite
+    where that is no matter of its size.
+    """
+
+    place: str
+    message: str
+    share: float
+
+
+def remarks(machine: MachineRecord) -> Iterator[Remark]:
+    """Everything that is unusual in a machine."""
+    yield from _of_fields(machine, "")
+    for section in SECTIONS:
+        for element in getattr(machine, section):
+            yield from _of_fields(element, f"{section}.{element.name}")
+    yield from _of_volumes(machine)
+    yield from _unfillable(machine)
+
+
+@cache
+def unit_of(usual: Usual) -> float:
+    """The unit of a range in SI units."""
+    return read_quantity(f"1 {usual.unit}", ANY, {})
+
+
+def excess(value: float, usual: Usual) -> float:
+    """By how many times the magnitude of `value`, in SI units, is beyond a range; up to 1 within it. Zero is usual."""
+    size = abs(value) / unit_of(usual)
+    return max(size / usual.most, usual.least / size) if size > 0.0 else 0.0
+
+
+def in_words(value: float, usual: Usual) -> str:
+    """``2500 bar, and 0.01 to 700 bar is usual``."""
+    span = f"{usual.least:g} to {usual.most:g}" if usual.least else f"up to {usual.most:g}"
+    return f"{value / unit_of(usual):.6g} {usual.unit}, and {span} {usual.unit} is usual"
+
+
+@cache
+def _known(record: type[Record]) -> Mapping[str, Usual]:
+    """The ranges of the fields of a record."""
+    extras = {name: field.json_schema_extra for name, field in record.model_fields.items()}
+    return {name: its.usual for name, its in extras.items() if isinstance(its, Shown) and its.usual is not None}
+
+
+def _of_fields(record: Record, place: str) -> Iterator[Remark]:
+    """What is unusual in the fields of a record, and of those that it holds."""
+    known, start = _known(type(record)), f"{place}." if place else ""
+    for name, field in type(record).model_fields.items():
+        value, key = getattr(record, name), field.alias or name
+        if name in known:
+            yield from _of_value(value, known[name], f"{start}{key}", key)
+        elif isinstance(value, Record):
+            yield from _of_fields(value, f"{start}{key}")
+
+
+def _of_value(value: Any, usual: Usual, place: str, key: str) -> Iterator[Remark]:
+    numbers = value if isinstance(value, tuple) else (value,)
+    shares = [(excess(each, usual), each) for each in numbers if isinstance(each, float | int)]
+    share, worst = max(shares, default=(0.0, 0.0))
+    if share > 1.0:
+        message = f"`{key}` is {in_words(worst, usual)}; for example `{key}: {usual.example}`"
+        yield Remark(place, message, share)
+
+
+def _of_volumes(machine: MachineRecord) -> Iterator[Remark]:
+    """Displacements of pumps and motors that were given as volumes: per radian they are 2π times those per turn."""
+    for component in machine.hydraulics:
+        volume = getattr(component, "displacement", None)
+        if isinstance(component, RotaryMachine) and isinstance(volume, PlainVolume):
+            size, per_turn = f"{volume * 1e6:.6g} cm^3", f"{volume * 2e6 * math.pi:.4g} cm^3/rev"
+            message = (
+                f"`displacement` is a volume per angle: `{size}` counts as {size}/rad, which is {per_turn}; catalogues state it per turn: "
+                f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
+            )
+            yield Remark(f"hydraulics.{component.name}.displacement", message, math.inf)
+
+
+def _unfillable(machine: MachineRecord) -> Iterator[Remark]:
+    """Chambers and volumes of liquid into which nothing can flow, and whose pressure is not given."""
+    gases = {fluid.name for fluid in machine.fluids if fluid.type == "ideal-gas"}
+    only_gas = len(gases) == len(machine.fluids) == 1
+    filled = _filled(machine.hydraulics)
+    for node, maker in makers(machine.hydraulics).items():
+        if node in filled or not isinstance(maker, Volume | Actuator) or _is_filled_by_hand(maker, node):
+            continue
+        if only_gas if maker.fluid is None else maker.fluid in gases:
+            continue  # a spring
+        which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
+        advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
+        message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
+        yield Remark(f"hydraulics.{maker.name}", message, math.inf)
+
+
+def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:
+    """Whether the pressure that it is to keep is given."""
+    start = maker.start if isinstance(maker, Volume) else getattr(maker, f"start_{node.rpartition('.')[2]}")
+    return start is not None
+
+
+def _filled(components: Iterable[Component]) -> set[str]:
+    """Nodes into which fluid can flow: through a component, or from a second chamber that is part of the same volume."""
+    inlets = [ports_of(each)[port] for each in components for port in each.inlets if port in ports_of(each)]
+    parts = Counter(node for each in components if isinstance(each, Actuator) for node in ports_of(each).values())
+    return {*inlets, *(node for node, count in parts.items() if count > 1)}

@@ -155,8 +155,7 @@ class Machine(Model):
         from nivel.analysis.check.check import check
 
         with self._faults_in_file():
-            notes = (*self.name_notes, *map(str, self.remarks))
-            return replace(check(plan), notes=notes)
+            return replace(check(plan), name_notes=self.name_notes, remarks=tuple(map(str, self.remarks)))
 
     @checked_arguments
     def mass_properties(

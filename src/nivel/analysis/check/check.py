@@ -155,9 +155,8 @@ class Check:
         "",
         "",
     )  # why no equilibrium was found to start from, and what to try: then it is shown as drawn
-    notes: tuple[
-        str, ...
-    ] = ()  # on names of parameters that mean something else, and on values that no real machine has
+    name_notes: tuple[str, ...] = ()  # on parameters that have the name of a unit or of a constant
+    remarks: tuple[str, ...] = ()  # on values that are far from those of real machines
 
     def __repr__(self) -> str:
         extra = f", redundant: {', '.join(self.redundant_rows)}" if self.redundant_rows else ""
@@ -177,7 +176,7 @@ def _freedoms(facts: Check) -> str:
 def _lines(facts: Check) -> Iterator[str]:
     """The facts in words, for people."""
     yield f"{facts.name}: {_freedoms(facts)}, gravity {_vector(facts.gravity)} m/s²"
-    yield from (f"note: {note}" for note in facts.notes)
+    yield from (f"note: {note}" for note in (*facts.name_notes, *facts.remarks))
     if facts.bodies:
         yield "bodies"
     for body in facts.bodies:

@@ -202,7 +202,7 @@ def read_body(path: str | Path) -> ReducedBody:
         raise ModelError(f"there is no body file {path}; `nivel reduce MODEL -o {path}` makes one") from None
     except IsADirectoryError:
         raise ModelError(f"{path} is a folder; a body file was expected") from None
-    except (OSError, KeyError, ValueError) as error:
+    except (OSError, RuntimeError, MemoryError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise ModelError(f"{path} is not a body file of nivel: {error}") from None
 
 

@@ -65,9 +65,7 @@ class ReliefValve(Rated):
     relieves: ClassVar[str] = "P"
 
     type: Literal["relief-valve"] = "relief-valve"
-    opens_at: VaryingPressure = Field(
-        description="difference of pressure at which it begins to open", usual=PRESSURE
-    )
+    opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open", usual=PRESSURE)
     opening_range: Pressure = Field(description="difference of pressure from there to fully open", usual=DIFFERENCE)
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)

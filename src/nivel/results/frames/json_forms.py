@@ -84,6 +84,8 @@ FORMS: Final[dict[str, Any]] = {
         **{f"{key}?": Either((None, str)) for key in ("integrator", "formulation", "coordinates", "stabilisation")},
     },
     "timing": {"*": float},
+    "buckling": [{"time": float, "moves": str}],
+    "flexible_bodies": [{"name": str, "file": str, "modes": [int], "fingerprint": str}],
     "assembly": {
         "gap?": float,
         "gap_row?": str,

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray
 
+from nivel.errors import ModelError
+from nivel.results.frames.stored import DAMAGE
+
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
@@ -32,7 +35,10 @@ def data_array(result: Result, name: str) -> xarray.DataArray:
 def dataset(result: Result) -> xarray.Dataset:
     """Everything. The file of a finished run is read lazily; one that may still grow, and memory, at once."""
     if result.path is not None and result.outcome != "running":
-        return xarray.open_dataset(result.path, engine="h5netcdf", decode_times=False)
+        try:
+            return xarray.open_dataset(result.path, engine="h5netcdf", decode_times=False)
+        except (OSError, RuntimeError, *DAMAGE) as error:
+            raise ModelError(f"{result.path} is damaged and cannot be read: {error}") from None
     variables = {
         name: (variable.dims, result.array(name), {"units": variable.units, "long_name": variable.long_name})
         for name, variable in result.variables.items()

@@ -37,6 +37,7 @@ JSON_TEXTS: Final = (
 )
 # A file holds at least this share of the bytes that its frames take: no compression of times gets below.
 LEAST_SHARE = 1e-4
+SMALL = 100_000_000  # bytes that are read without a question
 
 
 @contextmanager
@@ -44,7 +45,7 @@ def opened(path: Path) -> Iterator[h5py.File]:
     """The file, open for reading, also while another process writes it or after that process was killed."""
     try:
         file = h5py.File(path, "r", locking="best-effort")
-    except OSError:
+    except (OSError, RuntimeError):
         file = _opened_while_running(path)
     with file:
         try:
@@ -63,7 +64,7 @@ def _opened_while_running(path: Path) -> h5py.File:
         return h5py.File(path, "r", swmr=True, locking="best-effort")
     except PermissionError:
         raise ModelError(f"{path} may not be read: permission denied") from None
-    except OSError:
+    except (OSError, RuntimeError):
         made_by = (
             f"; `nivel run {path}` makes the result of a machine" if Path(path).suffix in (".yaml", ".yml") else ""
         )
@@ -110,14 +111,20 @@ class StoredContents:
         for name, dataset in _datasets(file):
             if name == "time":
                 continue
+            name.encode()
+            _refuse_hollow(name, dataset)
             if dataset.is_scale:
                 self.coordinates[name] = tuple(dataset.asstr()[()])
                 continue
             dims = tuple(dimension[0].name.lstrip("/") for dimension in dataset.dims)
+            if dataset.shape[1:] != tuple(dimension[0].shape[0] for dimension in dataset.dims)[1:]:
+                raise ValueError(f"`{name}` has {dataset.shape[1:]} numbers a frame, and other names of them")
             columns = slice(0, int(np.prod(dataset.shape[1:])))
             units, long_name = str(_plain(dataset.attrs["units"])), str(_plain(dataset.attrs["long_name"]))
             self.variables[name] = Variable(name, dims, units, long_name, columns)
             self.frame_count = min(self.frame_count, dataset.shape[0])
+        if "position" in self.variables and "scene" not in self.attributes:
+            raise ValueError("it has positions and lacks the attribute `scene`, which says of what")
 
     def read(self, name: str, where: tuple[slice | int, ...] = ()) -> NDArray[np.float64]:
         frames, rest = (where[0], where[1:]) if where else (slice(None), ())
@@ -145,11 +152,22 @@ def _refuse_broken(key: str, text: object) -> None:
 
 
 def _datasets(file: h5py.File) -> list[tuple[str, Any]]:
-    return [(str(name), item) for name, item in file.items()]
+    return [(str(name), _dataset(file, name)) for name in file]
 
 
 def _dataset(file: h5py.File, name: str) -> Any:
-    return file[name]
+    """What is stored under a name in this file itself: another file that it may point to is nobody's result."""
+    dataset: Any = file[name] if isinstance(file.get(name, getlink=True), h5py.HardLink) else None
+    if not isinstance(dataset, h5py.Dataset) or dataset.is_virtual or dataset.external:
+        raise ValueError(f"`{name}` is no variable, or one of another file")
+    return dataset
+
+
+def _refuse_hollow(name: str, dataset: h5py.Dataset) -> None:
+    """Raises ValueError where memory for many more numbers would be taken than the file can hold."""
+    claimed = 8 * int(dataset.size or 0)
+    if claimed > SMALL and dataset.id.get_storage_size() < LEAST_SHARE * claimed:
+        raise ValueError(f"`{name}` claims {dataset.size} numbers, which it does not hold")
 
 
 @contextmanager
@@ -173,4 +191,7 @@ def _plain(value: Any) -> str | float | int:
     """An attribute as a Python str, float or int."""
     if isinstance(value, bytes):
         return value.decode()
+    if isinstance(value, str):
+        value.encode()  # raises where it has bytes that are no characters
+        return value
     return value.item() if isinstance(value, np.generic | np.ndarray) else value

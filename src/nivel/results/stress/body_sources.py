@@ -60,7 +60,7 @@ def as_attribute(sources: list[BodySource]) -> str:
 def source_of(attributes: Mapping[str, str | float | int], name: str | None) -> BodySource:
     """The flexible body called `name`, default the only one. Raises ModelError where there is none, or more than one to choose from."""
     known = {
-        each["name"]: BodySource(**{**each, "modes": tuple(each["modes"])})
+        each["name"]: BodySource(each["name"], each["file"], tuple(each["modes"]), each["fingerprint"])
         for each in json.loads(str(attributes.get(ATTRIBUTE, "[]")))
     }
     if not known:

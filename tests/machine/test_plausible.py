@@ -21,8 +21,10 @@ hydraulics:
   tank: {type: tank}
   supply: {type: volume, volume: 1 L}
   pump: {type: pump, ports: {A: tank, B: supply}, displacement: 28 cm^3/rev, speed: 1500 rpm}
-  relief: {type: relief-valve, ports: {P: supply, T: tank}, opens_at: 250 bar, opening_range: 25 bar, flow: 60 l/min, pressure_drop: 5 bar}
-  cylinder: {type: cylinder, bodies: [ground, load], points: [[0, 0, 0], [1, 0, 0]], piston: 80 mm, rod: 40 mm, stroke: 0.5, retracted_length: 0.8}
+  relief: {type: relief-valve, ports: {P: supply, T: tank}, opens_at: 250 bar, opening_range: 25 bar, flow: 60 l/min,
+    pressure_drop: 5 bar}
+  cylinder: {type: cylinder, bodies: [ground, load], points: [[0, 0, 0], [1, 0, 0]], piston: 80 mm, rod: 40 mm,
+    stroke: 0.5, retracted_length: 0.8}
   in: {type: check-valve, ports: {A: supply, B: cylinder.A}, flow: 40 l/min, pressure_drop: 5 bar}
   out: {type: orifice, ports: {A: cylinder.B, B: tank}, diameter: 3 mm}
 simulation: {duration: 2 ms, step: 1 ms}

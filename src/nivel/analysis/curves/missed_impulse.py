@@ -9,7 +9,7 @@ between samples are found by bounds of the function over intervals, which are ha
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,12 @@ SAMPLES, WINDOWS = 16, 20
 QUIET = 1e-2
 # Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
+# Shares from which on it is asked whether the signals go straight between two frames.
+DOUBTFUL = 1e-3
+# Share of the range of a state by which it is moved to find how fast it forgets.
+SHIFT = 1e-6
+# Below this share of the range of a state it counts as missed no more.
+FORGOTTEN = 1e-2
 # A found feature is sampled by so many points; at most so many are.
 FEATURE, MOST_FEATURES = 2048, 32
 
@@ -61,9 +67,24 @@ def unseen_loads(
     for function in varying(machine):
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
-            found = missed(function, path, cut_at_switches(function, path, steps) if chosen else steps, facts)
+            found = _missed_along(function, path, cut_at_switches(function, path, steps) if chosen else steps, facts)
             if found is not None:
                 yield found
+
+
+def _missed_along(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
+    """What was missed of one function however its signals go between two frames: the less of what straight lines and splines say.
+
+    The rate of a stiff state, k (f - x), is a small difference of two large terms: with straight lines of x it has bumps between frames,
+    k h² x''/8, that no run has.
+    """
+    found = missed(function, path, steps, facts)
+    if found is None or not path.can_curve or (found.share < DOUBTFUL and found.hidden == 0.0):
+        return found
+    other = missed(function, replace(path, curved=True), steps, facts)
+    if other is None:
+        return found
+    return replace(min(found, other, key=lambda each: each.share), hidden=min(found.hidden, other.hidden))
 
 
 def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
@@ -87,7 +108,29 @@ def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) 
     narrow = _put_right(function, path, steps, found, exact, magnitude)
     features = np.union1d(found, _beyond_curve(values, curve))
     hidden = float(np.abs(exact - seen)[features].sum()) / max(float(magnitude.sum()), 1e-300)
-    return _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden)
+    judged = _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden)
+    if len(found) or (judged.share < DOUBTFUL and hidden == 0.0):
+        return judged
+    forgotten = _forgotten(function, path, steps, np.abs(values - curve).max(axis=1))
+    return replace(judged, share=forgotten, hidden=0.0) if forgotten < min(judged.share, FORGOTTEN) else judged
+
+
+def _forgotten(function: Varying, path: Path, steps: Steps, off: Array) -> float:
+    """Share of its range by which a state is wrong whose rate is `off` (n,) at most within steps; infinite where it does not forget.
+
+    A rate f(x, t) with ∂f/∂x = -s < 0 that is off by ε leaves x off by no more than ε/s: what a stiff state misses decays at once.
+    """
+    own = [name for name in function.curve.signals if f"state.{name.partition('.')[0]}" == function.of]
+    if not own:
+        return np.inf
+    x = path.signals[own[0]]
+    extent = float(np.ptp(x))
+    known, shift = path.at(steps.begin), SHIFT * extent
+    before, after = (function.curve.values({**known, own[0]: known[own[0]] + sign * shift}) for sign in (-1.0, 1.0))
+    decay = (before - after) / max(2.0 * shift, 1e-300)
+    if not extent > 0.0 or not np.all(decay > 0.0):
+        return np.inf
+    return float(np.max(off / decay)) / extent
 
 
 def _beyond_curve(values: Array, curve: Array) -> NDArray[np.int64]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +27,8 @@ AXES = {"x": 0, "y": 1, "z": 2}
 MOST_STEPS = 200_000
 # and in one part of the duration, where steps are chosen
 MOST_IN_PART = 2_000
+# frames that a spline needs
+LEAST_FRAMES = 4
 
 
 @dataclass(frozen=True)
@@ -71,14 +75,34 @@ def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[fl
 
 @dataclass(frozen=True)
 class Path:
-    """The signals of one function along a run, at the times of its frames."""
+    """The signals of one function along a run, at the times of its frames.
+
+    curved : between frames they are cubic splines, else straight lines.
+    """
 
     time: Array
     signals: Mapping[str, Array]
+    curved: bool = False
 
     def at(self, time: Array) -> dict[str, Array]:
-        """The time and all signals at times (n,) [s]; between frames straight lines."""
-        return {TIME: time, **{name: np.interp(time, self.time, values) for name, values in self.signals.items()}}
+        """The time and all signals at times (n,) [s]."""
+        if not self.curved:
+            return {TIME: time, **{name: np.interp(time, self.time, values) for name, values in self.signals.items()}}
+        return {TIME: time, **{name: np.asarray(spline(time)) for name, spline in self._splines.items()}}
+
+    @cached_property
+    def _splines(self) -> Mapping[str, Any]:
+        from scipy.interpolate import CubicSpline  # takes a quarter of a second to import
+
+        return {name: CubicSpline(self.time, values) for name, values in self.signals.items()}
+
+    @property
+    def can_curve(self) -> bool:
+        """Whether splines can be laid through its frames; two at one time are a jump."""
+        finite = all(np.isfinite(values).all() for values in self.signals.values())
+        return (
+            bool(self.signals) and len(self.time) > LEAST_FRAMES and bool(np.all(np.diff(self.time) > 0.0)) and finite
+        )
 
 
 def path_of(function: Varying, machine: MachineRecord, result: Result) -> Path | None:

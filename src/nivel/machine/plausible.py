@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -60,20 +60,13 @@ def in_words(value: float, usual: Usual) -> str:
     return f"{value / unit_of(usual):.6g} {usual.unit}, and {span} {usual.unit} is usual"
 
 
-@cache
-def _known(record: type[Record]) -> Mapping[str, Usual]:
-    """The ranges of the fields of a record."""
-    extras = {name: field.json_schema_extra for name, field in record.model_fields.items()}
-    return {name: its.usual for name, its in extras.items() if isinstance(its, Shown) and its.usual is not None}
-
-
 def _of_fields(record: Record, place: str) -> Iterator[Remark]:
     """What is unusual in the fields of a record, and of those that it holds."""
-    known, start = _known(type(record)), f"{place}." if place else ""
+    start = f"{place}." if place else ""
     for name, field in type(record).model_fields.items():
-        value, key = getattr(record, name), field.alias or name
-        if name in known:
-            yield from _of_value(value, known[name], f"{start}{key}", key)
+        value, key, its = getattr(record, name), field.alias or name, field.json_schema_extra
+        if isinstance(its, Shown) and its.usual is not None:
+            yield from _of_value(value, its.usual, f"{start}{key}", key)
         elif isinstance(value, Record):
             yield from _of_fields(value, f"{start}{key}")
 

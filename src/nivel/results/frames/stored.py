@@ -152,7 +152,7 @@ def _refuse_broken(key: str, text: object) -> None:
 
 
 def _datasets(file: h5py.File) -> list[tuple[str, Any]]:
-    return [(str(name), _dataset(file, name)) for name in file]
+    return [(name, _dataset(file, name)) for name in map(str, file)]
 
 
 def _dataset(file: h5py.File, name: str) -> Any:

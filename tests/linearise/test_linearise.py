@@ -319,7 +319,7 @@ def test_a_moment_of_a_run_is_linearised_there():
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"about": "noon"}, "`start`, `equilibrium` or a time"),
+        ({"about": "noon"}, "`start`, `equilibrium`, `rotation` or a time"),
         ({"about": "-1 s"}, "zero or more"),
         ({"inputs": "henge.angle"}, "there is no input `henge.angle`; did you mean hinge.angle"),
         ({"outputs": ["hinge.anglee", "x"]}, "there is no output"),

@@ -27,13 +27,16 @@ def unknown_name(system: System, number: int) -> str:
         rates = tuple(f"its rotation coordinate {k}" for k in range(1, width - 2))
         directions = POSITIONS + (TURNS if len(system.map.turns) else rates)
         return f"{system.bodies[number // width]}, {directions[number % width]}"
-    of_node = next(node for node in record.tree.node.tolist() if node[4] <= number < node[5])
+    nodes = record.tree.node.tolist()
+    of_node = next(node for node in nodes if node[4] <= number < node[5])
     child, _, kind, joint, first, last = of_node
     if kind == MODAL:
         flexible = record.flexible.body.tolist().index(child)
         return f"the mode {system.modes[int(record.flexible.mode[flexible, 0]) + number - first]}"
     if joint >= len(system.joints):
-        return f"{system.bodies[child]}, free in space"
+        # an interface that carries its body stands for it
+        body = next((node[0] for node in nodes if node[2] == MODAL and node[1] == child), child)
+        return f"{system.bodies[body]}, free in space"
     names = [
         name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{system.joints[joint]}.")
     ]

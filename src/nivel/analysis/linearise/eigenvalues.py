@@ -130,7 +130,8 @@ def _of_block(A: Array, unsure: Array) -> list[complex]:
 def _zeros(A: Array, unsure: Array) -> int:
     """Multiplicity of the eigenvalue zero: its eigenvectors, and one more for each of them that is orthogonal to all left ones, as in a
     rigid motion, whose position and speed make one chain."""
-    balanced: Any = matrix_balance(A, permute=False, separate=True)
+    with np.errstate(invalid="ignore"):  # it makes whole numbers of the sizes too, which nobody asks for
+        balanced: Any = matrix_balance(A, permute=False, separate=True)
     A, size = balanced[0], balanced[1][0]
     rows, columns = _equal_sizes(A)
     U, values, Vt = np.linalg.svd(rows[:, None] * A * columns)

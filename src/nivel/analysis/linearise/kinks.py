@@ -23,6 +23,8 @@ FAR, NEAR = 1e-5, 1e-8
 STAYS, SEEN = 0.5, 1e-6
 # or than this share of the steepest slope of that force
 ROUND_OFF = 1e-10
+# or than this share of the largest of all forces
+CANCELLED = 1e-12
 
 
 @dataclass(frozen=True)
@@ -63,12 +65,20 @@ def kinks(reduction: Reduction) -> list[Kink]:
     # what a force is compared with: its slopes in all directions, and the reactions that it is the rest of
     steepest = np.max([np.abs(slope) for sides in found for _, slope in sides], axis=0)
     reactions = _projected(own, np.abs(Z), np.abs(own.along("lam").r) @ np.abs(own.lam))
+    # beside the largest of all forces, as energies, what is left of those that cancel is round-off
+    lengths = own.length[own.free][reduction.moving]
+    known = np.zeros_like(steepest)
+    known[: len(lengths)] = (
+        CANCELLED * np.max(((steepest + reactions)[: len(lengths)]) * lengths, initial=0.0) / lengths
+    )
     out = []
     for each, sides in zip(changes, found, strict=True):
         values, slopes = zip(*sides, strict=True)
         far, near = np.abs(slopes[3] - slopes[0]), np.abs(slopes[2] - slopes[1])
         apart, largest = np.abs(values[2] - values[1]), float(np.max(np.abs(slopes), initial=0.0))
-        jump = (apart > STAYS * np.abs(values[3] - values[0])) & (apart > 4.0 * NEAR * (steepest + reactions))
+        jump = (apart > STAYS * np.abs(values[3] - values[0])) & (
+            apart > np.maximum(4.0 * NEAR * (steepest + reactions), known)
+        )
         bend = (near > STAYS * far) & (near > SEEN * largest) & (near > ROUND_OFF * steepest)
         seen = np.flatnonzero(jump | bend)
         if len(seen):

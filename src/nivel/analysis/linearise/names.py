@@ -25,13 +25,18 @@ def _of_tree(system: System) -> list[str]:
     record = system.record
     place, out = record.newton.place, [""] * len(record.newton.place)
     known = system.layout.coordinates["joint_coordinate"]
-    for child, _, kind, joint, first, last in record.tree.node.tolist():
+    nodes = record.tree.node.tolist()
+    # an interface that carries its body stands for it
+    bodies = {node[1]: node[0] for node in nodes if node[2] == MODAL}
+    for child, _, kind, joint, first, last in nodes:
+        if first == last:
+            continue
         if kind == MODAL:
             flexible = record.flexible.body.tolist().index(child)
             mode = int(record.flexible.mode[flexible, 0])
             out[first:last] = system.modes[mode : mode + last - first]
             continue
-        owner = system.joints[joint] if joint < len(system.joints) else system.bodies[child]
+        owner = system.joints[joint] if joint < len(system.joints) else system.bodies[bodies.get(child, child)]
         own = [name for name in known if joint < len(system.joints) and name.startswith(f"{owner}.")]
         if len(own) == last - first:
             out[first:last] = own

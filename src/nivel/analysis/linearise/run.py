@@ -17,6 +17,7 @@ from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
+from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.validity import judged
 from nivel.analysis.linearise.vibrations_apart import graded
 from nivel.analysis.plan.plan import Methods
@@ -26,7 +27,7 @@ from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_st
 from nivel.analysis.trust.subject import Linearisation
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.linearise import LineariseSettings
+from nivel.machine.settings.linearise import ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_motion import Posed
 from nivel.system.system import Array
@@ -60,6 +61,7 @@ def linear_model(
     (listener or Listener()).say("linearising")
     refuse_jumps(machine)
     moment = at_start(methods) if posture is None else at_posture(methods, posture)
+    moment = rotating(moment) if settings.about == ROTATION else moment
     instant = Instant(moment.motion, moment.t, moment.y)
     _refuse_large(instant)
     catalogue = Catalogue(machine, instant)

@@ -12,8 +12,8 @@ from nivel.machine.settings.values import Names, OfStatics
 from nivel.machine.units.quantity import expression_fault, fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 
-START, EQUILIBRIUM = "start", "equilibrium"
-AT: Final = {START: "its start", EQUILIBRIUM: "its equilibrium at t = 0"}
+START, EQUILIBRIUM, ROTATION = "start", "equilibrium", "rotation"
+AT: Final = {START: "its start", EQUILIBRIUM: "its equilibrium at t = 0", ROTATION: "its steady rotation"}
 
 
 def _state(value: Any) -> str | float:
@@ -24,7 +24,7 @@ def _state(value: Any) -> str | float:
         time = read_quantity(value, "time", {})
     except ExpressionError as problem:
         said = expression_fault(problem, value).message()
-        raise fault(f"`start`, `equilibrium` or a time was expected: {said}") from None
+        raise fault(f"`start`, `equilibrium`, `rotation` or a time was expected: {said}") from None
     if time < 0.0:
         raise fault(f"a time of zero or more was expected, got {shown(value)}")
     return time
@@ -35,7 +35,8 @@ class LineariseSettings(Record):
 
     about: Annotated[float | str, BeforeValidator(_state)] = Field(
         default=START,
-        description="state to linearise about: start, equilibrium, or a time up to which the machine is simulated, e.g. '2 s'",
+        description="state to linearise about: start, equilibrium, rotation (steady, strained by it), or a time up to which the machine is "
+        "simulated, e.g. '2 s'",
         option="--about STATE",
         absent="the start of the machine",
     )

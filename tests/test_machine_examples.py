@@ -10,6 +10,7 @@ MACHINES = (
     "double-wishbone",
     "excavator",
     "geneva-drive",
+    "mobile-crane",
     "robot-arm",
     "rope-crane",
     "stewart-platform",
@@ -135,3 +136,13 @@ def test_the_wedge_is_pushed_with_the_force_of_its_slope_and_friction():
     assert -result.array("driver.push.effort")[k] == pytest.approx(force, rel=1e-5)
     sunk = result.array("force.faces.depth")[-1] * np.sqrt(1 + slope**2)
     np.testing.assert_allclose(result.array("guide.displacement")[-1], 0.08 * slope - sunk, atol=1e-8)
+
+
+def test_four_falls_raise_the_hook_by_a_quarter_of_what_the_drum_winds_up():
+    """At rest again each fall has a quarter of the weight, by which the rope is stretched."""
+    machine = nivel.load(rigid_example("mobile-crane"), {"drivers.turn.value": "0*time", "simulation.duration": 9})
+    result = machine.simulate()
+    tension = (3000 + 120) * 9.81 / 4
+    assert result.array("force.rope.magnitude")[-1] == pytest.approx(tension, rel=1e-5)
+    rise = np.ptp(result.array("block.position.z")[[0, -1]])
+    assert rise == pytest.approx((4.0 - tension / 600e3) / 4, abs=1e-6)

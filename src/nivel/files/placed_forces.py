@@ -144,6 +144,8 @@ def _contact(force: Contact, scene: Scene) -> Changes:
 
 def _rope(force: Rope, scene: Scene) -> Changes:
     changes = _varied(force, scene, "speed")
+    if force.axis is not None:  # the sense in which the rope runs around it is kept
+        changes["axis"] = scene.placement.turning(force.axis)
     if force.markers is not None:
         return {"markers": tuple(scene.end(each) for each in force.markers), **changes}
     return {"points": tuple(scene.placement.point(point) for point in force.points or ()), **changes}

@@ -8,24 +8,25 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Damping, Stiffness
+from nivel.machine.core.coefficient import Damping, NotNegativeNumber, Stiffness
 from nivel.machine.core.marker import ManyMarkers, Marker
 from nivel.machine.core.record import BodyName
 from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.given import Field, ManyNames, ManyPlaces, Maybe
+from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, TwoNumbers
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.quantity import Position, PositiveLength, listed
+from nivel.machine.units.quantity import Direction, Length, Position, PositiveLength, listed
 
 Speed = Annotated[OneFunction, varying("velocity")]
 
 
 class Rope(ForceElement):
-    """A massless rope from the first point over pulleys at those between to the last, straight from one to the next.
+    """A massless rope from the first point over pulleys at those between to the last, straight from one to the next, and around wheels
+    where these have `radii`.
 
     Its tension is stiffness · (s - length) + damping · (ṡ - speed), s being the way along the points; it never pushes. With a `speed`
     its first end is on a winch: the unstressed length is a state, which begins at `length` and changes by the speed.
-    Pulleys have no friction and no radius.
+    Pulleys have no friction. An end with a radius is a drum, on which the rope is fixed and `wound`.
     """
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch")
@@ -43,7 +44,21 @@ class Rope(ForceElement):
     )
     stiffness: Stiffness = Field(description="of the whole rope")
     damping: Damping = Field(default=0.0, description="of the whole rope")
-    length: PositiveLength = Field(description="unstressed, at the start")
+    length: Maybe[PositiveLength] = Field(
+        default=None, description="unstressed, at the start", absent="the way as placed, of a rope with `radii`"
+    )
+    radii: Annotated[Maybe[ManyNumbers[Length]], BeforeValidator(listed)] = Field(
+        default=None,
+        description="of the wheels at the points, 0 for none: positive where the rope runs right-handed about `axis`, else negative",
+    )
+    axis: Maybe[Direction] = Field(
+        default=None,
+        description="of all wheels; global, as placed; with `markers` by default the z axis of the first one that has a radius",
+    )
+    wound: Annotated[Maybe[TwoNumbers[NotNegativeNumber]], BeforeValidator(listed)] = Field(
+        default=None,
+        description="turns on the drums at the first and the last end, as placed; the rope is fixed behind them",
+    )
     speed: Maybe[Speed] = Field(default=None, description="by which a winch pays rope out, negative: hauls it in")
 
     @property
@@ -56,6 +71,9 @@ class Rope(ForceElement):
         return tuple(GlobalPoint(body, point) for body, point in zip(self.bodies, self.points, strict=True))
 
     def problems(self) -> Iterator[Problem]:
+        if self.length is None and self.radii is None:
+            yield Problem((), "`length` is missing: the unstressed length of the rope")
+        yield from self._problems_of_wheels()
         if self.markers is not None:
             for name in ("bodies", "points"):
                 if getattr(self, name) is not None:
@@ -72,6 +90,23 @@ class Rope(ForceElement):
             yield Problem(("points",), message)
         else:
             yield from self._problems_of_way("points", tuple(zip(self.bodies, self.points, strict=True)))
+
+    def _problems_of_wheels(self) -> Iterator[Problem]:
+        if self.radii is None:
+            for name in ("axis", "wound"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "belongs to `radii`, one for each point")
+            return
+        count = len(self.markers or self.points or ())
+        if len(self.radii) != count:
+            yield Problem(("radii",), f"one radius for each point is needed, 0 for a point; there are {count} points")
+        elif not any(self.radii):
+            yield superfluous("radii", "are all zero: such a rope runs from point to point")
+        if self.markers is None and self.axis is None:
+            yield Problem((), "`axis` is missing: the direction of the axes of the wheels, e.g. `axis: [0, 1, 0]`")
+        for end, turns in enumerate(self.wound or ()):
+            if turns and not self.radii[-end]:
+                yield Problem(("wound", end), "at this end there is no drum; give its radius in `radii`, or 0 turns")
 
     def _problems_of_way(self, name: str, way: tuple[object, ...]) -> Iterator[Problem]:
         if len(way) < 2:

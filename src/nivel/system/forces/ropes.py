@@ -1,34 +1,138 @@
-"""Ropes in numbers: distances from marker to marker, and the unstressed length, a state where there is a winch."""
+"""Ropes in numbers: distances from marker to marker or ways around wheels, and the unstressed length, a state where there is a winch."""
 
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 
+import numpy as np
+
+from nivel.errors import Fault, ModelError
 from nivel.kernels.bodies.coordinate import DISTANCE
-from nivel.kernels.forces.rope import apply
+from nivel.kernels.forces import rope as straight
+from nivel.kernels.forces import wound_rope
+from nivel.kernels.forces.wound_rope import WIDTH, tangent
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Rope
+from nivel.machine.forces.between import GlobalPoint
+from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
+from nivel.system.joints.interfaces import marker_place
+from nivel.system.joints.joint_frames import Placed, seen_from
 from nivel.system.signals.state_facts import StateFact
+from nivel.system.tables import Array
 
 
 def add(builder: SystemBuilder, rope: Rope) -> None:
     """A rope."""
+    if rope.radii is not None:
+        _add_wound(builder, rope, rope.radii)
+        return
+    assert rope.length is not None  # the record was checked
     markers = [builder.end(end) for end in rope.ends]
     distances = [
         builder.coordinates.use(builder.coordinates.add(DISTANCE, i, j)) for i, j in itertools.pairwise(markers)
     ]
+    columns = [*_numbered(builder, rope, rope.length), len(distances), *distances]
+    numbers = [rope.stiffness, rope.damping, rope.length]
+    builder.elements.add(straight.apply, columns, numbers, memory=1, surfaces=(0,))
+
+
+def _numbered(builder: SystemBuilder, rope: Rope, unstressed: float) -> tuple[int, int, int]:
+    """The first output, the state of the length and the function of the winch's speed, or NONE."""
     first = force_outputs(builder, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
-    length = speed = NONE
-    if rope.speed is not None:
-        fact = StateFact(
-            f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length
-        )
-        length, speed = builder.own_state(fact), builder.function(rope.speed)
-    columns = [first, length, speed, len(distances), *distances]
-    builder.elements.add(apply, columns, [rope.stiffness, rope.damping, rope.length], memory=1, surfaces=(0,))
+    if rope.speed is None:
+        return first, NONE, NONE
+    fact = StateFact(f"{rope.name}.length", "m", f"unstressed length of {rope.name}", unstressed, scale=unstressed)
+    return first, builder.own_state(fact), builder.function(rope.speed)
 
 
-KINDS = (ForceKind(Rope, add, (apply,)),)
+def _add_wound(builder: SystemBuilder, rope: Rope, radii: tuple[float, ...]) -> None:
+    """A rope around wheels."""
+    machine = builder.machine
+    way = way_as_placed(machine, rope, radii)
+    # all markers have the axes of the wheels as placed
+    markers = [builder.place(seen_from(machine, body, centre, way.axes)) for body, centre in way.places]
+    carrier = markers[next(k for k, radius in enumerate(radii) if radius)]
+    unstressed = way.length if rope.length is None else rope.length
+    numbers = [rope.stiffness, rope.damping, unstressed]
+    for radius, arc, fixed in zip(radii, way.arcs, way.fixed, strict=True):
+        numbers += [radius, arc, fixed, *[0.0] * (WIDTH - 3)]
+    columns = [*_numbered(builder, rope, unstressed), len(markers), carrier, *markers]
+    builder.elements.add(wound_rope.apply, columns, numbers, memory=1 + len(markers), surfaces=(0,))
+
+
+@dataclass(frozen=True)
+class Way:
+    """The way of a rope around wheels as its bodies are placed.
+
+    axes (3, 3) : global, z along those of the wheels. places : body and centre (3,) of each. arcs [rad], fixed [rad] : of each place, the
+    latter the direction in which the rope is fixed on a drum. length [m] : in all.
+    """
+
+    axes: Array
+    places: list[tuple[str, Array]]
+    arcs: list[float]
+    fixed: list[float]
+    length: float
+
+
+def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> Way:
+    """The way of a rope. Raises ModelError where wheels lie in each other, or axes of markers differ from those of the wheels."""
+    placed = [_global(machine, rope, k) for k in range(len(radii))]
+    axis = np.array(rope.axis, dtype=float) if rope.axis is not None else placed[_first_wheel(radii)][2][:, 2]
+    axis = axis / np.linalg.norm(axis)
+    axes = _with_z(axis)
+    centres = [axes.T @ centre for _, centre, _ in placed]
+    parts = []
+    for k, (a, b) in enumerate(itertools.pairwise(centres)):
+        rho = radii[k + 1] - radii[k]
+        d = b - a
+        if not np.hypot(d[0], d[1]) > abs(rho):
+            raise ModelError(Fault("", 0, 0, f"forces.{rope.name}", _inside(rope, k)))
+        length, ux, uy = tangent(d[0], d[1], rho)
+        parts.append((float(np.hypot(length, d[2])), complex(ux, uy)))
+    arcs, fixed = [0.0] * len(radii), [0.0] * len(radii)
+    for k in range(1, len(radii) - 1):
+        turned = float(np.angle(parts[k][1] / parts[k - 1][1])) * np.sign(radii[k])
+        # from a quarter turn short of touching to what is left of a whole one
+        arcs[k] = (turned + 0.5 * np.pi) % (2.0 * np.pi) - 0.5 * np.pi if radii[k] else 0.0
+    for k, turns in zip((0, -1), rope.wound or (0.0, 0.0), strict=True):
+        if radii[k]:
+            sign, arcs[k] = np.sign(radii[k]), 2.0 * np.pi * turns
+            touched = float(np.angle(-1j * sign * parts[k][1]))
+            fixed[k] = touched + (-sign if k == 0 else sign) * arcs[k]
+    length = sum(part for part, _ in parts) + sum(abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True))
+    return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length)
+
+
+def _first_wheel(radii: tuple[float, ...]) -> int:
+    return next(k for k, radius in enumerate(radii) if radius)
+
+
+def _inside(rope: Rope, k: int) -> str:
+    return f"the wheels at points {k + 1} and {k + 2} of {rope.name} lie in each other, seen along their axis: no rope runs between them"
+
+
+def _global(machine: MachineRecord, rope: Rope, k: int) -> Placed:
+    """Body, global point (3,) and global axes (3, 3) of a place as its body is placed."""
+    end = rope.ends[k]
+    if isinstance(end, GlobalPoint):
+        return end.body, np.array(end.point, dtype=float), np.eye(3)
+    body, point, axes = marker_place(machine, machine.marker_named[end] if isinstance(end, str) else end)
+    if body == "ground":
+        return body, point, axes
+    position, A = machine.placed[body]
+    return body, position + A @ point, A @ axes
+
+
+def _with_z(axis: Array) -> Array:
+    """Axes (3, 3) of which z is `axis` (3,), a unit vector."""
+    x = np.cross(np.eye(3)[int(np.argmin(np.abs(axis)))], axis)
+    x = x / np.linalg.norm(x)
+    return np.column_stack([x, np.cross(axis, x), axis])
+
+
+KINDS = (ForceKind(Rope, add, (straight.apply, wound_rope.apply)),)

@@ -149,6 +149,8 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
             f"{what} takes steps of one length, and {plan.settings.integrator} chooses them; "
             "take --integrator rk4, or --step-control fixed"
         )
+    if named := [block.name for block in plan.machine.control if block.type == "fmu"]:
+        raise refusal(f"the FMU of the block `{named[0]}` cannot go into {what}")
     plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
     loop = _endless(start_loop(prepared, plan.settings))
     entries = tuple(dict.fromkeys(run_entries(plan)))

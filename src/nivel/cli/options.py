@@ -54,7 +54,9 @@ input_option = click.option(
 )
 
 allow_code_option = click.option(
-    "--allow-code", is_flag=True, help="Allow Python functions in the machine file. They run with all your rights."
+    "--allow-code",
+    is_flag=True,
+    help="Allow Python functions and FMUs in the machine file. They run with all your rights.",
 )
 
 force_option = click.option("--force", is_flag=True, help="Overwrite existing files.")

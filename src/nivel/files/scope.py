@@ -18,6 +18,7 @@ from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
 from nivel.files.body_files import place_body_files
 from nivel.files.csv_tables import read_csv_tables
+from nivel.files.fmu_blocks import read_fmu_blocks
 from nivel.files.include import include
 from nivel.files.known import Known
 from nivel.files.mass_file import read_mass_properties
@@ -121,6 +122,7 @@ def _tree_of(
     add_rotors(tree)
     read_meshes(tree, sources)
     read_python_laws(tree, sources)
+    read_fmu_blocks(tree, sources)
     read_csv_tables(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]

@@ -131,6 +131,10 @@ class LiveRun:
 
 
 def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
-    """Assemble the machine. Raises ModelError where it cannot be assembled."""
+    """Assemble the machine. Raises ModelError where it cannot be assembled, or has an FMU, which cannot be reset and restored here."""
+    for block in plan.machine.control:
+        if block.type == "fmu":
+            message = "a machine with an FMU cannot be operated; `nivel run` and `machine.start()` in Python run it"
+            raise ModelError(Fault("", 0, 0, f"control.{block.name}.file", message))
     plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
     return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

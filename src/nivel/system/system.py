@@ -11,6 +11,7 @@ from nivel.kernels.record.record import Control, Record
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout
+from nivel.system.signals.fmus import FmuInstance
 from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import Array, index_array
 
@@ -46,7 +47,7 @@ class System:
     coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
     nodes : of hydraulic circuits.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
-    input_functions : the function of each input.
+    input_functions : the function of each input. fmus : units that its control calls.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
@@ -77,6 +78,7 @@ class System:
     state_map: StateMap | None = None
     modes: tuple[str, ...] = ()
     gradient_sizes: Array = field(default_factory=lambda: np.zeros(0))
+    fmus: tuple[FmuInstance, ...] = ()
 
     @property
     def body_count(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -31,6 +32,7 @@ from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.machine.control.block import Block
+from nivel.machine.control.fmu_output import FmuOutput
 from nivel.machine.control.part import PartFunction
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
@@ -66,6 +68,8 @@ def control_in_words(blocks: Sequence[Block]) -> str:
 def _in_words(function: PartFunction) -> str:
     if isinstance(function, LinearFunction):
         return " + ".join(f"{factor:.6g}*{path}" for factor, path in function.terms)
+    if isinstance(function, FmuOutput):
+        return f"{function.facts.outputs[function.number]} of {Path(function.facts.file).name}"
     assert not isinstance(function, Formula)  # made by the block, not given
     return function_in_words(function)
 

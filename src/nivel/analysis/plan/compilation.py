@@ -17,6 +17,7 @@ from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.control import apply as compute
+from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.machine.hydraulics import Actuator
 from nivel.machine.joints.joint import JOINT_WORDS
@@ -224,6 +225,7 @@ def all_entries() -> list[Entry]:
             read_inputs,
             compute,
             state_rate,
+            fmu_output,
             run_expression,
         ]
     )
@@ -268,6 +270,7 @@ def _families(machine: MachineRecord) -> list[Family]:
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
+    families |= dict.fromkeys([fmu_output] if any(block.type == "fmu" for block in machine.control) else [])
     return [*families, run_expression]
 
 

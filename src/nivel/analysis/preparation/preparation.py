@@ -93,8 +93,8 @@ class Prepared:
     jumping: tuple[str, ...] = ()
 
     def again(self) -> Prepared | None:
-        """The same, not yet run, with records of its own, for a run beside it; None where records point to each other."""
-        if self.motion.twin is not None:
+        """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to FMUs."""
+        if self.motion.twin is not None or self.motion.system.fmus:
             return None
         own = copied(_Records(self.motion.system.record, self.absolute.system.record))
         motion, absolute = (

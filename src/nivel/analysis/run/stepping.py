@@ -41,9 +41,11 @@ from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
+from nivel.kernels.signals.fmu import output
 from nivel.results.frames.occurrence import Occurrence
 from nivel.results.memory import Memory, MemoryContents
 from nivel.results.result import Result
+from nivel.system.signals.fmus import FmuInstance
 from nivel.words.arguments import plain
 from nivel.words.wording import shown, unknown_word
 
@@ -54,16 +56,19 @@ ENDLESS: Final = 2**62  # steps
 class Snapshot:
     """The whole state of a simulation at one moment: what goes on from it repeats the motion to the last bit.
 
-    time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers.
+    time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers. fmus :
+    what its FMUs have saved.
     """
 
     time: float
     machine: str = field(repr=False)
     arrays: tuple[NDArray[Any], ...] = field(repr=False)
+    fmus: tuple[bytes, ...] = field(default=(), repr=False)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write it to a file (NumPy's `.npz`); an existing file is replaced."""
         named = {f"a{k}": array for k, array in enumerate(self.arrays)}
+        named |= {f"f{k}": np.frombuffer(content, dtype=np.uint8) for k, content in enumerate(self.fmus)}
         with Path(path).open("wb") as file:
             np.savez(file, time=self.time, machine=self.machine, **named)  # type: ignore[arg-type]
 
@@ -72,8 +77,9 @@ class Snapshot:
         """Read a file that `save` wrote. Raises ModelError where it is none."""
         try:
             with np.load(path, allow_pickle=False) as data:
-                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 2))
-                return cls(float(data["time"]), str(data["machine"]), arrays)
+                fmus = tuple(data[name].tobytes() for name in data.files if name.startswith("f"))
+                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 2 - len(fmus)))
+                return cls(float(data["time"]), str(data["machine"]), arrays, fmus)
         except (OSError, ValueError, KeyError, EOFError) as error:
             raise ModelError(f"{fspath(path)} is no saved state of a simulation: {error}") from error
 
@@ -287,7 +293,8 @@ class Simulation:
     def state(self) -> Snapshot:
         """This moment, to be restored or saved."""
         self._take_frames()
-        return Snapshot(self.time, self._digest, tuple(array.copy() for array in self._remembered()))
+        arrays = tuple(array.copy() for array in self._remembered())
+        return Snapshot(self.time, self._digest, arrays, tuple(fmu.state() for fmu in self._fmus))
 
     def restore(self, state: Snapshot) -> None:
         """Go back, or on, to a moment of this machine with these settings. Raises ModelError for a state of another one."""
@@ -296,8 +303,13 @@ class Simulation:
         if not isinstance(state, Snapshot) or state.machine != self._digest or not fits:
             raise ModelError("the state is of another machine, or of other settings of the simulation")
         self._take_frames()
+        addresses = self._addresses_of_fmus()
         for array, kept in zip(mine, state.arrays, strict=True):
             array[...] = kept
+        for arguments, places, own in addresses:
+            arguments[places] = own
+        for fmu, content in zip(self._fmus, state.fmus, strict=True):
+            fmu.restore(content)
         self._counter[FRAMES] = 0
         self._memory.forget_after(state.time)
         self._events = [event for event in self._events if event.time <= state.time]
@@ -308,12 +320,27 @@ class Simulation:
         text = write_machine(self._plan.machine) + json.dumps(self._settings.as_dict(), sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
 
+    def _addresses_of_fmus(self) -> list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]:
+        """Arguments of functions, places among them of addresses of records of FMUs, and these: they are no part of a state."""
+        motion = self._prepared.motion
+        if not self._fmus:
+            return []
+        functions = motion.system.record.functions
+        places = functions.span[functions.address == np.uint64(output.address), 3]
+        twin = () if motion.twin is None else (motion.twin.record.functions,)
+        return [(each.arguments, places, each.arguments[places].copy()) for each in (functions, *twin)]
+
+    @property
+    def _fmus(self) -> tuple[FmuInstance, ...]:
+        return self._prepared.motion.system.fmus
+
     def _remembered(self) -> list[NDArray[Any]]:
         """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
         motion = self._prepared.motion
         twin = () if motion.twin is None else _arrays(motion.twin.record)
         run = [array for name, array in self._run._asdict().items() if name != "frames"]
-        every = [*run, *_arrays(motion.system.record), *twin]
+        of_fmus = [array for fmu in self._fmus for array in fmu.arrays]
+        every = [*run, *_arrays(motion.system.record), *twin, *of_fmus]
         return [array for array in every if array.size and array.dtype != np.uint64]
 
     def __repr__(self) -> str:

@@ -20,6 +20,7 @@ from nivel.machine.control.dynamics import (
     StateSpace,
     TransferFunction,
 )
+from nivel.machine.control.fmu import FmuBlock
 from nivel.machine.control.held import Delay, Hysteresis, MovingAverage, RateLimit
 from nivel.machine.control.pid import Pid
 from nivel.machine.control.profile import Trapezoid, Waypoints
@@ -53,6 +54,7 @@ BLOCKS: list[type[Block]] = [
     Trapezoid,
     Waypoints,
     UserBlock,
+    FmuBlock,
 ]
 BLOCK_TYPES: dict[str, type[Block]] = {str(kind.model_fields["type"].default): kind for kind in BLOCKS}
 
@@ -79,6 +81,7 @@ __all__ = [
     "DeadZone",
     "Delay",
     "Derivative",
+    "FmuBlock",
     "Gain",
     "HighPass",
     "Hysteresis",

@@ -1,0 +1,318 @@
+"""FMUs of a machine: unpacked, loaded and instantiated when a run starts, each run with instances of its own."""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import hashlib
+import platform
+import shutil
+import tempfile
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.files.fmu_file import UnitDescription, read_description, unknown_variables, unpack
+from nivel.files.sources import read_bytes
+from nivel.kernels.core.block import Handle
+from nivel.kernels.signals import fmu as kernel
+from nivel.kernels.signals.fmu import Fmu
+from nivel.machine.control.fmu import FmuFacts
+
+MOST_MESSAGES = 20
+# an instance that was freed, or never made
+NOTHING = 0
+
+SYSTEMS = {
+    "Linux": ("linux", "linux64", ".so"),
+    "Windows": ("windows", "win64", ".dll"),
+    "Darwin": ("darwin", "darwin64", ".dylib"),
+}
+MACHINES = {"AMD64": "x86_64", "arm64": "aarch64"}
+
+# functions by FMI 3.0 and 2.0, in the order of `nivel.kernels.signals.fmu`
+CALLED = {
+    3: (
+        "fmi3SetFloat64",
+        "fmi3GetFloat64",
+        "fmi3DoStep",
+        "fmi3EnterInitializationMode",
+        "fmi3EnterInitializationMode",
+        "fmi3ExitInitializationMode",
+    ),
+    2: (
+        "fmi2SetReal",
+        "fmi2GetReal",
+        "fmi2DoStep",
+        "fmi2SetupExperiment",
+        "fmi2EnterInitializationMode",
+        "fmi2ExitInitializationMode",
+    ),
+}
+STATES = {
+    3: (
+        "fmi3GetFMUState",
+        "fmi3SetFMUState",
+        "fmi3FreeFMUState",
+        "fmi3SerializedFMUStateSize",
+        "fmi3SerializeFMUState",
+        "fmi3DeserializeFMUState",
+    ),
+    2: (
+        "fmi2GetFMUstate",
+        "fmi2SetFMUstate",
+        "fmi2FreeFMUstate",
+        "fmi2SerializedFMUstateSize",
+        "fmi2SerializeFMUstate",
+        "fmi2DeSerializeFMUstate",
+    ),
+}
+WORDS = {
+    kernel.OF_START: "could not be initialised",
+    kernel.OF_STEP: "reported an error in its step",
+    kernel.OF_VALUES: "refused a value, or gave none",
+    kernel.NO_NUMBER: "gave an output that is not a number",
+    kernel.ENDS: "asked to end the simulation",
+}
+
+_LOG_3 = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p)
+_LOG_2 = ctypes.CFUNCTYPE(
+    None, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p, ctypes.c_void_p
+)
+
+
+class _Callbacks2(ctypes.Structure):
+    _fields_ = (
+        ("logger", ctypes.c_void_p),
+        ("allocate", ctypes.c_void_p),
+        ("release", ctypes.c_void_p),
+        ("finished", ctypes.c_void_p),
+        ("environment", ctypes.c_void_p),
+    )
+
+
+class FmuInstance:
+    """The unit of a block as a machine in numbers has it. messages : what it has logged."""
+
+    def __init__(self, facts: FmuFacts) -> None:
+        """Raises ModelError where the file is no FMU, or has no such variables."""
+        self.facts = facts
+        self.messages: list[str] = []
+        self._content = read_bytes(facts.file)
+        self.description: UnitDescription = read_description(self._content, facts.file)
+        faults = [
+            Fault("", 0, 0, f"control.{facts.block}.{key}", message)
+            for key, message in unknown_variables(
+                self.description, facts.inputs, facts.outputs, [n for n, _ in facts.parameters]
+            )
+        ]
+        if faults:
+            raise ModelError(faults)
+        self._instance, self._library = NOTHING, None
+        self._kept: list[Any] = []
+        self.record = self._record()
+        self.handle = Handle(self.record)
+
+    def _record(self) -> Fmu:
+        variables = self.description.variables
+        references = [
+            np.array([variables[name].reference for name in names], dtype=np.uint32)
+            for names in (self.facts.inputs, self.facts.outputs)
+        ]
+        record = Fmu(
+            address=np.zeros(kernel.ADDRESSES, dtype=np.uint64),
+            number=np.zeros(kernel.NUMBERS, dtype=np.int64),
+            time=np.full(1, -np.inf),
+            inputs=np.zeros(len(references[0])),
+            outputs=np.full(len(references[1]), np.nan),
+            input_references=references[0],
+            output_references=references[1],
+            flags=np.zeros(3, dtype=np.uint32),
+            last=np.zeros(1),
+        )
+        record.address[kernel.INPUTS :] = [
+            array.ctypes.data for array in (record.inputs, record.outputs, *references, record.flags, record.last)
+        ]
+        record.number[kernel.VERSION] = self.description.version
+        return record
+
+    # --- a run ---
+
+    def begin(self) -> None:
+        """A new instance for a run, with the parameters of the block. Raises ModelError where it cannot be had."""
+        self.end()
+        self.messages.clear()
+        folder, library = _loaded(self._content, self.description, self.facts)
+        self._library = library
+        self._instance = self._made(folder)
+        if not self._instance:
+            raise self._fault("could not be instantiated")
+        record, names = self.record, CALLED[self.description.version]
+        record.address[: len(names)] = [
+            ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0 for name in names
+        ]
+        record.address[kernel.INSTANCE] = self._instance
+        record.number[1:] = kernel.MADE, kernel.NONE, 0
+        record.time[0], record.outputs[:] = -np.inf, np.nan
+        self._set_parameters()
+
+    def _made(self, folder: Path) -> int:
+        name, token = self.facts.block.encode(), self.description.token.encode()
+        resources = folder / "resources"
+        if self.description.version == 3:
+            log = _LOG_3(lambda _e, _s, _c, text: self._log(text))
+            make = self._function("fmi3InstantiateCoSimulation", ctypes.c_void_p)
+            self._kept = [log]
+            where = f"{resources}/".encode()
+            return (
+                make(name, token, where, False, False, False, False, None, ctypes.c_size_t(0), None, log, None)
+                or NOTHING
+            )
+        log = _LOG_2(lambda _e, _n, _s, _c, text, more: self._log(_formatted(text, more)))
+        libc: Any = ctypes.CDLL(None) if platform.system() != "Windows" else ctypes.cdll.msvcrt  # type: ignore[attr-defined]
+        addresses = [ctypes.cast(each, ctypes.c_void_p).value for each in (log, libc.calloc, libc.free)]
+        callbacks = _Callbacks2(*addresses, None, None)
+        self._kept = [log, callbacks]
+        make = self._function("fmi2Instantiate", ctypes.c_void_p)
+        return make(name, 1, token, resources.as_uri().encode(), ctypes.byref(callbacks), 0, 0) or NOTHING
+
+    def _log(self, text: bytes | None) -> None:
+        if text and len(self.messages) < MOST_MESSAGES:
+            self.messages.append(text.decode(errors="replace").strip())
+
+    def _set_parameters(self) -> None:
+        count = len(self.facts.parameters)
+        if not count:
+            return
+        variables = self.description.variables
+        references = (ctypes.c_uint32 * count)(*(variables[name].reference for name, _ in self.facts.parameters))
+        values = (ctypes.c_double * count)(*(value for _, value in self.facts.parameters))
+        sizes = (ctypes.c_size_t(count),) if self.description.version == 3 else ()
+        status = self._call(CALLED[self.description.version][0], references, ctypes.c_size_t(count), values, *sizes)
+        if status > kernel.WARNING:
+            raise self._fault("refuses its parameters")
+
+    def end(self) -> None:
+        """Free the instance of the last run."""
+        if self._instance and self._library is not None:
+            self._function(f"fmi{self.description.version}FreeInstance", None)(ctypes.c_void_p(self._instance))
+        self._instance = NOTHING
+        self.record.number[kernel.PHASE] = kernel.ABSENT
+
+    def __del__(self) -> None:
+        if getattr(self, "_instance", NOTHING):
+            self.end()
+
+    @property
+    def failure(self) -> str:
+        """What went wrong in the run, as a sentence without a full stop; empty where nothing did."""
+        fault = int(self.record.number[kernel.FAULT])
+        if not fault:
+            return ""
+        names = [
+            name for name, value in zip(self.facts.outputs, self.record.outputs, strict=True) if not np.isfinite(value)
+        ]
+        which = f" (`{names[0]}`)" if fault == kernel.NO_NUMBER and names else ""
+        said = f": {self.messages[-1]}" if self.messages else ""
+        return f"the FMU of the block {self.facts.block} {WORDS[fault]}{which} at t = {self.record.time[0]:.6g} s{said}"
+
+    # --- states ---
+
+    @property
+    def arrays(self) -> list[Any]:
+        """What a saved state has of it besides what the unit itself saves."""
+        return [self.record.number, self.record.time, self.record.outputs]
+
+    def state(self) -> bytes:
+        """The state of the unit. Raises ModelError where it cannot be read."""
+        if not self.description.keeps_states:
+            raise self._fault("cannot save its state, so there is no state of the simulation")
+        get, _, free, sized, write, _ = STATES[self.description.version]
+        kept, size = ctypes.c_void_p(), ctypes.c_size_t()
+        status = self._call(get, ctypes.byref(kept)) or self._call(sized, kept, ctypes.byref(size))
+        content = ctypes.create_string_buffer(max(1, size.value))
+        status = status or self._call(write, kept, content, size)
+        self._call(free, ctypes.byref(kept))
+        if status > kernel.WARNING:
+            raise self._fault("cannot save its state")
+        return content.raw[: size.value]
+
+    def restore(self, content: bytes) -> None:
+        """Go back to a state. Raises ModelError where the unit refuses it."""
+        _, put, free, _, _, read = STATES[self.description.version]
+        kept = ctypes.c_void_p()
+        status = self._call(read, content, ctypes.c_size_t(len(content)), ctypes.byref(kept)) or self._call(put, kept)
+        self._call(free, ctypes.byref(kept))
+        if status > kernel.WARNING:
+            raise self._fault("refuses a saved state")
+
+    # --- calls ---
+
+    def _function(self, name: str, result: Any) -> Any:
+        return _variadic(self._library, name, result)
+
+    def _call(self, name: str, *arguments: Any) -> int:
+        return _variadic(self._library, name, ctypes.c_int)(ctypes.c_void_p(self._instance), *arguments)
+
+    def _fault(self, what: str) -> ModelError:
+        said = f": {self.messages[-1]}" if self.messages else ""
+        return ModelError(
+            Fault("", 0, 0, f"control.{self.facts.block}.file", f"the FMU `{self.facts.file}` {what}{said}")
+        )
+
+
+def _variadic(library: Any, name: str, result: Any) -> Any:
+    """A function of a library that takes what it is called with."""
+    function = library._FuncPtr((name, library))
+    function.restype = result
+    return function
+
+
+def _formatted(text: bytes | None, more: int | None) -> bytes | None:
+    """A message of FMI 2.0, whose text may be the form of those that follow."""
+    if text == b"%s" and more:
+        return ctypes.string_at(more)
+    return text
+
+
+# --- libraries ---
+
+_folders: dict[str, Path] = {}
+_lock = threading.Lock()
+
+
+def _loaded(content: bytes, description: UnitDescription, facts: FmuFacts) -> tuple[Path, Any]:
+    """The unpacked unit and its library; a folder of its own where there can be one instance in a process only. Raises ModelError."""
+    digest = hashlib.sha256(content).hexdigest()
+    with _lock:
+        folder = None if description.once else _folders.get(digest)
+        if folder is None:
+            folder = Path(tempfile.mkdtemp(prefix="nivel-fmu-"))
+            atexit.register(shutil.rmtree, folder, ignore_errors=True)
+            unpack(content, facts.file, folder)
+            _folders[digest] = folder
+    path = _binary_in(folder, description, facts)
+    try:
+        return folder, ctypes.CDLL(str(path))
+    except OSError as problem:
+        message = (
+            f"the library of the FMU `{facts.file}` cannot be loaded: {str(problem).replace(str(path), path.name)}"
+        )
+        raise ModelError(Fault("", 0, 0, f"control.{facts.block}.file", message)) from None
+
+
+def _binary_in(folder: Path, description: UnitDescription, facts: FmuFacts) -> Path:
+    system, old, suffix = SYSTEMS.get(platform.system(), SYSTEMS["Linux"])
+    machine = MACHINES.get(platform.machine(), platform.machine())
+    names = [f"{machine}-{system}", *([old] if description.version == 2 and machine == "x86_64" else [])]
+    for name in reversed(names):
+        path = folder / "binaries" / name / f"{description.identifier}{suffix}"
+        if path.is_file():
+            return path
+    there = sorted(each.name for each in (folder / "binaries").glob("*")) if (folder / "binaries").is_dir() else []
+    has = f"it has those of {', '.join(there)}" if there else "it has none"
+    message = f"the FMU `{facts.file}` has no binary for {names[-1]}; {has}"
+    raise ModelError(Fault("", 0, 0, f"control.{facts.block}.file", message))

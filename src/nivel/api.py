@@ -286,14 +286,17 @@ class Machine(Model):
         plan = self._plan({})
         build(run_entries(plan), listener)
         with self._faults_in_file():
+            nominal = export(plan, "an FMU", chosen)
+            # with other values it keeps its method, which may follow from them
+            same = self.with_settings({"integrator": nominal.plan.settings.integrator}) if values else self
             return write_unit(
-                export(plan, "an FMU", chosen),
+                nominal,
                 Path(fspath(path)),
                 version=fmi,
                 platforms=systems,
                 values=values,
                 units=units_of(self, paths),
-                vary=lambda changes: export(self.with_values(changes)._plan({}), "an FMU"),
+                vary=lambda changes: export(same.with_values(changes)._plan({}), "an FMU"),
             )
 
     @checked_arguments

@@ -92,22 +92,17 @@ def compile_entries(entries: list[Entry], folder: Path, machine: str) -> None:
             tell(len(names), len(jobs), names[-1])
 
         workers.compile_all(jobs, done)
-
-
-def objects_in(folder: Path) -> list[Path]:
-    """Object files of a folder, as linkers read them."""
-    found = sorted(folder.glob("*.o"))
-    for path in found:
-        if (code := store.read(path)) is not None:
-            path.write_bytes(code)
-    return found
+    for path in folder.rglob("*.o"):  # as linkers read them
+        code = store.read(path)
+        assert code is not None
+        path.write_bytes(code)
 
 
 def link(folder: Path, level: str) -> None:
     """The library of a level."""
     target = shipped.FOLDER / shipped.file_of(level)
     linker = tool("gcc", shipped.LEVELS[level].machine)
-    objects = objects_in(folder / level)
+    objects = sorted((folder / level).glob("*.o"))
     subprocess.run([linker, "-shared", "-o", target, *objects, "-Wl,--no-undefined", "-lm", "-s"], check=True)
     print(f"{target.name}: {target.stat().st_size / 1e6:.1f} MB", flush=True)
 
@@ -118,11 +113,8 @@ def link_unit(folder: Path, system: str) -> None:
         (folder / name).write_bytes(content)
     machine = system.partition("-")[0]
     if system.endswith("windows"):
-        compiler, parts, tables = (
-            PLATFORMS[system].compiler,
-            objects_in(folder / system),
-            {"entries": condition("x86-64-v3")},
-        )
+        compiler, tables = PLATFORMS[system].compiler, {"entries": condition("x86-64-v3")}
+        parts = sorted((folder / system).glob("*.o"))
         (folder / "entries.c").write_text(entries_source("entries", [path.stem for path in parts]), encoding="utf-8")
         parts = [*(path.relative_to(folder) for path in parts), Path("entries.c")]
     else:
@@ -141,7 +133,7 @@ def link_unit(folder: Path, system: str) -> None:
 
 def merged(folder: Path, level: str, table: str, machine: str) -> Path:
     """One object file of all entries of a level, of which only their table is seen from outside: levels have the same symbols."""
-    objects = objects_in(folder / level)
+    objects = sorted((folder / level).glob("*.o"))
     source = folder / f"{table}.c"
     source.write_text(entries_source(table, [path.stem for path in objects]), encoding="utf-8")
     compiled, out = source.with_suffix(".o"), folder / f"{table}_all.o"

@@ -23,7 +23,7 @@ from nivel.analysis.plan.compilation import run_entries
 from nivel.cli import main
 from nivel.demos.catalogue import demo_file
 from nivel.fmu.description import base_unit
-from nivel.native import library, shipped, store
+from nivel.native import library, shipped
 from nivel.native.sources import fingerprint
 
 ROOT = Path(__file__).parents[2]
@@ -449,7 +449,7 @@ def test_the_binary_of_a_wheel_needs_no_compiler(tmp_path, monkeypatch, ball_mac
     for level in levels:
         (tmp_path / level).mkdir()
         for entry in entries:
-            store.write(tmp_path / level / f"{entry.symbol}.o", library.object_code(entry))
+            (tmp_path / level / f"{entry.symbol}.o").write_bytes(library.object_code(entry))
     monkeypatch.setattr(shipped, "FOLDER", tmp_path / "shipped")
     shipped.FOLDER.mkdir()
     shipped_library.link_unit(tmp_path, f"{platform.machine()}-linux")

@@ -37,6 +37,7 @@ WORKSPACE = (
     "bodies.Rddot",
     "bodies.alpha_b",
     "constraints.lam",
+    "friction.force",
     "saddle.",
     "tree.rows.lam",
     "tree.inertia",

@@ -9,6 +9,7 @@ import platform
 import shutil
 import tempfile
 import threading
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -203,7 +204,7 @@ class FmuInstance:
         self.record.number[kernel.PHASE] = kernel.ABSENT
 
     def __del__(self) -> None:
-        if getattr(self, "_instance", NOTHING):
+        with suppress(Exception):  # at the end of the process parts of Python are gone
             self.end()
 
     @property

@@ -237,12 +237,18 @@ class Machine(Model):
 
     @checked_arguments
     def export_c(
-        self, folder: str | PathLike[str], *, select: Sequence[str] | str = (), listener: Listener | None = None
+        self,
+        folder: str | PathLike[str],
+        *,
+        select: Sequence[str] | str = (),
+        platform: str = "",
+        listener: Listener | None = None,
     ) -> Files:
         """Write the machine as a C library: what a run with its settings does step by step, for programs without Python.
 
-        folder : a new one, for header, source, machine code of this processor, an example and a Makefile. select : names of outputs, as
-        of columns of a table; by default sensors, joint coordinates with their rates, and inputs; "*" : every number of a frame.
+        folder : a new one, for header, source, machine code, an example and a Makefile. select : names of outputs, as of columns of a
+        table; by default sensors, joint coordinates with their rates, and inputs; "*" : every number of a frame. platform : the system
+        that it is for, as in `export_fmu`; by default this one.
         Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
         """
         plan = self._plan({})
@@ -250,7 +256,7 @@ class Machine(Model):
         from nivel.c_library.writer import write_c_library
 
         with self._faults_in_file():
-            return write_c_library(plan, Path(folder), (select,) if isinstance(select, str) else select)
+            return write_c_library(plan, Path(folder), (select,) if isinstance(select, str) else select, platform)
 
     @checked_arguments
     def export_fmu(

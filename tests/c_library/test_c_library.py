@@ -4,6 +4,7 @@ import csv
 import ctypes
 import io
 import math
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -238,12 +239,43 @@ def test_a_failure_is_a_sentence_with_the_name_of_what_failed(ball):
     assert message(EVENT_NOT_FINITE) == "stopped at t = 0.1 s: the value of the event root is no longer a number"
 
 
+WINE = shutil.which("wine64") or shutil.which("wine64", path="/usr/lib/wine")
+EMULATED = {
+    "aarch64-linux": ("aarch64-linux-gnu-gcc", [shutil.which("qemu-aarch64"), "-L", "/usr/aarch64-linux-gnu"]),
+    "x86_64-windows": ("x86_64-w64-mingw32-gcc", [WINE]),
+}
+
+
+@pytest.mark.full
+@pytest.mark.compiles
+@pytest.mark.parametrize("platform", EMULATED)
+def test_on_another_system_it_moves_the_same(platform, tmp_path):
+    """By an emulator of the processor, or of Windows."""
+    compiler, emulator = EMULATED[platform]
+    if not (shutil.which(compiler) and emulator[0]):
+        pytest.skip(f"{compiler} and what runs its programs are not installed")
+    machine, printed = nivel.load(EXAMPLES / "mechanisms" / "simple-pendulum.yaml"), []
+    for name, run in ((platform, emulator), ("x86_64-linux", [])):
+        folder = machine.export_c(tmp_path / name, platform=name).folder
+        build(folder, *(["CC=cc", "AR=ar"] if name == "x86_64-linux" else []), "example")
+        program = next(path for path in (folder / "example.exe", folder / "example") if path.exists())
+        own = {**os.environ, "WINEPREFIX": str(tmp_path / "wine"), "WINEDEBUG": "-all"}
+        done = subprocess.run([*run, program], check=True, capture_output=True, text=True, timeout=300, env=own)
+        printed.append(np.array([line.split(",") for line in done.stdout.splitlines()[1:]], dtype=float))
+    assert len(printed[0]) > 1000
+    # the arctangent of Windows rounds otherwise
+    most = 0.0 if platform == "aarch64-linux" else 2.3e-16
+    assert np.abs(printed[0] - printed[1]).max() <= most * np.abs(printed[1]).max()
+
+
 def test_what_a_library_cannot_be_is_refused(tmp_path):
     machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
     with pytest.raises(nivel.ModelError, match=r"steps of one length.*--integrator rk4"):
         machine.with_settings({"integrator": "dopri5"}).export_c(tmp_path / "c")
     with pytest.raises(nivel.ModelError, match="Python laws cannot go into a C library"):
         nivel.load(EXAMPLES / "vehicles" / "python-law.yaml", allow_code=True).export_c(tmp_path / "c")
+    with pytest.raises(nivel.ModelError, match="did you mean `aarch64-linux`"):
+        machine.export_c(tmp_path / "c", platform="aarch64")
     assert not (tmp_path / "c").exists()
     (tmp_path / "c").mkdir()
     with pytest.raises(nivel.ModelError, match="is there already"):

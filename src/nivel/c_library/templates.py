@@ -194,7 +194,7 @@ int main(void) {
 MAKEFILE = Template("""CC = $compiler
 AR = $archiver
 
-all: lib$name.a lib$name.so example
+all: lib$name.a lib$name$suffix example
 
 $name.o: $name.c $name.h nivel_machine.h
 	$$(CC) -O2 -fPIC -c $name.c
@@ -202,7 +202,7 @@ $name.o: $name.c $name.h nivel_machine.h
 lib$name.a: $name.o
 	$$(AR) rcs $$@ $name.o kernels/*.o
 
-lib$name.so: $name.o
+lib$name$suffix: $name.o
 	$$(CC) -shared -o $$@ $name.o kernels/*.o -lm -Wl,--no-undefined
 
 example: example.c lib$name.a

@@ -14,8 +14,8 @@ import nivel
 from nivel.analysis.plan.plan import Plan
 from nivel.c_library.exported import Exported, export, refusal
 from nivel.c_library.image import LINE
+from nivel.c_library.platforms import PLATFORMS, known_platform, object_codes, this_platform
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
-from nivel.native import library
 from nivel.native.entry import Entry
 from nivel.native.workers import CompilationError
 
@@ -36,25 +36,31 @@ class Files:
     verified: bool = False
 
 
-def write_c_library(plan: Plan, folder: Path, select: Sequence[str] = ()) -> Files:
-    """Write the library of a run with a fixed step into a new folder. select : see `export`.
+def write_c_library(plan: Plan, folder: Path, select: Sequence[str] = (), platform: str = "") -> Files:
+    """Write the library of a run with a fixed step into a new folder. select : see `export`. platform : what it is for; empty: this one.
 
     Raises ModelError where the integrator chooses its steps, a Python law takes part, or the folder is there already.
     """
+    system = known_platform(platform)
     machine = export(plan, "a C library", select)
     try:
         folder.mkdir(parents=True)
     except FileExistsError:
         raise refusal(f"{folder} is there already; name another folder") from None
-    _write(folder, machine)
-    _write_machine_code(folder / "kernels", machine.used)
+    _write(folder, machine, system)
+    _write_machine_code(folder / "kernels", machine.used, system)
     outputs, inputs = (tuple(each.name for each in part) for part in (machine.outputs, machine.inputs))
     return Files(folder, machine.identifier, outputs, inputs, machine.size)
 
 
-def _write(folder: Path, machine: Exported) -> None:
-    name = machine.identifier
-    values = {**_texts(machine), "inputs_declared": "", "inputs_defined": ""}
+def _write(folder: Path, machine: Exported, system: str) -> None:
+    name, here, chosen = machine.identifier, system == this_platform(), PLATFORMS[system]
+    tools = {
+        "compiler": "cc" if here else chosen.compiler,
+        "archiver": "ar" if here else chosen.compiler.replace("gcc", "ar"),
+        "suffix": chosen.suffix,
+    }
+    values = {**_texts(machine), **tools, "inputs_declared": "", "inputs_defined": ""}
     if machine.inputs:
         values["inputs_declared"] = INPUTS_DECLARED.substitute(values)
         values["inputs_defined"] = INPUTS.substitute(values)
@@ -80,8 +86,6 @@ def _texts(machine: Exported) -> dict[str, Any]:
         "size": machine.size,
         "alignment": LINE,
         "step": repr(machine.plan.settings.step),
-        "compiler": "cc",
-        "archiver": "ar",
         "failures": "\n".join(
             f"  {name.upper()}_{failure.status.name} = {failure.status.value}, "
             f"/* {failure.sentence.replace('{}', '...')} */"
@@ -144,11 +148,11 @@ def _lines(parts: Iterable[str], wide: int = 12) -> str:
     return ",\n".join(", ".join(listed[k : k + wide]) for k in range(0, len(listed), wide))
 
 
-def _write_machine_code(folder: Path, entries: Sequence[Entry]) -> None:
+def _write_machine_code(folder: Path, entries: Sequence[Entry], system: str) -> None:
     folder.mkdir()
     try:
-        for entry in entries:
-            (folder / f"{entry.symbol}.o").write_bytes(library.object_code(entry))
+        for symbol, code in object_codes(entries, system).items():
+            (folder / f"{symbol}.o").write_bytes(code)
     except CompilationError as problem:
         shutil.rmtree(folder.parent)
         raise refusal(f"a C library is made of object files, and {problem}") from None

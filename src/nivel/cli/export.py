@@ -52,7 +52,7 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
     "platforms",
     multiple=True,
     type=click.Choice(["x86_64-linux", "x86_64-windows", "aarch64-linux"]),
-    help="What the FMU runs on; default: this system. May be repeated.",
+    help="What the FMU or C library is for; default: this system. For FMUs it may be repeated.",
 )
 @override_option
 def command(
@@ -79,12 +79,14 @@ def command(
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
     if sum(each is not None for each in (target, folder, unit)) > 1:
         raise click.UsageError("one of --csv, --c and --fmu is written at a time")
-    if unit is None and (fmi or parameters or platforms):
-        raise click.UsageError("--fmi, --parameter and --platform belong to --fmu")
+    if unit is None and (fmi or parameters):
+        raise click.UsageError("--fmi and --parameter belong to --fmu")
+    if platforms and (len(platforms) > 1 if folder is not None else unit is None):
+        raise click.UsageError("--platform belongs to --fmu, or once to --c")
     if folder is not None:
         if force:
             raise click.UsageError("--c takes a machine and a new folder; --force belongs to --csv and --fmu")
-        _write_c_library(source, folder, names, overrides)
+        _write_c_library(source, folder, names, "".join(platforms), overrides)
     elif unit is not None:
         _write_fmu(source, unit, names, int(fmi or 3), parameters, platforms, force, overrides)
     elif overrides:
@@ -93,10 +95,10 @@ def command(
         _write_table(source, target, names, force)
 
 
-def _write_c_library(machine: str, folder: str, select: list[str], overrides: dict[str, str]) -> None:
+def _write_c_library(machine: str, folder: str, select: list[str], platform: str, overrides: dict[str, str]) -> None:
     from nivel.api import load
 
-    written = load(machine, overrides).export_c(folder, select=select)
+    written = load(machine, overrides).export_c(folder, select=select, platform=platform)
     sizes = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine"
     click.echo(
         f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",

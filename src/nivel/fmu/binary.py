@@ -4,51 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import os
-import platform
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
-from typing import NamedTuple
 
 from nivel.c_library.exported import Exported, refusal
-from nivel.native import library, shipped, store
+from nivel.c_library.platforms import PLATFORMS, Platform, object_codes, this_platform
+from nivel.native import shipped, store
 from nivel.native.workers import CompilationError
 
 SOURCES = (("nivel.c_library", "nivel_machine.h"), ("nivel.fmu", "nivel_fmu.c"))
-
-
-class Platform(NamedTuple):
-    """What a binary is for. folders : its names in FMI 3.0 and 2.0. target : what LLVM compiles for; compiler : command of the C compiler,
-    where that is not the one of this system.
-    """
-
-    folders: tuple[str, str]
-    suffix: str
-    target: tuple[str, str, str]
-    compiler: str
-
-
-PLATFORMS = {
-    "x86_64-linux": Platform(
-        ("x86_64-linux", "linux64"), ".so", ("x86-64-v3", "", "x86_64-unknown-linux-gnu"), "x86_64-linux-gnu-gcc"
-    ),
-    "x86_64-windows": Platform(
-        ("x86_64-windows", "win64"), ".dll", ("x86-64-v3", "", "x86_64-w64-windows-gnu"), "x86_64-w64-mingw32-gcc"
-    ),
-    "aarch64-linux": Platform(
-        ("aarch64-linux", "aarch64-linux"), ".so", shipped.LEVELS["armv8-a"].target, "aarch64-linux-gnu-gcc"
-    ),
-}
-HERE = {"Linux": "linux", "Windows": "windows"}
-
-
-def this_platform() -> str:
-    """The name of the platform on which this runs, as FMI has it; one that is not in PLATFORMS has no units."""
-    machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
-    return f"{machine}-{HERE.get(platform.system(), platform.system().lower())}"
 
 
 def binary(machine: Exported, name: str) -> bytes:
@@ -58,11 +26,7 @@ def binary(machine: Exported, name: str) -> bytes:
     here, chosen = name == this_platform(), PLATFORMS[name]
     compiler = _compiler(chosen, here=here)
     try:
-        objects = (
-            {entry.symbol: library.object_code(entry) for entry in machine.used}
-            if here
-            else library.object_codes_for(machine.used, chosen.target)
-        )
+        objects = object_codes(machine.used, name)
     except CompilationError as problem:
         raise refusal(f"an FMU for {name} is made of object files, and {problem}") from None
     sources = {**own_sources(), "entries.c": entries_source("entries", machine.codes).encode()}

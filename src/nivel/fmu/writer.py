@@ -12,12 +12,12 @@ from importlib.resources import files
 from pathlib import Path
 
 from nivel.c_library.exported import Exported, refusal
-from nivel.fmu.binary import PLATFORMS, binary, this_platform
+from nivel.c_library.platforms import PLATFORMS, known_platform
+from nivel.fmu.binary import binary
 from nivel.fmu.data import machine_data
 from nivel.fmu.description import description, variables_of
 from nivel.fmu.formulas import Formulas, Vary, find_formulas
 from nivel.native import shipped
-from nivel.words.wording import unknown_word
 
 VERSIONS = (3, 2)
 # of all files in the archive, so that it depends on their content alone
@@ -50,9 +50,7 @@ def write_unit(
 
     Raises ModelError where a parameter needs an assembly, or a compiler is missing.
     """
-    chosen = tuple(dict.fromkeys(platforms)) or (this_platform(),)
-    if unknown := [each for each in chosen if each not in PLATFORMS]:
-        raise refusal(unknown_word(unknown[0], list(PLATFORMS), "platform of FMUs"))
+    chosen = tuple(dict.fromkeys(known_platform(each) for each in platforms or ("",)))
     found = find_formulas(values, machine, vary) if values else Formulas()
     variables = variables_of(machine, found, units)
     token = _token(machine, found, description(machine, variables, "", version))

@@ -119,6 +119,25 @@ def test_point_masses_do_not_turn():
         assert np.all(result.array("vibration_stiffness") > 0)
 
 
+def test_a_machine_that_is_only_free_as_a_whole_rests_where_it_is_drawn():
+    """Two bodies with a rigid joint between them: six motions without stiffness, none of parts against each other."""
+    weld = {"type": "fixed", "bodies": ["a", "b"], "point": [0.5, 0, 0]}
+    sections = {"bodies": {"a": solid(), "b": solid(position=[1, 0, 0])}, "joints": {"weld": weld}}
+    for coordinates in ("absolute", "relative"):
+        trust = machine(sections).statics(coordinates=coordinates, duration=0).trust
+        (free,) = [item for item in trust.items if item.name == "free"]
+        assert trust.verdict == free.verdict == "amber"
+        assert "nothing holds the machine as a whole in 6 motions" in free.text
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_of_a_free_mechanism_the_motion_of_its_parts_is_named(coordinates):
+    pin = {"type": "revolute", "bodies": ["a", "b"], "point": [0.5, 0, 0], "axis": [0, 0, 1]}
+    sections = {"bodies": {"a": solid(), "b": solid(position=[1, 0, 0])}, "joints": {"pin": pin}}
+    error = failing(sections, "is a mechanism", coordinates=coordinates, duration=0)
+    assert "pin.angle" in f"{error} {error.advice}"
+
+
 # --- failures ---
 
 
@@ -134,7 +153,6 @@ def failing(sections, match, **options):
 @pytest.mark.parametrize(
     ("sections", "names"),
     [
-        ({"bodies": {"stone": solid()}}, "stone, x of its position"),
         ({"bodies": {"b": solid()}, "joints": {"rail": slide("ground", "b")}}, "the joint rail, coordinate rail.displ"),
         (
             {"bodies": {"b": solid(position=[0.5, 0, 0])}, "joints": {"pin": hinge("ground", "b")}},

@@ -218,3 +218,18 @@ def test_steps_and_libraries_say_that_they_are_not_verified(train, tmp_path):
         "Not verified: the library makes single runs with steps of 0.01 s"
         in (written.folder / f"{written.name}.h").read_text()
     )
+
+
+def test_a_disc_whose_velocity_has_the_wrong_sign_is_not_steady_in_words(tmp_path):
+    """A disc in a steady circle; the file has v = -ω × r, which the joint changes into another motion. With the right sign it is judged."""
+    wrong = nivel.load(FAULTS / "disc.yaml").linearise()
+    assert not wrong.steady
+    said = " ".join(wrong.notes)
+    assert "it does not move steadily, disc.y accelerates most, by " in said
+    assert "the given velocity of disc was changed by 0.415 m/s and 0.083 rad/s" in said
+    assert (wrong.trust.verdict, wrong.trust.verified) == ("amber", False)
+    file = tmp_path / "disc.yaml"
+    file.write_text((FAULTS / "disc.yaml").read_text().replace("velocity: [0.2", "velocity: [-0.2"), encoding="utf-8")
+    right = nivel.load(file).linearise()
+    assert right.steady
+    assert (right.trust.light, int(right.structural.sum())) == ("green", 4)

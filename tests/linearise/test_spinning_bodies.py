@@ -139,11 +139,16 @@ def test_a_rounded_steady_circle_is_judged_though_it_is_unstable():
     np.testing.assert_allclose(max(model.eigenvalues.real), np.sqrt(square), rtol=1e-5)
 
 
-@pytest.mark.parametrize(("lean", "turn"), [(0.35, 0.2), (-0.1, 0.3), (0.35, 0.01)])
+@pytest.mark.parametrize(
+    ("lean", "turn"), [(0.35, 0.2), (-0.1, 0.3), (0.35, 0.01), (-0.1, 0.1), (0.01, 0.01), (0.01, 0.03)]
+)
 def test_slow_circles_are_judged(lean, turn):
+    """Heading, spin and the rates of both are zeros, whatever the rolling speed is beside that of turning."""
     machine, square = coin(lean, turn)
     model = machine.linearise()
     assert model.steady
+    assert int(model.structural.sum()) == 4
+    assert model.stable
     np.testing.assert_allclose(max(model.eigenvalues.imag), np.sqrt(-square), rtol=1e-8)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -120,6 +121,8 @@ def linear_model(
         unsteady=linear.unsteady,
         kinks=tuple(bent),
         reached=0.0 if posture is None else posture.t,
+        assembly=json.loads(str(posed.attributes.get("assembly", "{}"))) if posture is None else {},
+        size=instant.system.size,
     )
 
 

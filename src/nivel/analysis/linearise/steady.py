@@ -19,6 +19,8 @@ from nivel.system.system import Array
 REST, BALANCE = 1e-9, 1e-6
 # A may change by this share of the largest entry of a row while the machine turns by one radian, and round-off by this share of all
 SAME, ROUND_OFF = 1e-4, 1e-12
+# changes of an entry by less than this share of the largest of its row are round-off, as of what stays the same
+ROUNDED = 1e-14
 # the machine is looked at again after turns and ways of so many radians and lengths, by steps of this size at most
 LATER, STEP = (0.7, 1.9), 4e-3
 # what grows is not awaited for longer than so many of its time constants: it leaves a steady motion by the last digit that was given
@@ -67,7 +69,7 @@ def drift(motion: MotionEquations, instant: Instant, find: Callable[[float, Arra
         changed = np.maximum(changed, np.abs(later - first))
         if np.any(changed > SAME * speed * last * row + ROUND_OFF * whole):
             return None
-    return np.where(changed > ROUND_OFF * whole, changed, 0.0)
+    return np.where(changed > ROUNDED * row, changed, 0.0)
 
 
 def _times(A: Array, speed: float) -> tuple[float, float]:

@@ -16,8 +16,11 @@ from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.steady import BALANCE, acceleration_of, drift, is_at_rest
 from nivel.analysis.run.prepared_state import Moment
 from nivel.kernels.record.record import NONE
+from nivel.results.trust import number
 from nivel.system.system import Array
 
+# of the square of the largest speed, in lengths of the machine and radians: accelerations that change a motion
+CHANGES = 1e-6
 Found = tuple[Reduction, Array, Array, StateSpace]
 
 
@@ -66,14 +69,29 @@ def judged(
         if changed is not None:
             return Judged(*found, True, (), tuple(frames.notes()), changed)
     found = equations(Frames())
-    spinning = instant.place[instant.free[found[0].selected], 1] != NONE
-    hint = (
-        "where a body spins, measure it by joint coordinates: --coordinates relative"
-        if np.any(spinning)
-        else "A, B, C and D hold at this moment alone"
+    return Judged(*found, True, (_unsteady(instant, found[0]),))
+
+
+def _unsteady(instant: Instant, reduction: Reduction) -> str:
+    """Why a moving machine has no eigenvalues: what of its motion changes, as seen from axes that turn as steadily as they can."""
+    own = instant
+    own.value()
+    v, vdot = own.y[own.positions : own.first_state][own.free], own.vdot[own.free]
+    frames = candidates(own)[0]
+    turned = frames.at(own)
+    rate = vdot if turned is None else turned.turn @ vdot + turned.rate @ (turned.turn @ v)
+    length = own.length[own.free]
+    size, speed = np.abs(rate / length), float(np.max(np.abs(v / length), initial=0.0))
+    said = "A changes while the machine moves, so its eigenvalues describe no motion"
+    worst = int(np.argmax(size)) if len(size) else 0
+    if len(size) and size[worst] > CHANGES * speed**2:
+        name, unit = velocity_names(own.system)[own.free[worst]]
+        return f"{said}: it does not move steadily, {name} accelerates most, by {number(abs(float(rate[worst])))} {unit}/s²"
+    if np.any(own.place[own.free[reduction.selected], 1] != NONE) and not frames.bodies:
+        return f"{said}: where a body spins, measure it by joint coordinates: --coordinates relative"
+    return (
+        f"{said}: its speeds stay, but its equations change with its position; A, B, C and D hold at this moment alone"
     )
-    note = f"A changes while the machine moves, so its eigenvalues describe no motion: {hint}"
-    return Judged(*found, True, (note,))
 
 
 def coordinate_signs(catalogue: Catalogue, instant: Instant) -> Array:

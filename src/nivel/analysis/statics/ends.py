@@ -9,18 +9,27 @@ from nivel.analysis.statics.labels import direction_in_words, worst_row
 from nivel.analysis.statics.linear import PivotError
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
+from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.search import MOVES_ON
 from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, softest
 from nivel.analysis.statics.zero_stiffness import loose_coordinates
 
 # Forces left over that are this share of the loads are no reason to go on.
 IMPLICIT_ACCELERATIONS = 1e-6
+# (message, advice) of a machine that nothing holds, whose loads move its parts against each other
+FREE_UNDER_LOAD = (
+    "nothing holds the machine as a whole, so its place under its loads is not determined",
+    "Hold one of its bodies, by a joint or a driver: where the loads balance each other that bears nothing.",
+)
 HOLD = "Hold that motion by a joint, a spring, a driver, or a load that brings it back."
 
 
 def without_stiffness(equations: StaticEquations, state: Rest, loose: Softest) -> tuple[str, str]:
     """(message, advice) where the machine can move without any resistance from an equilibrium."""
-    words = direction_in_words(equations, loose.direction)
+    whole = of_whole(equations, state, equations.tangent(state))
+    if whole.alone:
+        return FREE_UNDER_LOAD
+    words = direction_in_words(equations, loose.direction if whole.inner is None else whole.inner)
     message = f"the machine is a mechanism: a motion has no stiffness, in which most moves: {words}"
     coordinates = loose_coordinates(equations, state)
     if not coordinates:
@@ -74,6 +83,8 @@ def path_ended(
         message += f"; worst is {worst_row(equations, r, C)}"
     except (StateError, ValueError):
         pass
+    if of_whole(equations, last.state, last.found.tangent).alone:
+        return f"stopped at t = {t:.9g} s: {FREE_UNDER_LOAD[0]}", FREE_UNDER_LOAD[1]
     loose = softest(last.found.tangent)
     if loose is not None and loose.share < 1e-4:
         message += f"; softest is a motion in which most moves: {direction_in_words(equations, loose.direction)}"

@@ -29,6 +29,7 @@ from nivel.analysis.statics.linear import PivotError, has_potential, lowest, uns
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction, refuse_with_states
+from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
@@ -88,6 +89,7 @@ class Walk:
     critical: list[CriticalPoint] = field(default_factory=list)
     iterations: int = 0
     rigid: int = 0
+    free_motions: int = 0
     without_potential: bool = False
     outcome: str = "done"
     ended: tuple[str, str] | None = None
@@ -281,8 +283,11 @@ def _follow(
     loose = None if equations.states_move else softest(found.tangent)
     as_drawn = found.iterations == 0 and not settings.duration
     if loose is not None and is_mechanism(loose) and not (settings.modes and as_drawn):
-        walk.outcome, walk.ended = "failed", without_stiffness(equations, found.state, loose)
-        return
+        whole = of_whole(equations, found.state, found.tangent)
+        if not whole.alone:
+            walk.outcome, walk.ended = "failed", without_stiffness(equations, found.state, loose)
+            return
+        walk.free_motions = whole.motions
     equations.follow(found.state)
     first = Point(found, 0.0)
     yield first
@@ -402,6 +407,7 @@ def _close(
         critical=tuple((each.kind, each.t, None if each.found is not None else each.between) for each in walk.critical),
         at_rest=at_rest(machine),
         rigid=walk.rigid,
+        free_motions=walk.free_motions,
         without_potential=walk.without_potential,
         elements=elements,
     )

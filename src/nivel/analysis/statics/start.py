@@ -15,6 +15,7 @@ from nivel.analysis.statics.equations import StateError
 from nivel.analysis.statics.free_coordinates import refuse_moving
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.refusals import for_statics
+from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
@@ -83,7 +84,8 @@ def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
     except StateError:
         raise SolveError("the forces at t = 0 are not numbers", time=0.0, advice="Look at their laws.") from None
     loose = None if equations.states_move else softest(found.tangent)
-    if loose is not None and is_mechanism(loose):
+    free = loose is not None and is_mechanism(loose)
+    if loose is not None and free and not of_whole(equations, found.state, found.tangent).alone:
         message, advice = without_stiffness(equations, found.state, loose)
         raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice)
     equations.follow(found.state)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -116,6 +118,11 @@ class Run(Motion, Computed):
     estimate: Estimate | None = None
     elements: Compared | None = None
 
+    @cached_property
+    def assembly(self) -> Mapping[str, Any]:
+        """What the assembly changed of what was given."""
+        return json.loads(str(self.result.attributes.get("assembly", "{}")))
+
     @property
     def finer(self) -> Verified:
         """The second run, for checks that need one."""
@@ -148,11 +155,13 @@ def run_of(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result)
 class Equilibria(Recorded, Computed):
     """States of equilibrium. critical : (kind, t [s], None or the times [s] between which it is where it was not found) of limit and
     bifurcation points, along the path. at_rest : sentences on what makes no force at rest. rigid : vibrations of no frequency.
-    without_potential : some force has none, as one that follows a body. elements : what was found with other elements of beams, or None."""
+    free_motions : rigid ones of the whole machine, which nothing resists. without_potential : some force has none, as one that follows a
+    body. elements : what was found with other elements of beams, or None."""
 
     critical: tuple[tuple[str, float, tuple[float, float] | None], ...] = ()
     at_rest: tuple[str, ...] = ()
     rigid: int = 0
+    free_motions: int = 0
     without_potential: bool = False
     elements: Compared | None = None
 
@@ -223,7 +232,8 @@ class Linearisation(Subject, Computed):
 
     moves : whether the machine moves in this state; unsteady : why it is neither in equilibrium nor in a steady motion, in sentences.
     kinks : of the equations at the state. reached : the time [s] until which the machine was run to it, 0 where it was not.
-    others : the same of the machine with other elements of its beams, or None.
+    assembly : what it changed of what was given; empty after a run. size : of the machine [m]. others : the same of the machine with other
+    elements of its beams, or None.
     """
 
     eigenvalues: NDArray[np.complex128]
@@ -231,7 +241,14 @@ class Linearisation(Subject, Computed):
     unsteady: tuple[str, ...] = ()
     kinks: tuple[Kink, ...] = ()
     reached: float = 0.0
+    assembly: Mapping[str, Any] = field(default_factory=dict)
+    size: float = 1.0
     others: OtherVibrations | None = None
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Size of the machine."""
+        return Scales(self.size, "machine's size")
 
 
 @dataclass(frozen=True)

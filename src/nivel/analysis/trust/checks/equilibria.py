@@ -123,6 +123,15 @@ def look_at_vibrations(subject: Equilibria) -> Remark | None:
     return Remark("vibrations", "amber", f"Vibrations: {said} (green if none)") if subject.rigid else None
 
 
+def look_at_free(subject: Equilibria) -> Remark | None:
+    """Rigid motions of the whole machine, where its vibrations do not tell of them."""
+    if not subject.free_motions or subject.rigid:
+        return None
+    several = "1 motion" if subject.free_motions == 1 else f"{subject.free_motions} motions"
+    said = f"nothing holds the machine as a whole in {several}: it rests where it is drawn, and would anywhere else"
+    return Remark("free", "amber", f"Free: {said} (green if it is held)")
+
+
 def look_at_rest(subject: Equilibria) -> Remark | None:
     """What makes no force at rest."""
     text = f"At rest: {'; '.join(subject.at_rest)} (said, always green)"
@@ -140,5 +149,6 @@ CHECKS = (
     Check("critical", Equilibria, look_at_critical, say_remark, 42, (), "Critical points"),
     Check("potential", Equilibria, look_at_potential, say_remark, 44, (), "Potential"),
     Check("vibrations", Equilibria, look_at_vibrations, say_remark, 46, (), "Vibrations"),
+    Check("free", Equilibria, look_at_free, say_remark, 47, (), "Free as a whole"),
     Check("at_rest", Equilibria, look_at_rest, say_remark, 48, (), "At rest"),
 )

@@ -1,16 +1,14 @@
-"""Start of a run where it is not what was given: positions that were moved to close joints, velocities that were changed to fit them."""
+"""Start, where it is not what was given: positions that were moved to close joints, velocities that were changed to fit them."""
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from nivel.analysis.trust.check import Check
-from nivel.analysis.trust.subject import Run
+from nivel.analysis.trust.subject import Linearisation, Run
 from nivel.machine.bodies.body import Body
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
 
@@ -45,11 +43,13 @@ class Changed:
     share: float
 
 
-def look_for_moves(run: Run) -> Moved | None:
+def look_for_moves(subject: Run | Linearisation) -> Moved | None:
     """The farthest move to close joints; start values of joints and drivers move bodies too, as was asked for."""
-    assembly, size = _assembly(run), run.scales.size
+    assembly, size = subject.assembly, subject.scales.size
     gap, row = assembly.get("gap", 0.0), assembly.get("gap_row", "")
-    if not gap > ROUND_OFF * max(size, 1.0) or row.partition(".")[0] in {driver.name for driver in run.machine.drivers}:
+    if not gap > ROUND_OFF * max(size, 1.0) or row.partition(".")[0] in {
+        driver.name for driver in subject.machine.drivers
+    }:
         return None
     moves = [Moved(name, d, a, max(d / size, a), gap, row) for name, d, a in assembly.get("moved", ())]
     return max(moves, key=lambda each: each.share, default=None)
@@ -62,11 +62,11 @@ def say_moves(found: Moved) -> Item:
     return THRESHOLD.item("start", f"Start: {found.name} was moved by {amount} {why}", found.share, 0.0, found.name)
 
 
-def look_for_changes(run: Run) -> Changed | None:
+def look_for_changes(subject: Run | Linearisation) -> Changed | None:
     """The largest change of a velocity that stands in the machine file."""
-    given = {body.name: _speeds(body) for body in run.machine.bodies}
+    given = {body.name: _speeds(body) for body in subject.machine.bodies}
     found = []
-    for name, velocity, angular in _assembly(run).get("velocity_change", ()):
+    for name, velocity, angular in subject.assembly.get("velocity_change", ()):
         v, w = given.get(name, (0.0, 0.0))
         shares = [change / own for change, own in ((velocity, v), (angular, w)) if own > 0.0]
         if shares:
@@ -81,17 +81,14 @@ def say_changes(found: Changed) -> Item:
     return THRESHOLD.item("start", f"Start: {said}", found.share, 0.0, found.name)
 
 
-def _assembly(run: Run) -> dict[str, Any]:
-    return json.loads(str(run.result.attributes.get("assembly", "{}")))
-
-
 def _speeds(body: Body) -> tuple[float, float]:
     """Magnitudes of the velocity and the angular velocity of a body as given."""
     angular = body.angular_velocity or body.angular_velocity_body or (0.0, 0.0, 0.0)
     return float(np.linalg.norm(body.velocity)), float(np.linalg.norm(angular))
 
 
+OF = (Run, Linearisation)
 CHECKS = (
-    Check("start_moved", Run, look_for_moves, say_moves, 120, (), "Start", THRESHOLD, line="start", quiet=True),
-    Check("start_velocity", Run, look_for_changes, say_changes, 121, (), "Start", THRESHOLD, line="start", quiet=True),
+    Check("start_moved", OF, look_for_moves, say_moves, 120, (), "Start", THRESHOLD, line="start", quiet=True),
+    Check("start_velocity", OF, look_for_changes, say_changes, 121, (), "Start", THRESHOLD, line="start", quiet=True),
 )

@@ -17,7 +17,7 @@ EXAMPLES = FAULTS.parent.parent / "examples"
 
 @pytest.fixture(scope="module")
 def train():
-    return nivel.load(FAULTS / "t6-sweep.yaml")
+    return nivel.load(FAULTS / "t6-sweep.yaml", {"simulation.integrator": "rk4"})
 
 
 def test_a_sweep_without_second_runs_says_that_it_is_not_verified(train):

@@ -55,6 +55,10 @@ def folder(tmp_path_factory):
     archive(folder / "single.fmu", description(once=True), library[3])
     archive(folder / "foreign.fmu", description(), b"", system="x86_64-windows")
     archive(folder / "broken.fmu", description(), b"no library")
+    tied = (
+        description().replace('Token="unit"', 'Token="other"').replace("/><Model", ' needsExecutionTool="true"/><Model')
+    )
+    archive(folder / "tied.fmu", tied, library[3])
     return folder
 
 
@@ -199,6 +203,7 @@ def test_what_is_wrong_with_a_block_is_told_with_its_line(folder, block, said):
     [
         ("foreign.fmu", r"has no binary for x86_64-linux; it has those of x86_64-windows"),
         ("broken.fmu", r"broken.fmu` cannot be loaded"),
+        ("tied.fmu", r"could not be instantiated, and says that it needs the program that made it"),
     ],
 )
 def test_a_unit_that_cannot_be_loaded_is_refused_before_the_run(folder, file, said):

@@ -69,10 +69,6 @@ DEEP = "<a>" * 1000 + "</a>" * 1000
             "offers no co-simulation",
         ),
         (
-            packed([("modelDescription.xml", description().replace("/><Model", ' needsExecutionTool="true"/><Model'))]),
-            "needs the program that made it",
-        ),
-        (
             packed(
                 [("modelDescription.xml", description().replace('modelIdentifier="unit"', 'modelIdentifier="../x"'))]
             ),

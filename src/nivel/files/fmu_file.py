@@ -35,7 +35,7 @@ class UnitVariable:
 @dataclass(frozen=True)
 class UnitDescription:
     """What a unit is. version : of FMI. keeps_states : it can read, set and serialise its state. once : only one instance can be in a
-    process."""
+    process. needs_tool : it runs only where the program that made it is installed."""
 
     file: str
     version: int
@@ -43,6 +43,7 @@ class UnitDescription:
     token: str
     keeps_states: bool
     once: bool
+    needs_tool: bool
     variables: dict[str, UnitVariable] = field(repr=False)
 
 
@@ -152,8 +153,6 @@ def _described(document: Document, file: str) -> UnitDescription:
         raise _fault(
             file, "the FMU offers no co-simulation; one for co-simulation was expected, which brings its solver along"
         )
-    if simulation.get("needsExecutionTool") == "true":
-        raise _fault(file, "the FMU needs the program that made it to run; export it as one that stands alone")
     state = {2: "FMUstate", 3: "FMUState"}[number]
     keeps = [f"canGetAndSet{state}", f"canSerialize{state}"]
     variables = _variables(root, number, document)
@@ -168,6 +167,7 @@ def _described(document: Document, file: str) -> UnitDescription:
         root.get("instantiationToken") or root.get("guid"),
         all(simulation.get(each) == "true" for each in keeps),
         simulation.get("canBeInstantiatedOnlyOncePerProcess") == "true",
+        simulation.get("needsExecutionTool") == "true",
         variables,
     )
 

@@ -150,7 +150,8 @@ class FmuInstance:
         self._library = library
         self._instance = self._made(folder)
         if not self._instance:
-            raise self._fault("could not be instantiated")
+            tool = ", and says that it needs the program that made it" if self.description.needs_tool else ""
+            raise self._fault(f"could not be instantiated{tool}")
         record, names = self.record, CALLED[self.description.version]
         record.address[: len(names)] = [
             ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0 for name in names

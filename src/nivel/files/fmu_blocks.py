@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, Final
 
 from nivel.errors import ModelError
-from nivel.files.fmu_file import read_description, unknown_variables
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources, resolved
 from nivel.files.tree import Path, Tree
@@ -23,6 +22,9 @@ def read_fmu_blocks(tree: Tree, sources: Sources) -> None:
 
 
 def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> None:
+    # archives take some milliseconds to import
+    from nivel.files.fmu_file import read_description, unknown_variables
+
     if EVERY in block:
         if SAMPLE_TIME in block:
             tree.report((*path, EVERY), f"give `{EVERY}` or `{SAMPLE_TIME}`, not both", at_key=True)

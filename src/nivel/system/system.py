@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,11 @@ from nivel.kernels.record.record import Control, Record
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout
-from nivel.system.signals.fmus import FmuInstance
 from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import Array, index_array
+
+if TYPE_CHECKING:
+    from nivel.system.signals.fmus import FmuInstance
 
 
 @dataclass(frozen=True)

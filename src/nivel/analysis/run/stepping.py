@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,9 +45,11 @@ from nivel.kernels.signals.fmu import output
 from nivel.results.frames.occurrence import Occurrence
 from nivel.results.memory import Memory, MemoryContents
 from nivel.results.result import Result
-from nivel.system.signals.fmus import FmuInstance
 from nivel.words.arguments import plain
 from nivel.words.wording import shown, unknown_word
+
+if TYPE_CHECKING:
+    from nivel.system.signals.fmus import FmuInstance
 
 ENDLESS: Final = 2**62  # steps
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,8 +30,10 @@ from nivel.system.laws.program import (
     motion_program,
     switching_program,
 )
-from nivel.system.signals.fmus import FmuInstance
 from nivel.system.tables import Array, index_array
+
+if TYPE_CHECKING:
+    from nivel.system.signals.fmus import FmuInstance
 
 Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.record.function`
 Find = Callable[[str], Signal]
@@ -95,6 +98,8 @@ class FunctionTable:
                 program = expression_program(function, signals)
                 return self._append(CODE, signals, find, address=run.address, program=program)
             case FmuOutput():
+                from nivel.system.signals.fmus import FmuInstance
+
                 fmu = self.fmus.get(function.facts.block) or FmuInstance(function.facts)
                 self.fmus[function.facts.block] = fmu
                 arguments = [float(fmu.handle.address), float(function.number), TIME_SYMBOL, *function.inputs]

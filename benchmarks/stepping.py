@@ -41,6 +41,9 @@ def measure(machine: nivel.Machine) -> None:
         "step, one reading": read,
         "step, two readings": read_twice,
     }
+    state = sim.state
+    ways["state"] = lambda: sim.state
+    ways["restore"] = lambda: sim.restore(state)
     if lever is not None:
         ways["step with an input"] = lambda: sim.step({lever: 0.001})
     best = dict.fromkeys(["compiled loop", *ways], float("inf"))

@@ -1,5 +1,7 @@
 """A simulation that is stepped from Python: the motion of a run, states that are kept and restored, and what a step costs."""
 
+import copy
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +21,14 @@ forces: {drive: {type: motor, coordinate: rail.displacement, effort: push.value}
 events: {far: {when: rail.displacement - 1, direction: rising, stop: true}}
 simulation: {duration: 1 s, step: 1 ms}
 """
+
+
+def nivel_copy(sim):
+    return sim.copy()
+
+
+def pickled(sim):
+    return pickle.loads(pickle.dumps(sim))
 
 
 def cart():
@@ -55,6 +65,18 @@ def test_a_state_that_is_restored_goes_on_as_before(integrator, tmp_path):
     assert other.time == pytest.approx(0.05)
     other.advance(0.05)
     np.testing.assert_array_equal(other["position"], expected)
+
+
+@pytest.mark.parametrize("how", [nivel_copy, copy.copy, pickled], ids=["copy", "copy.copy", "pickle"])
+def test_a_copy_goes_on_by_itself(how):
+    sim = nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml").start()
+    sim.advance(0.05)
+    other = how(sim)
+    assert other.time == sim.time
+    other.advance(0.05)
+    assert sim.time == pytest.approx(0.05)
+    sim.advance(0.05)
+    np.testing.assert_array_equal(other["position"], sim["position"])
 
 
 def test_inputs_act_from_the_step_that_they_are_given_for():

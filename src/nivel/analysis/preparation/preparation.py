@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.assemble import Assembly, assemble
@@ -33,6 +34,7 @@ from nivel.analysis.plan.refusals import (
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
 )
+from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.errors import Fault, ModelError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.kernels.core.arrays import copied
@@ -102,6 +104,17 @@ class Prepared:
             for each, record in zip((self.motion, self.absolute), own, strict=True)
         )
         return replace(self, motion=motion, absolute=absolute)
+
+    def in_one_piece(self) -> tuple[Prepared, NDArray[np.uint8] | None]:
+        """The same with its records in one piece of memory, and that piece; as it is, with none, where records point to each other."""
+        if self.motion.twin is not None:
+            return self, None
+        own, piece = in_one_piece(_Records(self.motion.system.record, self.absolute.system.record))
+        motion, absolute = (
+            replace(each, system=replace(each.system, record=record))
+            for each, record in zip((self.motion, self.absolute), own, strict=True)
+        )
+        return replace(self, motion=motion, absolute=absolute), piece
 
     @property
     def guards_circuits(self) -> bool:

@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import isfinite
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -14,11 +15,12 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.plan.plan import Plan
+from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.bound_entry import BoundEntry
-from nivel.analysis.run.dynamics import BEFORE_A_JAM, failure_of, jam_of, start_loop, taken_events
+from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
@@ -38,10 +40,12 @@ from nivel.integrate.loop.run import (
     Run,
 )
 from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.signals.fmu import output
+from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.occurrence import Occurrence
 from nivel.results.memory import Memory, MemoryContents
 from nivel.results.result import Result
@@ -99,17 +103,40 @@ class Simulation:
         refuse_chosen_steps(plan)
         plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
         self._plan, self._settings = plan, plan.settings
-        self._prepared: Prepared = prepared
-        self._run, self._advance = _endless(self._prepared, plan)
+        self._prepared: Prepared
+        self._prepared, piece = prepared.in_one_piece()
+        loop, own = _endless(self._prepared, plan, whole=piece is not None)
+        self._run: Run = loop.history.record
+        self._advance = BoundEntry(advance, loop.addresses, keep=loop)
+        self._kept = (
+            _remembered(self._prepared, self._run)
+            if piece is None or own is None
+            else [piece, own, *_of_fmus(self._prepared)]
+        )
         self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
         self._step = float(plan.settings.step)
         self._states = _places_of_states(self._prepared, self._run)
         inputs, functions = plan.machine.inputs, self._prepared.motion.system.input_functions
         self._inputs = {each.name: function for each, function in zip(inputs, functions, strict=True)}
         self._ranges = {each.name: each.range for each in inputs}
+        system = self._prepared.motion.system
+        # quicker to read and write than arrays
+        self._kind: Any
+        self._value: Any
+        self._kind, self._value = system.record.functions.kind.data, system.record.functions.value.data
+        self._y: Any
+        self._previous: Any
+        self._y, self._previous = self._run.y.data, self._run.previous.data
+        self._feeds_back = bool(system.record.control.stabilise[:2].any())
         layout = self._prepared.motion.system.layout
         self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
+        motion = self._prepared.motion
+        address = int(motion.handle.address)
+        self._evaluate = BoundEntry(motion.kernels.evaluate, (address, self._run.y, self._run.rate), keep=motion)
+        self._write = BoundEntry(observe, (address, self._run.y, self._frame[0]), keep=motion)
+        self._numbers: Any = self._frame[0].data
+        self._places: dict[str, int] = {}  # of single numbers in the frame
         self._observed = -np.inf
         self._now = Result(MemoryContents(self._header, self._frame, dict(self._header.attributes)))
         self._views: dict[str, NDArray[np.float64]] = {}
@@ -185,22 +212,23 @@ class Simulation:
         if not isinstance(inputs, Mapping):
             said = f"values by name were expected, {{'push': 200}}, got {shown(inputs)}; how long a step is says the machine"
             raise ModelError(Fault("", 0, 0, "inputs", said))
-        changed = False
+        changed, kinds, values = False, self._kind, self._value
         for name, value in inputs.items():
             number = self._checked(name, value)
-            if name in self._inputs:
-                functions, place = self._prepared.motion.system.record.functions, self._inputs[name]
-                changed |= functions.kind[place] != CONSTANT or functions.value[place] != number
-                functions.kind[place], functions.value[place] = CONSTANT, number
-            elif self._run.y[self._states[name]] != number:
+            place = self._inputs.get(name)
+            if place is None:
                 place = self._states[name]
-                self._run.y[place] = self._run.previous[place] = number
+                if self._y[place] != number:
+                    self._y[place] = self._previous[place] = number
+                    changed = True
+            elif kinds[place] != CONSTANT or values[place] != number:
+                kinds[place], values[place] = CONSTANT, number
                 changed = True
         if changed:
             self._counter[RESTART] = 1
             self._observed = -np.inf
-            motion = self._prepared.motion
-            status = motion.kernels.evaluate(motion.handle.address, self.time, self._run.y, self._run.rate)
+            self._evaluate.number.value = self._clock[TIME]
+            status = self._evaluate()
             if status != OK:
                 self._fail(status)
 
@@ -209,8 +237,8 @@ class Simulation:
         if name not in self._inputs and name not in self._states:
             known = [*self._inputs, *self._states]
             raise ModelError(Fault("", 0, 0, "inputs", unknown_word(str(name), known, "input or state")))
-        number = plain(value)
-        if not isinstance(number, int | float) or not np.isfinite(number):
+        number = value if type(value) is float else plain(value)
+        if not isinstance(number, int | float) or not isfinite(number):
             raise ModelError(Fault("", 0, 0, f"inputs.{name}", f"a finite number was expected, got {shown(value)}"))
         if name in self._ranges and not self._ranges[name][0] <= number <= self._ranges[name][1]:
             low, high = self._ranges[name]
@@ -224,11 +252,18 @@ class Simulation:
         """The present value of `name`: a number, or an array of its components. Names and units are those of results."""
         if name == "time":
             return self.time
+        if self._observed != self._clock[TIME]:
+            self._observe()
+        place = self._places.get(name)
+        if place is not None:
+            return self._numbers[place]
         view = self._views.get(name)
         if view is None:
             view = self._views[name] = self._view(name)
-        self._observe()
-        return view.copy() if view.ndim else float(view)
+            if not view.ndim:
+                self._places[name] = (view.ctypes.data - self._frame.ctypes.data) // view.itemsize
+                return float(view)
+        return view.copy()
 
     def _view(self, name: str) -> NDArray[np.float64]:
         """The numbers of `name` in the frame of the present state."""
@@ -252,18 +287,16 @@ class Simulation:
 
     def _observe(self) -> None:
         """Write the frame of the present state, with accelerations and reactions free of Baumgarte's feedback."""
-        if self._observed == self._clock[TIME]:
-            return
-        motion, run = self._prepared.motion, self._run
-        feedback = motion.system.record.control.stabilise
-        kept = feedback.copy()
-        if kept[:2].any():
+        time = self._clock[TIME]
+        if self._feeds_back:
+            feedback = self._prepared.motion.system.record.control.stabilise
+            kept = feedback.copy()
             feedback[:2] = 0.0
-            motion.evaluate(self.time, run.y)
+            self._prepared.motion.evaluate(time, self._run.y)
             feedback[:] = kept
-        self._frame[0, 0] = self.time
-        observe(motion.handle.address, self.time, run.y, self._frame[0])
-        self._observed = self.time
+        self._numbers[0] = self._write.number.value = time
+        self._write()
+        self._observed = time
 
     @property
     def events(self) -> tuple[Occurrence, ...]:
@@ -295,27 +328,38 @@ class Simulation:
     def state(self) -> Snapshot:
         """This moment, to be restored or saved."""
         self._take_frames()
-        arrays = tuple(array.copy() for array in self._remembered())
+        arrays = tuple(array.copy() for array in self._kept)
         return Snapshot(self.time, self._digest, arrays, tuple(fmu.state() for fmu in self._fmus))
 
     def restore(self, state: Snapshot) -> None:
         """Go back, or on, to a moment of this machine with these settings. Raises ModelError for a state of another one."""
-        mine = self._remembered()
-        fits = [array.shape for array in mine] == [array.shape for array in getattr(state, "arrays", ())]
+        mine, given = self._kept, getattr(state, "arrays", ())
+        fits = len(mine) == len(given) and all(a.shape == b.shape for a, b in zip(mine, given, strict=True))
         if not isinstance(state, Snapshot) or state.machine != self._digest or not fits:
             raise ModelError("the state is of another machine, or of other settings of the simulation")
-        self._take_frames()
+        if self._recorded:
+            self._take_frames()
+            self._memory.forget_after(state.time)
         addresses = self._addresses_of_fmus()
-        for array, kept in zip(mine, state.arrays, strict=True):
+        for array, kept in zip(mine, given, strict=True):
             array[...] = kept
         for arguments, places, own in addresses:
             arguments[places] = own
         for fmu, content in zip(self._fmus, state.fmus, strict=True):
             fmu.restore(content)
         self._counter[FRAMES] = 0
-        self._memory.forget_after(state.time)
-        self._events = [event for event in self._events if event.time <= state.time]
+        if self._events:
+            self._events = [event for event in self._events if event.time <= state.time]
         self._observed = -np.inf
+
+    def copy(self) -> Simulation:
+        """Another one at this moment, which goes on by itself; what was recorded stays with this one."""
+        return _revived(self._plan.machine, str(self._header.attributes["machine_source"]), self._recorded, self.state)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For `pickle` and `copy`: the machine with its settings, and this moment."""
+        source = str(self._header.attributes["machine_source"])
+        return _revived, (self._plan.machine, source, self._recorded, self.state)
 
     @cached_property
     def _digest(self) -> str:
@@ -336,17 +380,15 @@ class Simulation:
     def _fmus(self) -> tuple[FmuInstance, ...]:
         return self._prepared.motion.system.fmus
 
-    def _remembered(self) -> list[NDArray[Any]]:
-        """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
-        motion = self._prepared.motion
-        twin = () if motion.twin is None else _arrays(motion.twin.record)
-        run = [array for name, array in self._run._asdict().items() if name != "frames"]
-        of_fmus = [array for fmu in self._fmus for array in fmu.arrays]
-        every = [*run, *_arrays(motion.system.record), *twin, *of_fmus]
-        return [array for array in every if array.size and array.dtype != np.uint64]
-
     def __repr__(self) -> str:
         return f"<Simulation of {self._plan.machine.name}: t = {self.time:.6g} s, {self.steps} steps of {self._step:g} s, not verified>"
+
+
+def _revived(machine: MachineRecord, source: str, recorded: bool, state: Snapshot) -> Simulation:
+    """A simulation of this machine, with its own settings, at a moment of one."""
+    sim = Simulation(plan_run(machine), source=source, record=recorded)
+    sim.restore(state)
+    return sim
 
 
 def refuse_chosen_steps(plan: Plan) -> None:
@@ -359,12 +401,31 @@ def refuse_chosen_steps(plan: Plan) -> None:
         raise ModelError(Fault("", 0, 0, "integrator", message))
 
 
-def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
-    """A run without an end, and its compiled loop."""
+def _endless(prepared: Prepared, plan: Plan, *, whole: bool) -> tuple[Loop, NDArray[np.uint8] | None]:
+    """The compiled loop of a run without an end; where it is asked for, with all of the run but its frames in one piece of memory, and
+    that."""
     loop = start_loop(prepared, plan.settings)
     run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
-    return run, BoundEntry(advance, loop.addresses, keep=loop)
+    if not whole:
+        return loop, None
+    own, piece = in_one_piece(run._replace(frames=np.zeros((0, 0))))
+    return loop._replace(history=Handle(own._replace(frames=run.frames))), piece
+
+
+def _of_fmus(prepared: Prepared) -> list[NDArray[Any]]:
+    """What is remembered of FMUs but their own memory."""
+    every = [array for fmu in prepared.motion.system.fmus for array in fmu.arrays]
+    return [array for array in every if array.size and array.dtype != np.uint64]
+
+
+def _remembered(prepared: Prepared, run: Run) -> list[NDArray[Any]]:
+    """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
+    motion = prepared.motion
+    twin = () if motion.twin is None else _arrays(motion.twin.record)
+    own = [array for name, array in run._asdict().items() if name != "frames"]
+    every = [*own, *_arrays(motion.system.record), *twin, *_of_fmus(prepared)]
+    return [array for array in every if array.size and array.dtype != np.uint64]
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

@@ -15,7 +15,7 @@ def quantities(trust):
 
 def test_states_that_lag_behind_are_red_and_told_first():
     """a = cos 1000 t, b = -sin 1000 t, by rk4 with steps of 1 ms: wrong by more than their amplitude where no body moves."""
-    result = nivel.load(FAULTS / "t3-states.yaml").simulate(verify=True)
+    result = nivel.load(FAULTS / "t3-states.yaml").simulate(verify=True, integrator="rk4")
     true = max(
         np.abs(result.array("state.a") - np.cos(1000.0 * result.time)).max(),
         np.abs(result.array("state.b") + np.sin(1000.0 * result.time)).max(),
@@ -29,7 +29,7 @@ def test_states_that_lag_behind_are_red_and_told_first():
 
 def test_a_red_line_takes_the_headline_its_small_number():
     """A box that passes through a plate within a step: two runs agree, the energy does not."""
-    trust = nivel.load(FAULTS / "t7-plate.yaml").simulate(verify=True).trust
+    trust = nivel.load(FAULTS / "t7-plate.yaml").simulate(verify=True, integrator="rk4").trust
     assert trust.verdict == "red"
     assert trust.headline.startswith("of unknown error: ")
 

@@ -13,7 +13,7 @@ FAULT = (Path(__file__).parent / "stiff-state.yaml").read_text(encoding="utf-8")
 def run(tmp_path, text, **settings):
     path = tmp_path / "stiff.yaml"
     path.write_text(text, encoding="utf-8")
-    return nivel.load(path).simulate(**settings)
+    return nivel.load(path).simulate(verify=True, **settings)
 
 
 @pytest.mark.parametrize(("integrator", "rate"), [("hht", 2e3), ("generalised-alpha", 2e5), ("newmark", 2e6)])

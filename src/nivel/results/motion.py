@@ -53,14 +53,18 @@ def distance(a: Motion, b: Motion, size: float) -> Peak:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def distances(a: Motion, b: Motion, size: float) -> tuple[Array, Array]:
-    """Times (n,) [s] that both motions have, and how far each body is from itself then (n, bodies), as DEFINITION says."""
+def distances(a: Motion, b: Motion, size: float, levers: Array | float | None = None) -> tuple[Array, Array]:
+    """Times (n,) [s] that both motions have, and how far each body is from itself then (n, bodies), as DEFINITION says.
+
+    levers : (bodies,) [m] that angles are multiplied by, before they are divided by the size too; by default the size itself.
+    """
     first, second = common_frames(a.time, b.time)
     off = np.linalg.norm(a.position[first] - b.position[second], axis=-1) / size
     p, q = a.orientation[first], b.orientation[second]
     # θ and -θ are one orientation; |θ_a - θ_b| = 2 sin(angle/4)
     chord = np.minimum(np.linalg.norm(p - q, axis=-1), np.linalg.norm(p + q, axis=-1))
-    return a.time[first], np.maximum(off, 4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0)))
+    angle = 4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0))
+    return a.time[first], np.maximum(off, angle if levers is None else angle * (np.asarray(levers) / size))
 
 
 def common_frames(a: Array, b: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -302,6 +302,13 @@ def _gyration(body: dict[str, Any]) -> float:
     return float(body.get("radius_of_gyration", 0.0))
 
 
+def levers(result: Readable, size: float) -> Array:
+    """(bodies,) [m] what an angle moves the farthest of a body by: its farthest joint point or centre of mass from its origin, or twice
+    its largest radius of gyration; the `size` of the machine [m] for a body of which neither is known, and at most that."""
+    known = [max(_reach(body), 2.0 * _gyration(body)) for body in bodies(result)]
+    return np.array([min(each, size) if each > 0.0 else size for each in known])
+
+
 def _points_in_space(result: Readable, frames: slice) -> Iterator[Array]:
     """For each body its points (frames, n, 3) in global axes [m]."""
     if "position" not in result.variables:

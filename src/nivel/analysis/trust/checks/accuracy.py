@@ -12,7 +12,7 @@ from nivel.analysis.trust.report import blindness
 from nivel.analysis.trust.subject import Run, Scales
 from nivel.results.motion import Motion, distances
 from nivel.results.peaks import Peak
-from nivel.results.scales import Readable, machine_size
+from nivel.results.scales import Readable, levers, machine_size
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
 
 THRESHOLD = Threshold(
@@ -109,13 +109,13 @@ def error_from_finer(result: Readable, finer: Readable, left: float, rounded: fl
 
     finer : a run with the share `left` of its error, with frames at some of its times, as far as it got. rounded : share of the motion that
     both runs may have wrong because times are rounded.
-    A body is off by the distance of its two origins, or by the angle between its two orientations times the machine's
-    size, whichever is larger: a rotor whose origin rests counts too. No error is less than the round-off of the places, or
+    A body is off by the distance of its two origins, or by the angle between its two orientations times its own reach,
+    whichever is larger: a rotor whose origin rests counts too. No error is less than the round-off of the places, or
     what that of times makes of the longest path.
     """
     size = machine_size(result)[0]
     motion = Motion.of(result)
-    time, apart = distances(motion, Motion.of(finer), size)
+    time, apart = distances(motion, Motion.of(finer), size, levers(result, size))
     if not apart.size:
         return Peak(0.0)
     k, body = np.unravel_index(int(np.argmax(apart)), apart.shape)

@@ -22,7 +22,7 @@ THRESHOLD = Threshold(
 
 @dataclass(frozen=True)
 class OwnError:
-    """The part that is wrong most against its own motion. error and extent of its motion [units]."""
+    """The part that is wrong most against its own motion. error and extent of its motion [units]; of turning up to a radian."""
 
     name: str
     error: float
@@ -35,7 +35,8 @@ class OwnError:
 
 
 def look(run: Run) -> OwnError | None:
-    """Errors of bodies against the extent of their paths, of joint coordinates against their ranges; the largest share."""
+    """Errors of bodies against the extent of their paths and against what they turn by, up to a radian; of joint coordinates against
+    their ranges; the largest share."""
     result, estimate = run.result, run.estimate
     if estimate is None:
         return None
@@ -49,6 +50,15 @@ def look(run: Run) -> OwnError | None:
         names = result.coordinates["body"]
         moving = np.flatnonzero(extent > AT_REST * size)
         found += [OwnError(names[k], float(error[k]), float(extent[k]), "m") for k in moving]
+    if "orientation" in estimate.values:
+        theta = result.array("orientation")
+        # |θ - θ'| = 2 sin(angle/4), with the sign of θ' that is nearer
+        chord = np.sqrt(2.0 * np.maximum(1.0 - np.abs(np.sum(theta * theta[:1], axis=-1)), 0.0))
+        turned = np.max(4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0)), axis=0)
+        error = 2.0 * np.linalg.norm(estimate.at("orientation", time)[0], axis=-1)
+        names = result.coordinates["body"]
+        turning = np.flatnonzero(turned > AT_REST)
+        found += [OwnError(names[k], float(error[k]), min(float(turned[k]), 1.0), "rad") for k in turning]
     if "joint_coordinate" in estimate.values:
         extent = np.ptp(result.array("joint_coordinate"), axis=0)
         error = estimate.at("joint_coordinate", time)[0]

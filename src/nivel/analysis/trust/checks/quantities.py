@@ -44,7 +44,8 @@ class Group:
 @dataclass(frozen=True)
 class QuantityError:
     """The number of a group that is wrong most on its own scale. error : its largest one; mean : their mean magnitude; extent : its
-    range in the run; largest : the largest error of all numbers of the group in these `units`."""
+    range in the run; largest : the largest error of all numbers of the group in these `units`. beams : what the elements of beams make
+    wrong of it is not looked at here."""
 
     quantity: str
     name: str
@@ -53,6 +54,7 @@ class QuantityError:
     extent: float
     units: str
     largest: float
+    beams: bool = False
 
     @property
     def share(self) -> float:
@@ -95,7 +97,12 @@ def say(found: QuantityError) -> Item:
     """How large the errors of a group are, on the scale of each number."""
     its = f"{amount(found.mean, found.units)} on average, {number(found.share)} of its range"
     within = f"{found.quantity} within {amount(found.largest, found.units)}"
-    said = f"Quantities: {within}; worst is {found.name}, {its}"
+    by = (
+        ", by the steps alone: errors of the elements of beams come on top (estimated_error has both)"
+        if found.beams
+        else ""
+    )
+    said = f"Quantities: {within}; worst is {found.name}, {its}{by}"
     return THRESHOLD.item("quantities", said, found.share, row=found.name)
 
 
@@ -104,7 +111,8 @@ def _worst(run: Run, estimate: Estimate, group: Group) -> QuantityError | None:
     if not finite:
         return None
     worst = max(finite, key=lambda each: each.share)
-    return replace(worst, largest=max(each.error for each in finite if each.units == worst.units))
+    largest = max(each.error for each in finite if each.units == worst.units)
+    return replace(worst, largest=largest, beams=bool(run.machine.beams))
 
 
 def group_of(variable: Variable, components: frozenset[str]) -> str:

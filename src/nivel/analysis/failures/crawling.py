@@ -1,31 +1,52 @@
-"""Runs whose steps shrink to nothing where a function of the motion jumps."""
+"""Runs whose steps have become so short that their end is out of reach: where a function of the motion jumps, or it is too fast for them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from nivel.analysis.failures.status import Status
 from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, Run
 
 # A run is looked at after so many steps. It crawls where they were this much shorter than its longest one, and so many are left at least.
 LOOKED_AT, SHORT, LEFT = 10_000, 1e-5, 1e7
+# Its end is out of reach where so many steps are left, at each of so many looks.
+OUT_OF_REACH, OFTEN, TIMES = 1e8, 2_000, 20
 
 
 @dataclass
-class Crawl:
-    """Whether a run of this duration [s] makes next to no way any more."""
+class Pace:
+    """Steps and time [s] of a run when it was looked at last."""
 
-    duration: float
     steps: int = 0
     time: float = 0.0
 
-    def seen(self, run: Run) -> bool:
-        """Called between chunks of steps."""
+    def mean(self, run: Run, least: int) -> float | None:
+        """The mean step [s] since then; None where there were fewer than `least`."""
         steps, time = int(run.counter[DONE_STEPS]), float(run.clock[TIME])
-        if steps - self.steps < LOOKED_AT:
-            return False
+        if steps - self.steps < least:
+            return None
         mean = (time - self.time) / (steps - self.steps)
         self.steps, self.time = steps, time
-        return mean < SHORT * float(run.pace[TAKEN].max()) and self.duration - time > LEFT * mean
+        return mean
+
+
+class Crawl:
+    """Whether a run of this duration [s] makes next to no way any more. jumps : some function jumps with the motion."""
+
+    def __init__(self, duration: float, jumps: bool) -> None:
+        self.duration, self.jumps = duration, jumps
+        self.since, self.often, self.count = Pace(), Pace(), 0
+
+    def seen(self, run: Run) -> Status | None:
+        """Called between chunks of steps; the status with which the run ends, None where it goes on."""
+        left = self.duration - float(run.clock[TIME])
+        mean = self.since.mean(run, LOOKED_AT) if self.jumps else None
+        if mean is not None and mean < SHORT * float(run.pace[TAKEN].max()) and left > LEFT * mean:
+            return Status.CRAWLS
+        mean = self.often.mean(run, OFTEN)
+        if mean is not None:
+            self.count = self.count + 1 if left > OUT_OF_REACH * mean else 0
+        return Status.OUT_OF_REACH if self.count >= TIMES else None
 
 
 def jump_advice(jumping: tuple[str, ...]) -> str:

@@ -26,6 +26,8 @@ from nivel.system.system import Array, System
 NEAR_SINGULAR = 1e-6
 # Integrators that choose their steps, for stiff forces.
 FOR_STIFF = ("radau", "bdf")
+# In place of an integrator, where positions follow from drivers.
+KINEMATICS = "kinematics"
 # A step above this share of the time is not one that became too small to be told from none.
 TINY = 1e-9
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
@@ -99,6 +101,16 @@ def _crawling(stop: Stop) -> Told:
     return f"steps have shrunk to {stop.step:.2g} s, and the end is out of reach", jump_advice(stop.jumping)
 
 
+def _out_of_reach(stop: Stop) -> Told:
+    """Where a motion is so fast, by a slip of a unit or a force without bounds, that no run follows it to the end."""
+    stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != stop.chosen_by)
+    return (
+        f"steps of {stop.step:.2g} s are the longest that meet the tolerance, and the end is out of reach with them",
+        f"Is a unit wrong, of gravity, a mass, a stiffness or a load? Vibrations that do not matter ask for {stiff}. If the motion is meant, "
+        f"take a shorter `duration`.",
+    )
+
+
 def _named(kind: Callable[[System], Sequence[str]], message: str, advice: str) -> Callable[[Stop], Told | None]:
     """What is said of the one among these of a machine that failed, whose name is {name}."""
 
@@ -123,11 +135,20 @@ def _no_step(stop: Stop) -> Told | None:
         Status.NOT_FINITE: "leads to a state of numbers",
         Status.NOT_CONVERGED: "lets the corrector converge",
     }.get(Status(stop.status), "meets the tolerance")
-    message = f"no step from here, down to {stop.step:.2g} s, {reason}; {_worst(stop.motion)}"
+    if stop.chosen_by == KINEMATICS:
+        message = f"no position follows on this one, however short the step; {_worst(stop.motion)}"
+    else:
+        short = f"down to {stop.step:.2g} s" if stop.step > 0.0 else "however short"
+        message = f"no step from here, {short}, {reason}; {_worst(stop.motion)}"
     if singular:
         return message, (
             "The machine is in or near a singular position, where constraints depend on each other: two links in line, or a loop folded "
             "flat? Start the run elsewhere, or move a joint by a small amount so that the machine does not pass through it exactly."
+        )
+    if stop.chosen_by == KINEMATICS:
+        return message, (
+            "Do the drivers ask for a position that the machine does not have, or jumps one of them here? Look at their values near this "
+            "time, or start from another position."
         )
     stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != stop.chosen_by)
     return message, (
@@ -393,6 +414,7 @@ def _worst(motion: MotionEquations) -> str:
 _FIRST: Final = (_broken, _fast_beam)
 FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
     Status.CRAWLS: (_crawling,),
+    Status.OUT_OF_REACH: (_out_of_reach,),
     Status.SINGULAR: (*_FIRST, _met, _no_step, _singular),
     Status.NOT_FINITE: (*_FIRST, _no_step, _not_a_number),
     Status.FRICTION_DIVERGES: (

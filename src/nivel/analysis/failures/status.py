@@ -11,6 +11,7 @@ class Status(IntEnum):
     """How a call of kernels, or a run, ended."""
 
     CRAWLS = -1  # steps have shrunk to nothing where a function jumps
+    OUT_OF_REACH = -2  # steps are so short that there are too many to the end
     OK = of_kernels.OK
     SINGULAR = of_kernels.SINGULAR
     NOT_FINITE = of_kernels.NOT_FINITE

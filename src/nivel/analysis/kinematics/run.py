@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.failures.lockup import find_jam
-from nivel.analysis.failures.outcome import Stop, failure
+from nivel.analysis.failures.outcome import KINEMATICS, Stop, failure
 from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
@@ -148,7 +148,7 @@ def _failure(prepared: Prepared, settings: RunSettings, run: Run, status: int) -
     if jam is not None:
         return jam.message, jam.advice, t
     message, advice = failure(
-        Stop(prepared.motion, status, t, float(run.clock[STEP]), run.previous, chosen_by="kinematics")
+        Stop(prepared.motion, status, t, float(run.clock[STEP]), run.previous, chosen_by=KINEMATICS)
     )
     return message, advice, t
 

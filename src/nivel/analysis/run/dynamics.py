@@ -134,7 +134,7 @@ def march(
     finished = RunOutcome("done")
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
-    crawl = Crawl(settings.duration) if settings.steps == 0 and prepared.jumping else None
+    crawl = Crawl(settings.duration, bool(prepared.jumping)) if settings.steps == 0 else None
     while status in GOES_ON and finished.outcome == "done":
         status, spent = march_in_chunks(
             loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl
@@ -212,8 +212,8 @@ def march_in_chunks(
                 progress(float(run.clock[TIME]))
             if pacing is not None:
                 pacing.after(run)
-            if crawl is not None and status in GOES_ON and crawl.seen(run):
-                status = Status.CRAWLS
+            if crawl is not None and status in GOES_ON:
+                status = crawl.seen(run) or status
             if chunk_steps is None and status == BUDGET_SPENT:
                 budget = _next_budget(budget, spent)
             if status in GOES_ON and interrupted():

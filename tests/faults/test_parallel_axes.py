@@ -122,3 +122,23 @@ def test_axes_that_are_meant_to_differ_are_left_alone():
     assert facts.degrees_of_freedom == 2  # of the rod about its line, too
     axis = next(joint for joint in facts.joints if joint.name == "high").axis
     assert axis[2] == pytest.approx(tilt, rel=1e-4)
+
+
+ANALYSES = {
+    "run": lambda loaded: loaded.simulate(verify=False),
+    "statics": lambda loaded: loaded.statics(),
+    "kinematics": lambda loaded: loaded.kinematics(),
+    "linearise": lambda loaded: loaded.linearise(),
+    "viewer": lambda loaded: loaded.posed(),
+    "mass properties": lambda loaded: loaded.mass_properties(),
+}
+
+
+@pytest.mark.parametrize("analysis", ANALYSES)
+def test_every_analysis_names_it_in_the_same_message(analysis):
+    loaded = nivel.load(FILE, {"joints.jd.axis": [0, 1, 1e-5]})
+    with pytest.raises(ModelError) as caught:
+        ANALYSES[analysis](loaded)
+    (fault,) = caught.value.faults
+    assert fault.path == "joints.jd.axis"
+    assert "axes of ja, jb, jc" in fault.message

@@ -10,6 +10,7 @@ from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
 from nivel.analysis.assembly.driven_start import half_turns, turn_to_targets
 from nivel.analysis.assembly.equations import MotionEquations, change_between
 from nivel.analysis.assembly.lost_directions import refuse_lost_directions
+from nivel.analysis.assembly.tilted_axes import refuse_tilted_axes
 from nivel.analysis.assembly.velocities import ROUND_OFF, consistent_velocities, given_velocities, section_of
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
@@ -46,10 +47,11 @@ class Assembly:
 def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) -> Assembly:
     """Close all joints of `machine` at time t.
 
-    Raises ModelError naming every joint that is open by more than the machine allows as given, every joint row that cannot be closed
+    Raises ModelError naming one axis that is not parallel to others as it must be, or every joint that is open by more than the machine allows as given, every joint row that cannot be closed
     with its gap, start values that cannot be reached, and joints whose axes end up opposite.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # numbers too large end as joints that stay open
+        refuse_tilted_axes(machine, motion)
         return _assemble(machine, motion, t)
 
 

@@ -22,7 +22,6 @@ from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, 
 from nivel.analysis.assembly.modal_rows import modal_rows
 from nivel.analysis.assembly.penalties import penalise
 from nivel.analysis.assembly.redundancy import Redundancy, analyse
-from nivel.analysis.assembly.tilted_axes import refuse_tilted_axes
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.curves.jumping import jumping_functions
 from nivel.analysis.curves.step_limits import allowed_steps
@@ -187,7 +186,6 @@ def _exactly_constrained(
 def _assembled(machine: MachineRecord) -> Assembled:
     """The equations of the machine in absolute coordinates, and its state as assembled."""
     motion = equations(machine)
-    refuse_tilted_axes(machine, motion)
     assembly = assemble(machine, motion)
     refuse_moved_nodes(machine, assembly.moved, motion.system.size)
     refuse_struck_nodes(machine, assembly.velocity_change, *_speeds(motion.system, assembly.y))

@@ -47,8 +47,9 @@ class Assembly:
 def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) -> Assembly:
     """Close all joints of `machine` at time t.
 
-    Raises ModelError naming one axis that is not parallel to others as it must be, or every joint that is open by more than the machine allows as given, every joint row that cannot be closed
-    with its gap, start values that cannot be reached, and joints whose axes end up opposite.
+    Raises ModelError naming an axis that is not parallel to others as it must be, or every joint that is open by more than the machine
+    allows as given, every joint row that cannot be closed with its gap, start values that cannot be reached, and joints whose axes end up
+    opposite.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # numbers too large end as joints that stay open
         refuse_tilted_axes(machine, motion)

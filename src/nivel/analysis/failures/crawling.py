@@ -1,4 +1,4 @@
-"""Runs whose steps have become so short that their end is out of reach: where a function of the motion jumps, or it is too fast for them."""
+"""Runs whose steps have become so short that their end is out of reach: where a function of the motion jumps, or it is too fast."""
 
 from __future__ import annotations
 

@@ -106,8 +106,8 @@ def _out_of_reach(stop: Stop) -> Told:
     stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != stop.chosen_by)
     return (
         f"steps of {stop.step:.2g} s are the longest that meet the tolerance, and the end is out of reach with them",
-        f"Is a unit wrong, of gravity, a mass, a stiffness or a load? Vibrations that do not matter ask for {stiff}. If the motion is meant, "
-        f"take a shorter `duration`.",
+        f"Is a unit wrong, of gravity, a mass, a stiffness or a load? Vibrations that do not matter ask for {stiff}. "
+        f"If the motion is meant, take a shorter `duration`.",
     )
 
 

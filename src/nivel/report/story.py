@@ -41,7 +41,7 @@ VERDICTS: dict[Verdict, str] = {
     "amber": "With care: see what is amber",
     "red": "No: see what is red",
 }
-UNVERIFIED = "Not verified"
+UNVERIFIED, IN_PART = "Not verified", "Verified in part"
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,8 @@ def trusted(trust: Trust) -> Trusted:
     """What a trust report says. Of what was not verified there is no plain yes."""
     lines = trust_lines(trust)
     if trust.light == NOT_VERIFIED:
-        return Trusted(UNVERIFIED, "amber", _breaking(_sentence(_nothing_against(trust))), lines)
+        answer = IN_PART if trust.verified_by else UNVERIFIED
+        return Trusted(answer, "amber", _breaking(_sentence(_nothing_against(trust))), lines)
     return Trusted(VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline)), lines)
 
 

@@ -236,6 +236,50 @@ class Machine(Model):
             )
 
     @checked_arguments
+    def export_mjcf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
+        """Write the rigid part of the machine as a model of MuJoCo, with its meshes in a folder beside `path`.
+
+        Returns the list of what has another form there, and of what was left out. Raises ModelError where bodies or joints cannot be
+        written, and where `path` exists and `force` is false.
+        """
+        from nivel.exchange.mjcf_writer import mjcf
+
+        return self._write_model(mjcf, Path(fspath(path)), "MJCF file", force)
+
+    @checked_arguments
+    def export_urdf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
+        """Write the tree of the machine's rigid bodies as a URDF, with its meshes in a folder beside `path`.
+
+        Returns the list of what has another form there, and of what was left out. Raises ModelError where bodies or joints cannot be
+        written, and where `path` exists and `force` is false.
+        """
+        from nivel.exchange.urdf_writer import urdf
+
+        return self._write_model(urdf, Path(fspath(path)), "URDF", force)
+
+    def _write_model(
+        self,
+        written: Callable[[MachineRecord, str], tuple[str, dict[str, bytes], list[str]]],
+        path: Path,
+        what: str,
+        force: bool,
+    ) -> tuple[str, ...]:
+        from nivel.files.target import check_target
+
+        check_target(path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else [])
+        try:
+            text, meshes, notes = written(self.record, f"{path.stem}-meshes")
+        except ModelError as error:
+            raise ModelError(self.origin.placed(error.faults)) from None
+        for name, content in meshes.items():
+            mesh = path.parent / name
+            mesh.parent.mkdir(exist_ok=True)
+            check_target(mesh, "mesh", force=force)
+            mesh.write_bytes(content)
+        path.write_text(text, encoding="utf-8")
+        return tuple(notes)
+
+    @checked_arguments
     def export_c(
         self,
         folder: str | PathLike[str],

@@ -54,6 +54,30 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
     type=click.Choice(["x86_64-linux", "x86_64-windows", "aarch64-linux"]),
     help="What the FMU or C library is for; default: this system. For FMUs it may be repeated.",
 )
+@click.option(
+    "--mjcf",
+    "mjcf",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write the rigid part of the machine SOURCE for MuJoCo; default: NAME.xml in the working directory.",
+)
+@click.option(
+    "--urdf",
+    "urdf",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write the tree of rigid bodies of the machine SOURCE as a URDF; default: NAME.urdf in the working directory.",
+)
+@click.option(
+    "--gltf",
+    "film",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write the motion of a result as an animated glTF file; default: NAME.glb in the working directory.",
+)
 @override_option
 def command(
     source: str,
@@ -65,9 +89,12 @@ def command(
     fmi: str | None,
     parameters: tuple[str, ...],
     platforms: tuple[str, ...],
+    mjcf: str | None,
+    urdf: str | None,
+    film: str | None,
     overrides: dict[str, str],
 ) -> None:
-    """Write a result as a table, or a machine as a C library or as an FMU.
+    """Write a result as a table or an animation, or a machine as a C library, an FMU or a model of another program.
 
     A table has enough digits to read the numbers back exactly. The run of a result may still be going on, or may have been killed.
 
@@ -75,10 +102,12 @@ def command(
     sensors, joint coordinates with their rates, and inputs, or what --select names.
 
     An FMU does the same in other simulation programs, by FMI 3.0 or 2.0.
+
+    An MJCF or URDF file has the rigid part of the machine. The list of what was left out is printed and stands in its comments.
     """
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
-    if sum(each is not None for each in (target, folder, unit)) > 1:
-        raise click.UsageError("one of --csv, --c and --fmu is written at a time")
+    if sum(each is not None for each in (target, folder, unit, mjcf, urdf, film)) > 1:
+        raise click.UsageError("one of --csv, --gltf, --c, --fmu, --mjcf and --urdf is written at a time")
     if unit is None and (fmi or parameters):
         raise click.UsageError("--fmi and --parameter belong to --fmu")
     if platforms and (len(platforms) > 1 if folder is not None else unit is None):
@@ -89,8 +118,16 @@ def command(
         _write_c_library(source, folder, names, "".join(platforms), overrides)
     elif unit is not None:
         _write_fmu(source, unit, names, int(fmi or 3), parameters, platforms, force, overrides)
+    elif mjcf is not None or urdf is not None:
+        if names:
+            raise click.UsageError("--select belongs to --csv, --c and --fmu")
+        _write_model(source, mjcf, urdf, force, overrides)
     elif overrides:
-        raise click.UsageError("--set changes a machine; it belongs to --c and --fmu")
+        raise click.UsageError("--set changes a machine; it belongs to --c, --fmu, --mjcf and --urdf")
+    elif film is not None:
+        if names:
+            raise click.UsageError("--select belongs to --csv, --c and --fmu")
+        _write_film(source, film, force)
     else:
         _write_table(source, target, names, force)
 
@@ -130,6 +167,29 @@ def _write_fmu(
     click.echo(f"FMU: {written.path}, FMI {fmi}.0 co-simulation for {systems}, {counts}, {size:.0f} kB", err=True)
 
 
+def _write_model(machine: str, mjcf: str | None, urdf: str | None, force: bool, overrides: dict[str, str]) -> None:
+    from nivel.api import load
+
+    given, suffix = (mjcf, ".xml") if mjcf is not None else (urdf or BESIDE, ".urdf")
+    path = Path(Path(machine).with_suffix(suffix).name) if given == BESIDE else Path(given)
+    loaded = load(machine, overrides)
+    notes = (loaded.export_urdf if mjcf is None else loaded.export_mjcf)(path, force=force)
+    if notes:
+        click.echo("\n".join(notes))
+    click.echo(f"{'URDF' if mjcf is None else 'MJCF'}: {path}", err=True)
+
+
+def _write_film(result: str, film: str, force: bool) -> None:
+    from nivel.exchange.gltf_writer import write_gltf
+    from nivel.files.target import check_target
+    from nivel.results import Result
+
+    path = Path(Path(result).with_suffix(".glb").name) if film == BESIDE else Path(film)
+    check_target(path, "glTF file", force=force, sources=[Path(result)])
+    write_gltf(Result.open(result), path)
+    click.echo(f"glTF: {path}", err=True)
+
+
 def _write_table(result: str, target: str | None, names: list[str], force: bool) -> None:
     import sys
 
@@ -138,7 +198,10 @@ def _write_table(result: str, target: str | None, names: list[str], force: bool)
     from nivel.results.frames.csv_table import columns, write_table
 
     if target is None:
-        raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER or --fmu [FILE] of a machine")
+        raise click.UsageError(
+            "say in which form: --csv or --gltf [FILE] of a result; --c FOLDER, --fmu, --mjcf or --urdf [FILE] of a "
+            "machine"
+        )
     opened = Result.open(result)
     if target == "-":
         write_table(opened, columns(opened, names), sys.stdout)

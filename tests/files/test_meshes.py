@@ -116,7 +116,7 @@ def test_a_machine_file_names_a_mesh_beside_it(tmp_path):
     ("name", "content", "said"),
     [
         ("missing.stl", None, "there is no file"),
-        ("part.step", b"x", "a mesh in .stl, .obj, .dae, .gltf, .glb was expected"),
+        ("part.ply", b"x", "a mesh in .stl, .obj, .dae, .gltf, .glb was expected"),
         ("cut.stl", FILES["a.stl"][:-7], "damaged|no STL|cut short|no triangles|fewer"),
         ("empty.stl", b"", "no STL"),
         ("empty.obj", b"# nothing", "no triangles"),

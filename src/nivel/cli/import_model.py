@@ -28,6 +28,9 @@ from nivel.cli.options import file_argument, force_option, quiet_option
     metavar="FOLDER",
     help="Folder of packages, in which meshes at package:// are searched for. May be repeated.",
 )
+@click.option(
+    "--density", type=float, metavar="KG/M3", help="Density of the solids of a STEP file; default 7850 kg/m³."
+)
 @quiet_option
 @force_option
 def command(
@@ -35,10 +38,11 @@ def command(
     target: str | None,
     base: Literal["fixed", "free"] | None,
     package_paths: tuple[Path, ...],
+    density: float | None,
     quiet: bool,
     force: bool,
 ) -> None:
-    """Translate MODEL, a URDF, SDF or MJCF file, into a machine file.
+    """Translate MODEL, a URDF, SDF, MJCF or STEP file, into a machine file.
 
     The list of what was translated, in another form or not at all, is printed and stands in the comments of the file.
     """
@@ -48,7 +52,7 @@ def command(
 
     path = Path(target) if target is not None else Path(f"{Path(model).stem}.yaml")
     check_target(path, "machine file", force=force, sources=[Path(model)])
-    translation = read_model(model, base=base, package_paths=package_paths, target=path)
+    translation = read_model(model, base=base, package_paths=package_paths, target=path, density=density)
     for name, content in translation.files().items():
         mesh = path.parent / name
         mesh.parent.mkdir(exist_ok=True)

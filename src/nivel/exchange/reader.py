@@ -13,11 +13,13 @@ from nivel.exchange.machine import machine_of
 from nivel.exchange.mechanism import Mechanism
 from nivel.exchange.mjcf import read_mjcf
 from nivel.exchange.sdf import read_sdf
+from nivel.exchange.step import read_step
 from nivel.exchange.translation import Translation
 from nivel.exchange.urdf import read_urdf
 from nivel.files.outline import FORMAT
 from nivel.files.reader import parse_machine
 from nivel.files.sources import read_bytes
+from nivel.files.step_file import KINDS as STEP_KINDS
 from nivel.files.writer import write_data
 from nivel.files.xml_source import Document, Element
 from nivel.machine import MachineRecord
@@ -50,14 +52,20 @@ def read_model(
     base: Base | None = None,
     package_paths: Sequence[str | Path] = (),
     target: str | Path | None = None,
+    density: float | None = None,
 ) -> Translation:
-    """The translation of a file of another program. target : the machine file that will be written; default beside the model.
+    """The translation of a file of another program. target : the machine file that will be written; default beside the model. density :
+    of solids of a STEP file [kg/m³].
 
     Raises ModelError with everything that cannot be read, each with file and line.
     """
     path = Path(file)
     beside = Path(target) if target is not None else path
     drawing = Drawing(path, [Path(each) for each in package_paths], beside.parent, f"{beside.stem}-meshes")
+    if path.suffix.lower() in STEP_KINDS:
+        return read_step(str(file), path.name, f"{beside.stem}-meshes", density)
+    if density is not None:
+        raise ModelError(f"{file}: the masses are in the model; `density` belongs to STEP files")
     content = read_bytes(path)
     mechanism = _mechanism(content, str(file), base)
     return machine_of(mechanism, path.name, drawing)

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.files.collada_file import ColladaError, collada_surface
 from nivel.files.outline import section_of
-from nivel.files.sources import Sources, read_bytes
+from nivel.files.sources import Sources, beside, read_bytes
+from nivel.files.step_file import KINDS as STEP_KINDS
+from nivel.files.step_file import step_solids
 from nivel.files.tree import Path, Tree
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, surface_text
@@ -44,6 +46,9 @@ class NotReadError(Exception):
 def read_meshes(tree: Tree, sources: Sources) -> None:
     """Put the surface of the file of each mesh into its shape, as `surface`. Faults go to `tree.faults`."""
     for place, shape in _shapes(tree):
+        if isinstance(shape, dict) and _is_step(shape) and "surface" not in shape:
+            _read_part(tree, place, shape)
+            continue
         if not isinstance(shape, dict) or shape.get("type") != "mesh" or "file" not in shape or "surface" in shape:
             continue
         path = (*place, "file")
@@ -57,6 +62,43 @@ def read_meshes(tree: Tree, sources: Sources) -> None:
         except NotReadError as problem:
             tree.report(path, f"`{file}`: {problem}")
             tree.broken.add(path[:2])
+
+
+def _is_step(shape: dict[str, Any]) -> bool:
+    return shape.get("type", "mesh") == "mesh" and str(shape.get("file", "")).lower().endswith(STEP_KINDS)
+
+
+def _read_part(tree: Tree, place: Path, shape: dict[str, Any]) -> None:
+    """The part of a STEP file: its surface, and with a density of its body the exact mass, centre of mass and inertia."""
+    file = beside(tree.file_of(place), str(shape["file"]))
+    part, body = shape.pop("part", None), tree.data["bodies"][place[1]] if place[0] == "bodies" else {}
+    try:
+        solids = {each.name: each for each in step_solids(file)}
+    except ModelError as error:
+        tree.report((*place, "file"), error.faults[0].message)
+        tree.broken.add(place[:2])
+        return
+    if part is None and len(solids) == 1:
+        part = next(iter(solids))
+    if part not in solids:
+        what = "`part` is missing" if part is None else f"there is no part `{part}`"
+        tree.report((*place, "file"), f"{what}; `{file}` has {', '.join(solids)}")
+        tree.broken.add(place[:2])
+        return
+    solid = solids[str(part)]
+    shape["type"], shape["surface"] = "mesh", surface_text(*solid.surface)
+    if place[-1] != "shape" or "density" not in body or {"position", "orientation", "unit"} & set(shape):
+        return
+    density, i = body.pop("density"), solid.moments
+    tensor = {"xx": i[0, 0], "yy": i[1, 1], "zz": i[2, 2], "xy": i[0, 1], "xz": i[0, 2], "yz": i[1, 2]}
+    body["mass"] = _times(density, solid.volume, "m^3")
+    body["centre_of_mass"] = solid.centre.tolist()
+    body["inertia"] = {key: _times(density, float(each), "m^5") for key, each in tensor.items()}
+
+
+def _times(density: object, factor: float, unit: str) -> float | str:
+    """A density as it is written times a number with a unit."""
+    return density * factor if isinstance(density, int | float) else f"({density})*{factor!r} {unit}"
 
 
 def _shapes(tree: Tree) -> Iterator[tuple[Path, Any]]:

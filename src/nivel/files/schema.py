@@ -26,6 +26,7 @@ def schema() -> dict[str, Any]:
     definitions, properties = machine["$defs"], machine["properties"]
     included, assembly = _definition(Include, definitions), _definition(Assembly, definitions)
     definitions["Body"]["properties"][MASS_PROPERTIES] = {"type": "string", "description": "file with mass and inertia"}
+    definitions["Mesh"]["properties"]["part"] = {"type": "string", "description": "name of a solid of a STEP file"}
     definitions["Joint"]["properties"][ROTOR_INERTIA] = {
         "anyOf": [*_QUANTITY["anyOf"], {"type": "object", "additionalProperties": _QUANTITY}],
         "description": "inertia of what turns with the coordinate, such as the rotor of a motor times its squared gear ratio",

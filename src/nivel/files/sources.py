@@ -25,7 +25,10 @@ _BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (
     (b"<html", "this is a page for a browser, such as a report of nivel, not a machine file"),
     (b"PK\x03\x04", "this is a zip file, not a machine file"),
     (b"solid ", "this is a mesh (STL), not a machine file; a body refers to it: `shape: {{type: mesh, file: {file}}}`"),
-    (b"iso-10303-21", "this is a CAD file (STEP), which nivel does not read; save the parts as meshes (STL)"),
+    (
+        b"iso-10303-21",
+        "this is a CAD file (STEP), not a machine file; `nivel import {file} --out machine.yaml` makes bodies of its solids",
+    ),
 )
 _ROOTS: Final[tuple[tuple[bytes, str], ...]] = (
     (b"<robot", "URDF"),

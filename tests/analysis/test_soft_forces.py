@@ -43,7 +43,9 @@ def contact(more):
         (lambda k: spring("displacement", stiffness=k), MASS * (SOFT / STEP) ** 2),
         (lambda k: contact(f"stiffness: {k}, exponent: 1"), MASS / 4 * (SOFT / STEP) ** 2),
         (
-            lambda mu: contact(f"stiffness: 1, exponent: 1, friction: {mu}, friction_transition_speed: 0.1"),
+            lambda mu: contact(
+                f"stiffness: 1, exponent: 1, friction: {mu}, friction_model: coulomb, friction_transition_speed: 0.1"
+            ),
             SOFT / STEP * 0.1 / 30,
         ),
     ],

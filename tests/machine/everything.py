@@ -295,6 +295,8 @@ EVERYTHING = {
             "stiffness": "5 N/m^1.5",
             "restitution": 0.5,
             "friction": 0.3,
+            "static_friction": 0.5,
+            "friction_model": "stiction",
             "friction_transition_speed": "1 mm/s",
         },
         {

@@ -85,7 +85,14 @@ def shape(body, kind, **size):
 BETWEEN = {"markers": ["tip", "eye"]}
 RUBBING = {"type": "friction", "coordinate": "j.displacement", "coefficient": 0.3, "static_coefficient": 0.45,
            "stribeck_speed": 1.0}  # fmt: skip
-CONTACT = {"type": "contact", "stiffness": 3e3, "restitution": 0.6, "friction": 0.3, "friction_transition_speed": 0.8}
+CONTACT = {
+    "type": "contact",
+    "stiffness": 3e3,
+    "restitution": 0.6,
+    "friction": 0.3,
+    "friction_model": "coulomb",
+    "friction_transition_speed": 0.8,
+}
 PRISM = [[-0.3, -0.35], [0.3, -0.35], [0.35, 0.3], [-0.2, 0.35]]
 ON = ("c", "", [-0.5, 0.9, 0.4])
 ON_FLOOR = {**CONTACT, "body": "c", "plane": "floor"}
@@ -135,7 +142,8 @@ CASES = {
     "three axes": Case({"type": "three-axis-spring", **BETWEEN, "stiffness": [40, 60, 80], "damping": [1, 2, 0.5],
                         "free_displacement": [0.1, -0.2, 0.05], "preload": [1, -2, 3]}),
     "law of contact": Case({"type": "contact", "body": "c", "plane": "floor", "law": "2e3*depth^1.5 + 30*depth*max(0, rate)",
-                            "friction": 0.3, "friction_transition_speed": 0.8}, ON, True, shape("c", "sphere", radius=0.4)),
+                            "friction": 0.3, "friction_model": "coulomb",
+                            "friction_transition_speed": 0.8}, ON, True, shape("c", "sphere", radius=0.4)),
     "sphere": Case(ON_FLOOR, ON, True, shape("c", "sphere", radius=0.4)),
     "sphere, linear": Case({**ON_FLOOR, "exponent": 1}, ON, True, shape("c", "sphere", radius=0.4)),
     "sphere, apart": Case(ON_FLOOR, None, False, shape("c", "sphere", radius=0.4)),
@@ -147,7 +155,8 @@ CASES = {
     "spheres": Case({**CONTACT, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
                     {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
                                 "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
-    "hulls": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3, "friction_transition_speed": 0.8,
+    "hulls": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3,
+                   "friction_model": "coulomb", "friction_transition_speed": 0.8,
                    "bodies": ["c", "block"]}, ("c", "block", [-0.38, -0.25, 0.1]), True,
                   {"bodies": {**shape("c", "extrusion", outline=PRISM, length=0.5)["bodies"],
                               "block": {"shape": {"type": "box", "size": [0.6, 0.5, 0.4]}, "mass": 0.5,

@@ -200,7 +200,7 @@ def every_element(carried_friction="coulomb"):
         "cord": {"type": "spring-damper", "markers": ["tip", "floor"], "law": "50*(length - 0.3) + 0.5*rate"},
         "pull": {"type": "pair-force", "markers": ["eye", "tip"], "magnitude": "-3/length + 2*sin(4*time)"},
         "ground": {"type": "contact", "body": "ball", "plane": "floor", "stiffness": 1e4, "restitution": 0.5, "friction": 0.3,
-                   "friction_transition_speed": 0.01},
+                   "friction_model": "stiction" if carried_friction == "stiction" else "coulomb", "friction_transition_speed": 0.01},
         "corner": {"type": "contact", "body": "crate", "plane": "floor", "stiffness": 1e4, "exponent": 1.5, "restitution": 0.7},
         "own": {"type": "friction", "model": carried_friction, "coordinate": "foot.angle_1", "normal_load": 20.0, "radius": 0.03,
                 **_friction(carried_friction)},

@@ -117,7 +117,10 @@ def test_rubbing_spheres_keep_their_momenta():
         "b": {"shape": {"type": "sphere", "radius": R[1]}, "mass": m[1], "position": [0.13, 0.05, -0.02]},
     }
     hit = {"type": "contact", "bodies": ["a", "b"], "stiffness": 1e6, "restitution": 0.7, "friction": 0.3}
-    sections = {"bodies": bodies, "forces": {"hit": {**hit, "friction_transition_speed": 0.02}}}
+    sections = {
+        "bodies": bodies,
+        "forces": {"hit": {**hit, "friction_model": "coulomb", "friction_transition_speed": 0.02}},
+    }
     r = simulate(sections, duration=0.03, step=5e-6, output_interval=1e-3)
     linear, angular = momenta(r, m, J)
     np.testing.assert_allclose(linear, np.tile(linear[0], (len(linear), 1)), atol=1e-12)
@@ -380,6 +383,7 @@ def test_wheel_on_two_rims_rolls_down(formulation):
                 "stiffness": mass * G * np.cos(slope) / 2 / depth**1.5,
                 "restitution": 0.5,
                 "friction": mu,
+                "friction_model": "coulomb",
                 "friction_transition_speed": 1e-3,
             }
         },

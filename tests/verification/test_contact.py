@@ -240,6 +240,7 @@ def test_sliding_ball_begins_to_roll(formulation):
         "stiffness": stiffness,
         "restitution": 0.5,
         "friction": mu,
+        "friction_model": "coulomb",
         "friction_transition_speed": transition,
     }
     sections = thrown(contact, -depth, 0.0) | {"gravity": [0, 0, -G]}
@@ -269,6 +270,7 @@ def test_ball_slides_down_a_steep_incline(formulation):
         "stiffness": MASS * G * np.cos(slope) / depth**1.5,
         "restitution": 0.5,
         "friction": mu,
+        "friction_model": "coulomb",
         "friction_transition_speed": 1e-4,
     }
     sections = thrown(contact, -depth, 0.0) | {"gravity": [G * np.sin(slope), 0, -G * np.cos(slope)]}
@@ -289,6 +291,7 @@ def test_gentle_incline_lets_a_ball_roll():
         "stiffness": MASS * G * np.cos(slope) / depth**1.5,
         "restitution": 0.5,
         "friction": mu,
+        "friction_model": "coulomb",
         "friction_transition_speed": 1e-3,
     }
     sections = thrown(contact, -depth, 0.0) | {"gravity": [G * np.sin(slope), 0, -G * np.cos(slope)]}
@@ -325,6 +328,7 @@ def test_box_slides_down_an_incline(formulation):
                 "stiffness": stiffness,
                 "restitution": 0.2,
                 "friction": mu,
+                "friction_model": "coulomb",
                 "friction_transition_speed": 1e-3,
             }
         },

@@ -23,7 +23,7 @@ def die(shape, **more):
         "forces": {
             "hit": {
                 **{"type": "contact", "body": "die", "plane": "floor", "stiffness": 1e5, "restitution": 0.5},
-                **{"friction": 0.3, "friction_transition_speed": 0.01},
+                **{"friction": 0.3, "friction_model": "coulomb", "friction_transition_speed": 0.01},
             }
         },
     }

@@ -258,7 +258,7 @@ def on_slope(angle, **contact):
 def test_a_brick_slides_down_a_slope_against_the_friction_of_its_weight():
     """g (sin α - μ cos α) with a sliding speed far above the transition; pressure is larger in front, the sum is not."""
     angle, mu = 0.5, 0.2
-    sections, R = on_slope(angle, friction=mu, friction_transition_speed=1e-4, damping=500)
+    sections, R = on_slope(angle, friction=mu, friction_model="coulomb", friction_transition_speed=1e-4, damping=500)
     sections["bodies"]["b"]["velocity"] = R.apply([-0.2, 0, 0]).tolist()
     result = simulate(sections, duration=0.1, step=2e-5, output_interval=1e-2)
     speed = -R.inv().apply(result.array("b.velocity"))[:, 0]
@@ -269,7 +269,7 @@ def test_a_brick_slides_down_a_slope_against_the_friction_of_its_weight():
 def test_a_spinning_brick_is_braked_by_the_friction_of_all_its_points():
     """μ p ∫ r dA over a rectangle a by b: the mean distance from its middle, √(a² + b²)/6 + …, here by a grid of points."""
     mu = 0.2
-    sections, _ = on_slope(0.0, friction=mu, friction_transition_speed=1e-4, damping=500)
+    sections, _ = on_slope(0.0, friction=mu, friction_model="coulomb", friction_transition_speed=1e-4, damping=500)
     sections["bodies"]["b"] |= {
         "angular_velocity": [0, 0, 50],
         "position": [0, 0, sections["bodies"]["b"]["position"][2]],
@@ -286,7 +286,7 @@ def test_a_stack_of_bricks_comes_to_rest_under_its_weight():
     bodies = {"table": box([0.4, 0.4, 0.02]), "one": box(BRICK, position=[0, 0, 0.04])}
     bodies["two"] = box(BRICK, position=[0.004, 0, 0.1])
     law = {"type": "contact", "foundation_modulus": K, "damping": 200}
-    law |= {"friction": 0.5, "friction_transition_speed": 5e-3}
+    law |= {"friction": 0.5, "friction_model": "coulomb", "friction_transition_speed": 5e-3}
     pairs = {"lower": ["table", "one"], "upper": ["one", "two"]}
     sections = {
         "gravity": [0, 0, -G],

@@ -57,7 +57,7 @@ from nivel.system.joints.interfaces import refuse_unknown_interfaces
 from nivel.system.joints.rows import RowTable, add_couplings, add_joint, coordinate_units
 from nivel.system.layout import first_columns, frame_layout
 from nivel.system.located import located
-from nivel.system.saddle import friction_parts, friction_tables, saddle_tables
+from nivel.system.saddle import friction_parts, friction_tables, moved_masses, saddle_tables
 from nivel.system.signals.control import add_control
 from nivel.system.signals.sensors import sensor_columns
 from nivel.system.signals.user_states import add_states, sampled_states
@@ -111,7 +111,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         states=states,
         input_functions=tuple(builder.input_functions),
         nodes=tuple(builder.circuit.nodes.values()),
-        frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
+        frictions=tuple(builder.friction_names),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
         velocity_rows=frozenset(rows.velocity),
@@ -181,7 +181,7 @@ def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations:
         ),
         functions=builder.functions.arrays(),
         elements=builder.elements.arrays(),
-        friction=friction_tables(builder, saddle, extra, count),
+        friction=friction_tables(builder, saddle, extra, count)._replace(mass=moved_masses(builder, bodies.mass)),
         circuit=builder.circuit.arrays(),
         saddle=saddle,
         tree=empty_tree(constraints),

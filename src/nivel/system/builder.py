@@ -36,10 +36,10 @@ class SystemBuilder:
     """Tables of a machine and the indices of what has a name in it. Body number len(machine.bodies) is the ground.
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
-    frictions : (columns of index, of number) of `nivel.kernels.elements.friction`. owners : `joints.hinge`, `markers.tip`, …: what made
-    each
-    marker. noted : the bodies and states used in each `noting`. inputs : the signal of every input. input_functions : the function of
-    each, in the order of the machine. control : the signal of every part of a block by its path.
+    frictions : (columns of index, of number) of `nivel.kernels.elements.friction`. friction_names : of each, the force or its patch.
+    owners : `joints.hinge`, `markers.tip`, …: what made each marker. noted : the bodies and states used in each `noting`.
+    inputs : the signal of every input. input_functions : the function of each, in the order of the machine. control : the signal of every
+    part of a block by its path.
     behind_signals : what a part that is no state depends on. functions_of : the function of every part.
     begins : states that begin with what a function gives at the start.
     """
@@ -53,6 +53,7 @@ class SystemBuilder:
     circuit: CircuitTable = field(default_factory=CircuitTable)
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
+    friction_names: list[str] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
     owners: list[str] = field(default_factory=list)
     inputs: dict[str, Signal] = field(default_factory=dict)

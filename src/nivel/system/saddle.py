@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.kernels.record.record import NONE, Friction, Saddle
 from nivel.system.builder import SystemBuilder
@@ -94,5 +95,13 @@ def friction_tables(
         lam=np.zeros(row_count),
         anchor=np.zeros(count),
         jacobian=np.zeros((count, count)),
-        work=np.zeros((4, count)),
+        work=np.zeros((9, count)),
     )
+
+
+def moved_masses(builder: SystemBuilder, mass: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(X,) [kg] mass of the lighter of the bodies of each friction, which its effort moves until the equations of motion know better."""
+    ends = [
+        {builder.markers.body[end] for end in builder.coordinates.markers(index[0])} for index, _ in builder.frictions
+    ]
+    return np.array([min((mass[body] for body in each if body < len(mass)), default=1.0) for each in ends], dtype=float)

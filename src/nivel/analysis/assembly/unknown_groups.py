@@ -60,6 +60,9 @@ def unknown_groups(
     for k, (bodies, state, joint) in enumerate(_frictions(system)):
         depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
         depending += [effort[k]] if k in effort else []
+        first, count = record.friction.columns[k, [columns.FIRST, columns.COUNT]]
+        if first == k:
+            couples |= set(combinations([effort[k + a] for a in range(count)], 2))
         couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
         couples |= set(combinations(depending, 2))
     return sizes, constraint, couples
@@ -153,7 +156,9 @@ def frictions_with_stiction(system: System) -> list[int]:
     """Numbers of the frictions whose efforts are unknowns."""
     if not system.frictions:
         return []
-    return np.flatnonzero(system.record.friction.columns[:, columns.MODEL] == columns.STICTION).tolist()
+    return np.flatnonzero(
+        np.isin(system.record.friction.columns[:, columns.MODEL], (columns.STICTION, columns.PATCH))
+    ).tolist()
 
 
 def _frictions(system: System) -> list[tuple[set[int], int, str]]:

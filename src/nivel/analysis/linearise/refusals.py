@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Friction
+from nivel.machine.forces import Contact, Friction
 from nivel.machine.machine_record import MachineRecord
 
 MOST = 1500  # velocities of full matrices
@@ -21,6 +21,18 @@ def refuse_jumps(machine: MachineRecord) -> None:
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model != "lugre"
+    ]
+    faults += [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}.friction",
+            "friction of a contact that sticks has no derivative: give a `friction_transition_speed`, as in "
+            "`friction_transition_speed: 1 cm/s`, and linear equations have the smooth law of this speed; or leave the friction out",
+        )
+        for force in machine.forces
+        if isinstance(force, Contact) and force.sticks and force.friction_transition_speed is None
     ]
     faults += [
         Fault(

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.integrate.catalogue import INTEGRATORS, step_for
-from nivel.machine.forces import Friction
+from nivel.machine.forces import Friction, is_sticking
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
@@ -77,8 +77,8 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     from nivel.system.states.relative import tree_of
 
     settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
-    frictions = [force for force in machine.forces if isinstance(force, Friction)]
-    if frictions and (not facts.residual or any(force.model == "stiction" for force in frictions)):
+    frictions = [force for force in machine.forces if isinstance(force, Friction) or is_sticking(force)]
+    if frictions and (not facts.residual or any(map(is_sticking, frictions))):
         # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
         sliders = (joint.name for joint in machine.joints if JOINT_WORDS[joint.type].rail)
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))

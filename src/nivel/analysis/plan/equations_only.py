@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from nivel.analysis.plan.choice import choose_coordinates
+from nivel.analysis.plan.smooth_contacts import with_smooth_contacts
 from nivel.machine.machine_record import MachineRecord
 
 
 def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -> tuple[MachineRecord, str]:
     """The machine in these coordinates, with settings of no method, and the coordinates that were chosen."""
+    machine = with_smooth_contacts(machine)
     given = machine.simulation
     step, interval = min(given.step, given.duration), given.output_interval
     simulation = given.replace(

@@ -9,7 +9,8 @@ from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine.forces import Contact, Friction, Stop
+from nivel.machine.forces import Contact, Friction, Stop, is_sticking
+from nivel.machine.forces.element import ForceElement
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
@@ -108,15 +109,25 @@ def refuse_stiction_over_steps(machine: MachineRecord) -> None:
             "",
             0,
             0,
-            f"forces.{force.name}.model",
+            f"forces.{force.name}.{_key_of_model(force)}",
             f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, "
-            f"while sticking depends on the acceleration at a time: use generalised-alpha, or `model: lugre`",
+            f"while sticking depends on the acceleration at a time: use generalised-alpha, or {_instead_of_stiction(force)}",
         )
         for force in machine.forces
-        if isinstance(force, Friction) and force.model == "stiction"
+        if is_sticking(force)
     ]
     if faults:
         raise ModelError(faults)
+
+
+def _key_of_model(force: ForceElement) -> str:
+    """Where a force says how its friction goes."""
+    return "model" if isinstance(force, Friction) else "friction_model"
+
+
+def _instead_of_stiction(force: ForceElement) -> str:
+    """What to write for friction that does not stick."""
+    return "`model: lugre`" if isinstance(force, Friction) else "`friction_model: coulomb`"
 
 
 def refuse_conserved_drivers(machine: MachineRecord) -> None:
@@ -238,9 +249,9 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
         if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
             message = f"friction under `integrator: {machine.simulation.integrator}` {why.format('generalised-alpha')}"
             out.append(Fault("", 0, 0, f"forces.{force.name}", message))
-        elif isinstance(force, Friction) and force.model == "stiction":
-            message = f"'stiction' {why.format('lugre or coulomb')}"
-            out.append(Fault("", 0, 0, f"forces.{force.name}.model", message))
+        elif is_sticking(force):
+            message = f"'stiction' {why.format('lugre or coulomb' if isinstance(force, Friction) else 'coulomb')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}.{_key_of_model(force)}", message))
     if out:
         raise ModelError(out)
 

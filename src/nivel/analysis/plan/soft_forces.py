@@ -63,9 +63,8 @@ def _rate_of_contact(machine: MachineRecord, contact: Contact) -> float:
     mass = _inertia(body, is_angle=False)
     if not mass:
         return inf
-    sliding = (
-        IMPACT * contact.friction * float(np.linalg.norm(machine.gravity)) / (contact.friction_transition_speed or inf)
-    )
+    transition = inf if contact.sticks else contact.friction_transition_speed or inf
+    sliding = IMPACT * contact.friction * float(np.linalg.norm(machine.gravity)) / transition
     return max(sqrt(CORNER * contact.stiffness / mass), sliding)
 
 

@@ -183,7 +183,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record.circuit.secant[:] = facts.guarded
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
-    record.friction.force[:] = 0.0
+    record.friction.force[:], record.friction.work[:] = 0.0, 0.0
     # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
     # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
     follows = settings.steps == 0 or facts.residual

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nivel.analysis.plan.choice import choose_coordinates
+from nivel.analysis.plan.smooth_contacts import with_smooth_contacts
 from nivel.analysis.statics.free_coordinates import holding_free
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Friction
@@ -92,6 +93,6 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
         output_interval=None,
         step_control="own",
     )
-    neutral = holding_free(machine.with_simulation(simulation))
+    neutral = holding_free(with_smooth_contacts(machine).with_simulation(simulation))
     coordinates = choose_coordinates(neutral)
     return neutral.with_simulation(neutral.simulation.replace(coordinates=coordinates)), coordinates

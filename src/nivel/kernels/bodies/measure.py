@@ -9,6 +9,7 @@ from nivel.kernels.bodies.constraint import combine
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.bodies.coordinate import measure as measure_one
 from nivel.kernels.bodies.driven_turn import TURN_X, driven_turn, note_motions
+from nivel.kernels.bodies.patch_coordinate import KEPT, PATCH, PROPOSED, RESTING, RESTS
 from nivel.kernels.bodies.rolling import CONTACT, rolling
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import ACCEPTED, ACTIVE, SHOWN, call_hook, family
@@ -20,7 +21,7 @@ def measure(machine, job, t):
     """ACTIVE: coordinates that constraints, forces or laws need, and the rows made of them, see `nivel.kernels.bodies.constraint.combine`.
 
     ACCEPTED: angles are followed from this state on, across ±π (a step turns them by less than half a turn), and sliders on beams from
-    where they are. Otherwise (SHOWN) value and rate of all joint coordinates.
+    where they are; frictions remember whether they slide. Otherwise (SHOWN) value and rate of all joint coordinates.
     """
     record = record_at(machine)
     coordinates = record.coordinates
@@ -28,6 +29,8 @@ def measure(machine, job, t):
     count = coordinates.reference.shape[0] if job == SHOWN else listed.shape[0]
     for n in range(count):
         k = n if job == SHOWN else np.int64(listed[n])
+        if coordinates.what[k, 0] == PATCH:
+            continue  # what touches knows it, when forces act
         if coordinates.what[k, 0] >= TURN_X:
             value, rate, bias = driven_turn(machine, k, t)
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
@@ -43,6 +46,10 @@ def measure(machine, job, t):
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         if job == ACCEPTED:
             coordinates.reference[k] = real(coordinates.value[k])
+    if job == ACCEPTED:
+        for k in range(record.friction.force.shape[0]):
+            record.friction.work[KEPT, k] = record.friction.work[PROPOSED, k]
+            record.friction.work[RESTS, k] = record.friction.work[RESTING, k]
     if job == ACTIVE:
         combine(machine, record.constraints, coordinates, record.friction, t)
         note_motions(machine)

@@ -1,12 +1,15 @@
-"""Friction in joints, whose normal load is the joint's own reaction.
+"""Friction in joints, whose normal load is the joint's own reaction, and of patches where surfaces touch, whose load is given.
 
 The efforts F on the joint coordinates change the reactions, and these the efforts. Both are linear in F: with the extra rows C_f of
 the coordinates, λ = λ₀ + R F, accelerations c̈ = c̈₀ + S F, S = C_f P M⁻¹ C_fᵀ (P projects onto the constraints). R and S come from one
 solution with the factor that is there already per element; then F is iterated, from where the last evaluation ended, without any
 solve. Coulomb's regularised law and LuGre give |F| from the load; with stiction F is what stops the coordinate within the time TAU,
 as long as it is no larger than static friction: the joint really stands still. Where more is wanted, the coordinate slides, and F is
-kinetic friction. So which of the two it is follows from the load, and not from a speed that is never exactly zero. With several
-frictions all are asked to hold first; those that cannot slide, and the others are asked again, until all that are left hold.
+kinetic friction. So which of the two it is follows from the load, and not from a speed that is never exactly zero. What slid in the
+accepted state slides on, until kinetic friction stops it, or its effort changes its direction: then static friction may hold it again.
+With several frictions all others are asked to hold first; those that cannot slide, and the others are asked again, until all that are
+left hold.
+The two or three efforts of a patch are one friction: see `nivel.kernels.elements.patch`.
 A motion that drivers prescribe no effort stops: while it goes on, F is all that the load gives, against it; while they hold it, F is
 left to them.
 """
@@ -16,7 +19,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, real, tanh
+from nivel.kernels.bodies.patch_coordinate import KEPT, PROPOSED, RESTING, RESTS
 from nivel.kernels.core.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
+from nivel.kernels.elements.patch import limited, size_of
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.solve.saddle import solve_rows
@@ -24,22 +29,31 @@ from nivel.native.function import leaf, stage
 
 # columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion;
 # BEARING: marker about whose point moments are taken
-# outputs: effort, power, normal load, the bristle
-COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING = 0, 1, 2, 3, 4, 5, 6, 7
-COULOMB, STICTION, LUGRE = 0, 1, 2
+# outputs: effort, power, normal load, the bristle; of a patch those of its contact. FIRST: friction with which a patch begins, COUNT: how
+# many it has: two along tangents, then maybe the spin
+COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING, FIRST, COUNT = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+COULOMB, STICTION, LUGRE, PATCH = 0, 1, 2, 3
+# outputs of contacts
+MAGNITUDE, POWER, RUB, SLIP = 0, 1, 5, 6
 # columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces; REST: a rate below it is none where drivers
 # prescribe it, known when a run starts
 KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
 ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD, REST = 7, 8, 9, 10, 11, 12
 
-# rows of `work`; SLIDES: 1 where static friction does not hold a friction with stiction
-DEFECT, AHEAD, CHANGE, SLIDES = 0, 1, 2, 3
+# rows of `work`, besides those of `nivel.kernels.elements.patch`; SLIDES: whether a friction with stiction is asked to hold, as it slid in
+# the accepted state is not, or cannot; WANTED: efforts of patches
+DEFECT, AHEAD, CHANGE, SLIDES, WANTED = 0, 1, 2, 3, 4
+HOLDS, SLID, CANNOT = 0.0, 1.0, 2.0
 
 # Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
 SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
 TOLERANCE, ENOUGH = 1e-12, 1e-7
 # What would hold a coordinate and is more than static friction by this share of it is not round-off.
 MORE = 1e-6
+# What rested breaks away for good if its speed, so small as it is, would have to stop within this share of τ: else forces that fall as it
+# begins to move (dampers of a contact) would have it hold and break away by turns, in ever shorter steps. It rests where stopping so soon
+# takes less than RESTED of static friction.
+SHARP, RESTED = 1e-1, 1e-3
 # Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
 # acceleration that is left is this share of what the change of effort would do.
 ANCHOR = 1e-3
@@ -47,6 +61,8 @@ ANCHOR = 1e-3
 BOUND = 1e3
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
+# So much of 1/m is added to S_kk of patches, whose motion may be prescribed.
+LEAST = 1e-12
 # A driver takes up less than this share of an effort that it does not prescribe the motion of [m/m, rad/m, …]: round-off.
 DRIVEN = 1e-12
 # Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
@@ -66,6 +82,15 @@ def along(machine, k, change):
 
 
 @stage
+def is_apart(record, k):
+    """Whether friction k is of a patch where nothing touches."""
+    friction = record.friction
+    if friction.columns[k, MODEL] != PATCH:
+        return False
+    return not real(record.coordinates.value[friction.columns[friction.columns[k, FIRST], COORDINATE]]) > 0.0
+
+
+@stage
 def respond(machine):
     """Multipliers and whitened accelerations for a unit effort on each coordinate, S, and the masses that efforts move."""
     record = record_at(machine)
@@ -73,6 +98,10 @@ def respond(machine):
     width, rows = saddle.z.shape[1], saddle.b.shape[0]
     for k in range(friction.columns.shape[0]):
         change, response = friction.change[k], friction.response[k]
+        if is_apart(record, k):
+            for row in range(response.shape[0]):
+                response[row] = 0.0
+            continue
         for body in range(change.shape[0]):
             for i in range(width):
                 change[body, i] = 0.0
@@ -95,8 +124,10 @@ def respond(machine):
                 change[body, i] -= saddle.W[n, i] * saddle.b[row]
     for k in range(friction.columns.shape[0]):
         for other in range(friction.columns.shape[0]):
-            friction.S[k, other] = along(machine, k, friction.change[other])
-        friction.mass[k] = 1.0 / max(friction.S[k, k], friction.mass[k] / BOUND, 1e-300)
+            apart = is_apart(record, k) or is_apart(record, other)
+            friction.S[k, other] = 0.0 if apart else along(machine, k, friction.change[other])
+        if not is_apart(record, k):
+            friction.mass[k] = 1.0 / max(friction.S[k, k], friction.mass[k] / BOUND, 1e-300)
 
 
 @stage
@@ -253,11 +284,62 @@ def holding(machine, k, tau, anchor):
 
 
 @stage
+def lack_of_patch(machine, k, a, tau, anchor):
+    """What effort a of the patch from friction k on makes of c̈ + ċ/τ without the patch's own efforts, negative."""
+    record = record_at(machine)
+    friction, rate = record.friction, record.coordinates.rate[record.friction.columns[k + a, COORDINATE]]
+    last = k + np.int64(friction.columns[k, COUNT])
+    total = -friction.free[k + a] - rate / tau
+    for other in range(friction.columns.shape[0]):
+        if other < k or other >= last:
+            total -= friction.S[k + a, other] * friction.force[other]
+        else:
+            total += anchor * friction.S[k + a, other] * friction.anchor[other]
+    return total
+
+
+@stage
+def want_patch(machine, k, tau, anchor, is_limited):
+    """Leave the efforts of the patch from friction k on in `work`, for the present efforts of the others: what makes c̈ = -ċ/τ, within the
+    limit. Returns (|(F, M/r)| wanted, limit)."""
+    record = record_at(machine)
+    friction, coordinates, n = record.friction, record.coordinates, record.friction.number[k]
+    q, count, S, wanted = friction.columns[k, COORDINATE], friction.columns[k, COUNT], friction.S, friction.work[WANTED]
+    load, reach = coordinates.value[q], coordinates.value[q + 1]
+    limit = (n[STATIC] if friction.work[SLIDES, k] == HOLDS else n[KINETIC]) * load
+    for a in range(count):
+        wanted[k + a] = 0.0
+    if not load > 0.0:
+        return 0.0, 0.0
+    b0, b1, b2 = lack_of_patch(machine, k, 0, tau, anchor), lack_of_patch(machine, k, 1, tau, anchor), 0.0
+    more = 1.0 + anchor
+    s0, s1, s3 = (
+        more * S[k, k] + LEAST / friction.mass[k],
+        more * S[k, k + 1],
+        more * S[k + 1, k + 1] + LEAST / friction.mass[k + 1],
+    )
+    s2, s4, s5 = 0.0, 0.0, 1.0
+    if count == 3 and reach > 0.0:
+        b2 = reach * lack_of_patch(machine, k, 2, tau, anchor)
+        s2, s4 = more * reach * S[k, k + 2], more * reach * S[k + 1, k + 2]
+        s5 = reach * reach * (more * S[k + 2, k + 2] + LEAST / friction.mass[k + 2])
+    x = limited((s0, s1, s2, s3, s4, s5), (b0, b1, b2), limit if is_limited else np.inf)
+    wanted[k], wanted[k + 1] = x[0], x[1]
+    if count == 3:
+        wanted[k + 2] = reach * x[2]
+    return size_of(x), limit
+
+
+@stage
 def effort(machine, k, tau, anchor):
     """Effort of friction k for the present multipliers and efforts of the others."""
     record = record_at(machine)
     friction, coordinates = record.friction, record.coordinates
     n, q, model = friction.number[k], friction.columns[k, COORDINATE], friction.columns[k, MODEL]
+    if model == PATCH:
+        if friction.columns[k, FIRST] == k:
+            want_patch(machine, k, tau, anchor, True)
+        return friction.work[WANTED, k]
     if model != STICTION:
         return sliding_effort(machine, k)
     rate = coordinates.rate[q]
@@ -267,7 +349,7 @@ def effort(machine, k, tau, anchor):
     way = driven(machine, k)
     if not np.isnan(way):
         return -way * largest - viscous
-    if friction.work[SLIDES, k] == 0.0:
+    if friction.work[SLIDES, k] == HOLDS:
         largest = n[STATIC] * load
     return min(max(holding(machine, k, tau, anchor), -largest), largest) - viscous
 
@@ -295,8 +377,13 @@ def sweep(machine, anchor):
     record = record_at(machine)
     friction = record.friction
     for k in range(friction.columns.shape[0]):
-        superpose(machine)
-        friction.force[k] = effort(machine, k, record.control.stick[0], anchor)
+        if friction.columns[k, MODEL] == PATCH:
+            if friction.columns[k, FIRST] == k:
+                want_patch(machine, k, record.control.stick[0], anchor, True)
+            friction.force[k] = friction.work[WANTED, k]
+        else:
+            superpose(machine)
+            friction.force[k] = effort(machine, k, record.control.stick[0], anchor)
 
 
 @leaf
@@ -377,18 +464,127 @@ def iterate(machine):
 
 
 @stage
-def let_slide(machine):
-    """Have those frictions slide that would need more than static friction to hold; returns how many more that are."""
+def has_fall(friction, k):
+    """Whether friction k is the first of one with stiction whose static friction is more than the kinetic one."""
+    n, model = friction.number[k], friction.columns[k, MODEL]
+    if not n[STATIC] > n[KINETIC]:
+        return False
+    return model == STICTION or (model == PATCH and friction.columns[k, FIRST] == k)
+
+
+@stage
+def most_to_hold(machine, k):
+    """The most that friction k is allowed to hold with."""
+    record = record_at(machine)
+    friction, n = record.friction, record.friction.number[k]
+    holds = friction.work[SLIDES, k] == HOLDS
+    if friction.columns[k, MODEL] == PATCH:
+        return (n[STATIC] if holds else n[KINETIC]) * real(record.coordinates.value[friction.columns[k, COORDINATE]])
+    return (n[STATIC] if holds else coefficient(n, rate_of(record, k) * n[ARM])) * normal_load(machine, k) * n[ARM]
+
+
+@stage
+def needed(machine, k, tau):
+    """What friction k would have to hold with to stop within `tau`."""
+    if record_at(machine).friction.columns[k, MODEL] == PATCH:
+        return want_patch(machine, k, tau, 0.0, False)[0]
+    return np.abs(holding(machine, k, tau, 0.0))
+
+
+@stage
+def is_beyond(machine, k):
+    """Whether friction k would need more than it is allowed to hold with."""
+    record = record_at(machine)
+    friction, tau = record.friction, record.control.stick[0]
+    if friction.work[SLIDES, k] == HOLDS and friction.work[RESTS, k] != 0.0:
+        tau *= SHARP
+    return needed(machine, k, tau) > (1.0 + MORE) * most_to_hold(machine, k)
+
+
+@stage
+def rests(machine, k):
+    """Whether friction k, which holds, has stopped its motion."""
+    record = record_at(machine)
+    tau, most = record.control.stick[0], most_to_hold(machine, k)
+    return needed(machine, k, SHARP * tau) - needed(machine, k, tau) <= RESTED * most
+
+
+@stage
+def rate_of(record, k):
+    """ċ of friction k."""
+    return record.coordinates.rate[record.friction.columns[k, COORDINATE]]
+
+
+@stage
+def slid(friction, k):
+    """Whether friction k, or the patch that begins with it, slid in the accepted state."""
+    kept = friction.work[KEPT]
+    if friction.columns[k, MODEL] != PATCH or friction.columns[k, FIRST] != k:
+        return kept[k] != 0.0
+    return kept[k] != 0.0 or kept[k + 1] != 0.0 or (friction.columns[k, COUNT] == 3 and kept[k + 2] != 0.0)
+
+
+@stage
+def turns_back(record, k):
+    """Whether the effort of friction k is against that in the accepted state."""
+    friction = record.friction
+    if friction.columns[k, MODEL] != PATCH:
+        return (friction.force[k] + friction.number[k, VISCOUS] * rate_of(record, k)) * friction.work[KEPT, k] < 0.0
+    total, reach = 0.0, record.coordinates.value[friction.columns[k, COORDINATE] + 1]
+    for a in range(friction.columns[k, COUNT]):
+        share = friction.force[k + a] * friction.work[KEPT, k + a]
+        total += share if a < 2 else (share / (reach * reach) if reach > 0.0 else 0.0)
+    return total < 0.0
+
+
+@stage
+def choose(machine):
+    """Have those frictions slide that would need more than static friction to hold, and ask those to hold that turn back. Returns how many
+    these are."""
     record = record_at(machine)
     friction, more = record.friction, 0
     for k in range(friction.columns.shape[0]):
-        n = friction.number[k]
-        if friction.columns[k, MODEL] == STICTION and n[STATIC] > n[KINETIC] and friction.work[SLIDES, k] == 0.0:
-            largest = n[STATIC] * normal_load(machine, k) * n[ARM]
-            if np.abs(holding(machine, k, record.control.stick[0], 0.0)) > (1.0 + MORE) * largest:
-                friction.work[SLIDES, k] = 1.0
-                more += 1
+        if not has_fall(friction, k):
+            continue
+        if friction.work[SLIDES, k] == SLID and turns_back(record, k):
+            friction.work[SLIDES, k] = HOLDS
+            more += 1
+        elif friction.work[SLIDES, k] == HOLDS and is_beyond(machine, k):
+            friction.work[SLIDES, k] = CANNOT
+            more += 1
     return more
+
+
+@stage
+def propose(machine):
+    """Leave what an accepted step would keep: the efforts of what slides."""
+    record = record_at(machine)
+    friction = record.friction
+    for k in range(friction.columns.shape[0]):
+        if has_fall(friction, k):
+            count = np.int64(friction.columns[k, COUNT]) if friction.columns[k, MODEL] == PATCH else 1
+            slides = friction.work[SLIDES, k] != HOLDS and is_beyond(machine, k)
+            resting = not slides and not is_apart(record, k) and rests(machine, k)
+            for a in range(k, k + count):
+                friction.work[PROPOSED, a] = friction.force[a] if slides else 0.0
+                friction.work[RESTING, a] = 1.0 if resting else 0.0
+
+
+@stage
+def report_patch(machine, k):
+    """Outputs of the contact whose patch begins with friction k, with its efforts; they take their power from the machine."""
+    record = record_at(machine)
+    friction, coordinates, out = record.friction, record.coordinates, record.outputs.value
+    first, q = friction.columns[k, OUTPUT], friction.columns[k, COORDINATE]
+    load, x, y = coordinates.value[q], coordinates.rate[q], coordinates.rate[q + 1]
+    squared, power = friction.force[k] * friction.force[k] + friction.force[k + 1] * friction.force[k + 1], 0.0 * load
+    for a in range(friction.columns[k, COUNT]):
+        power += friction.force[k + a] * coordinates.rate[q + a]
+    record.control.power[1] -= power
+    out[first + POWER] += power
+    out[first + MAGNITUDE] = np.sqrt(load * load + squared)
+    out[first + RUB] = np.sqrt(0.0 * load + squared)
+    out[first + SLIP] = np.sqrt(x * x + y * y)
 
 
 @stage
@@ -396,6 +592,10 @@ def report(machine, k, force):
     """The outputs of friction k with this effort; it takes its power from the machine."""
     record = record_at(machine)
     friction, out = record.friction, record.outputs.value
+    if friction.columns[k, MODEL] == PATCH:
+        if friction.columns[k, FIRST] == k and not is_apart(record, k):
+            report_patch(machine, k)
+        return
     first = friction.columns[k, OUTPUT]
     power = force * record.coordinates.rate[friction.columns[k, COORDINATE]]
     record.control.power[1] -= power
@@ -418,10 +618,11 @@ def apply(machine, number, t):
     start(machine)
     for k in range(count):
         friction.anchor[k] = friction.force[k]
-        friction.work[SLIDES, k] = 0.0
+        friction.work[SLIDES, k] = SLID if slid(friction, k) else HOLDS
     largest, worst, scale = iterate(machine)
-    while let_slide(machine) > 0:
+    while choose(machine) > 0:
         largest, worst, scale = iterate(machine)
+    propose(machine)
     if not largest <= ENOUGH * scale:
         control.failure[0] = worst
         return FRICTION_DIVERGES

@@ -4,6 +4,8 @@ The elastic force of all pressures has a direction, the normal N of the contact.
 the speed along N at which the bodies approach there; it never pulls (Hunt & Crossley 1975). Friction: μ times the pressure along N, times
 tanh(v/v_s), against the sliding velocity at the point. So a body that slides without turning feels μ times the normal force.
 
+Or the friction of all points is that of a patch, which sticks: `nivel.kernels.elements.patch`.
+
 Sums over a polygon are those of the triangles around its middle, by Gauss's three points; of an elastic pressure this is exact.
 """
 
@@ -12,22 +14,28 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import maximum, minimum, real, tanh
+from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import leave_patch, middle_of, plus, tangents, write_patch
 from nivel.kernels.forces.contact import velocity_at
 from nivel.kernels.forces.hull_pair import (
+    AXES,
     BOX,
+    COORDINATE,
     DAMPING,
     DEPTH,
     FACES,
     FIELD,
     FORCE,
     FRICTION,
+    FRICTION_FORCE,
     MARKER,
     NORMAL,
     OTHER,
     OTHER_FACES,
     OTHER_RADIUS,
     OUTPUT,
+    PATCH,
     PLANE,
     PUSH,
     PUSH_TORQUE,
@@ -36,6 +44,7 @@ from nivel.kernels.forces.hull_pair import (
     RUB,
     RUB_TORQUE,
     SHIFT,
+    SLIP_SPEED,
     SPEED,
     SPIN,
     TRANSITION,
@@ -54,7 +63,7 @@ from nivel.kernels.forces.pressure_cells import (
 )
 from nivel.kernels.forces.wrench import add_force_at, add_torque
 from nivel.kernels.record.hook import family
-from nivel.kernels.record.record import record_at
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # what polygons are asked for
@@ -122,7 +131,15 @@ def rub_at(n, weight, x, y, z):
     damping = weight * maximum(n[DAMPING] * rate, -1.0 + 0.0 * rate)
     add_to(n, PUSH, x, y, z, -damping * m[0], -damping * m[1], -damping * m[2])
     loss = damping * (m[0] * v0 + m[1] * v1 + m[2] * v2)
-    if real(n[FRICTION]) > 0.0:
+    if real(n[FRICTION]) > 0.0 and real(n[TRANSITION]) == 0.0:
+        force = -(weight + damping) * (m[0] * N[0] + m[1] * N[1] + m[2] * N[2])
+        sums = n[RUB:BOX]
+        sums[0] += force
+        sums[1] += force * x
+        sums[2] += force * y
+        sums[3] += force * z
+        sums[4] += force * (x * x + y * y + z * z)
+    elif real(n[FRICTION]) > 0.0:
         s0, s1, s2 = v0 + rate * N[0], v1 + rate * N[1], v2 + rate * N[2]
         squared = s0 * s0 + s1 * s1 + s2 * s2
         along = -(m[0] * N[0] + m[1] * N[1] + m[2] * N[2])
@@ -267,6 +284,49 @@ def overlap(columns, n, distance, is_apart):
 
 
 @stage
+def find_patch(machine, k):
+    """The patch of contact k, from its sums, which are clear then."""
+    record = record_at(machine)
+    markers, bodies = record.markers, record.bodies
+    columns, n = record.elements.columns[k], record.elements.number[k]
+    first, count, q = np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE])
+    i, j, sums = columns[MARKER], columns[OTHER], n[RUB:BOX]
+    if real(sums[0]) > 0.0:
+        load, A = sums[0], markers.A[i]
+        d, reach = middle_of(sums)
+        p, normal = plus(markers.r[i], turned(A, d)), turned(A, (-n[NORMAL], -n[NORMAL + 1], -n[NORMAL + 2]))
+        t, u = tangents(markers.A[j], normal)
+        v, w = velocity_at(bodies, markers.body[i], p), velocity_at(bodies, markers.body[j], p)
+        pdot = 0.5 * (v[0] + w[0]), 0.5 * (v[1] + w[1]), 0.5 * (v[2] + w[2])
+        write_patch(machine, first, count, q, p, pdot, normal, t, u, load, reach)
+    else:
+        leave_patch(machine, first, count, q)
+    for a in range(6):
+        sums[a] = 0.0 * n[FIELD]
+
+
+@leaf
+def turned(A, d):
+    """A d."""
+    x = A[0, 0] * d[0] + A[0, 1] * d[1] + A[0, 2] * d[2]
+    y = A[1, 0] * d[0] + A[1, 1] * d[1] + A[1, 2] * d[2]
+    return x, y, A[2, 0] * d[0] + A[2, 1] * d[1] + A[2, 2] * d[2]
+
+
+@leaf
+def speed_of_slip(n):
+    """Speed across the normal at the middle of the normal force, between the two bodies."""
+    F, T, N = n[PUSH:PUSH_TORQUE], n[PUSH_TORQUE:RUB], n[NORMAL : NORMAL + 3]
+    squared = dot(F, F)
+    p = cross(F, T)
+    v = velocity(n, p[0] / squared, p[1] / squared, p[2] / squared)
+    out = dot(v, N)
+    s = v[0] - out * N[0], v[1] - out * N[1], v[2] - out * N[2]
+    square = dot(s, s)
+    return np.sqrt(square) if real(square) > 0.0 else 0.0 * square
+
+
+@stage
 def push(machine, k):
     """Put the sums of forces on both bodies; returns their power."""
     record = record_at(machine)
@@ -300,13 +360,16 @@ def apply(machine, number, t):
         elements.depth[k, 0], elements.proposal[k, 0] = depth, 0.0 * depth + (1.0 if real(depth) > 0.0 else 0.0)
         if followed == 1:
             elements.depth_rate[k, 0] = rate
-        normal, power = length_of(n, PUSH), 0.0 * depth
+        normal, power, slip = length_of(n, PUSH), 0.0 * depth, 0.0 * depth
+        if columns[PATCH] != NONE:
+            find_patch(machine, k)
         if real(normal) > 0.0:
-            power = push(machine, k)
+            power, slip = push(machine, k), speed_of_slip(n)
         control.stored[0] += energy
         control.power[1] += loss
         out, first = record.outputs.value, columns[OUTPUT]
         out[first + DEPTH], out[first + FORCE], out[first + RATE] = depth, normal, rate
+        out[first + FRICTION_FORCE], out[first + SLIP_SPEED] = length_of(n, RUB), slip
         for a in range(3):
             n[PUSH + a] += n[RUB + a]
         out[first], out[first + 1] = length_of(n, PUSH), power

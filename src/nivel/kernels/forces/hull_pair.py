@@ -8,13 +8,16 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.forces.pressure_cells import bound_cap, nearest_faces, overlap_under
 from nivel.native.function import leaf
 
-# columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; then EDGES of the first hull, two corners
-# each, as many numbers as FIRST_EDGES says, and those of the second
-OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, SECOND_EDGES, EDGES = range(10)
-# outputs: magnitude, power, depth, normal force, rate of approach
-DEPTH, FORCE, RATE = 2, 3, 4
-# columns of `number`. Then work: place of the second hull in axes of the first, velocity and angular velocity relative to the first at its
-# origin, sums (normal force and its torque, friction and its torque), a box, a plane, the normal of the contact from first to second
+# columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; the patch as in
+# `nivel.kernels.forces.contact`; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says, and those of the
+# second
+OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, SECOND_EDGES = range(9)
+PATCH, AXES, COORDINATE, EDGES = 9, 10, 11, 12
+# outputs: magnitude, power, depth, normal force, rate of approach, friction, speed of slip at the middle
+DEPTH, FORCE, RATE, FRICTION_FORCE, SLIP_SPEED = 2, 3, 4, 5, 6
+# columns of `number`; TRANSITION: 0 where friction is that of a patch. Then work: place of the second hull in axes of the first, velocity
+# and angular velocity relative to the first at its origin, sums (normal force and its torque, friction and its torque, or what the patch is
+# made of), a box, a plane, the normal of the contact from first to second
 FIELD, DAMPING, FRICTION, TRANSITION, RADIUS, OTHER_RADIUS = range(6)
 TURN, SHIFT, SPEED, SPIN, PUSH, PUSH_TORQUE, RUB, RUB_TORQUE, BOX, PLANE, NORMAL = (
     6, 15, 18, 21, 24, 27, 30, 33, 36, 42, 54,

@@ -6,11 +6,14 @@ slides, the friction that its load makes:
     F + b ċ - clip(w, -L, L) = 0        w = F + b ċ - m (c̈ + ċ/τ) - ε (F - F₀),   L = μ_s N(λ) where |w| ≤ μ_s N, else μ(ċ) N
 
 the law of `nivel.kernels.elements.friction` for any mass m, as a projection (Alart, Curnier 1991), in which Newton's iteration decides by
-F and c̈ together which of the two it is: with one friction it decides right at once. With the fall from μ_s to μ(ċ) there may be neither:
-what has begun to slide RELEASES times in one iteration holds no more than μ(ċ) N until its end. m is the mass that F moves; ε has F stay
-near that of the accepted state, F₀, where several frictions hold one motion. b is viscous friction. Where the multipliers of constraints
-close velocities at the ends of steps, c̈ and ċ of what sticks are means of a step (ċ that at its end in steps longer than τ):
-accelerations at the ends are a little open, and two frictions of a loop would contradict each other.
+F and c̈ together which of the two it is: with one friction it decides right at once. What slid in the accepted state is held by μ(ċ) N
+alone while its effort keeps its direction. With the fall from μ_s to μ(ċ) there may be no solution: what has begun to slide RELEASES times
+in one iteration holds no more than μ(ċ) N until its end. m is the mass that F moves; ε has F stay near that of the accepted state, F₀,
+where several frictions hold one motion. b is viscous friction. Where the multipliers of constraints close velocities at the ends of steps,
+c̈ and ċ of what sticks are means of a step (ċ that at its end in steps longer than τ): accelerations at the ends are a little open, and two
+frictions of a loop would contradict each other.
+
+The efforts (F, M/r) of a patch are a vector with one row each, and the sphere of radius L is in place of the two ends of the interval.
 """
 
 from __future__ import annotations
@@ -18,12 +21,16 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.bodies.patch_coordinate import KEPT
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements.friction import (
     ARM,
     COORDINATE,
+    COUNT,
+    FIRST,
     KINETIC,
     MODEL,
+    PATCH,
     STATIC,
     STICTION,
     STRIBECK,
@@ -96,7 +103,8 @@ def find_branch(machine, k, number, wanted, limit):
     n, own = record.friction.number[k], record.residual
     if own.tally[TURNS] == 0.0:
         own.tally[RELEASED + number] = 0.0
-    if own.tally[RELEASED + number] < RELEASES:
+    goes_on = wanted * record.friction.work[KEPT, k] > 0.0
+    if own.tally[RELEASED + number] < RELEASES and not goes_on:
         limit = n[STATIC] * real(normal_load(machine, k)) * n[ARM]
     branch = 1.0 if wanted > limit else (-1.0 if wanted < -limit else 0.0)
     if branch != 0.0 and own.branch[number] == 0.0:
@@ -132,14 +140,83 @@ def hold(machine, k, place):
     return force
 
 
+@stage
+def lack(machine, k, place):
+    """Of effort k, multiplier `place`: (c̈ + ċ/τ, or what stands for it over a step; change of the effort since the accepted state)."""
+    record = record_at(machine)
+    friction, own, tau = record.friction, record.residual, record.control.stick[0]
+    q, number, span = friction.columns[k, COORDINATE], place - own.row.shape[0], own.span[0]
+    rate, change = record.coordinates.rate[q], own.lam[place] - friction.anchor[k]
+    own.rate[number] = real(rate)
+    if span > 0.0:
+        return (rate - own.begun[number]) / span + (
+            0.5 * (rate + own.begun[number]) if span <= tau else rate
+        ) / tau, change
+    return second_derivative(machine, q) + rate / tau, change
+
+
+@stage
+def hold_patch(machine, k, place):
+    """Fill the rows of the patch that begins with friction k, whose efforts are multipliers from `place` on of the residual."""
+    record = record_at(machine)
+    friction, own, n, value = record.friction, record.residual, record.friction.number[k], record.residual.value
+    q, count, number = friction.columns[k, COORDINATE], friction.columns[k, COUNT], place - own.row.shape[0]
+    first = own.vdot.shape[0] + record.elements.state_rate.shape[0] + 2 * own.lam.shape[0] + place
+    load, reach, mass = record.coordinates.value[q], record.coordinates.value[q + 1], friction.mass[k]
+    x, y = lack(machine, k, place), lack(machine, k + 1, place + 1)
+    F, G, H = own.lam[place], own.lam[place + 1], 0.0 * load
+    miss_x, miss_y, miss_z = mass * x[0] + NEAR * x[1], mass * y[0] + NEAR * y[1], 0.0 * load
+    spins = count == 3 and real(reach) > 0.0
+    if spins:
+        z = lack(machine, k + 2, place + 2)
+        H = own.lam[place + 2] / reach
+        miss_z = mass * reach * z[0] + NEAR * z[1] / reach
+    limit, largest = n[KINETIC] * load, n[STATIC] * real(load)
+    if own.tally[TURNS] == 0.0:
+        own.tally[RELEASED + number] = 0.0
+    a, b, c = F - miss_x, G - miss_y, H - miss_z
+    goes_on = real(a) * friction.work[KEPT, k] + real(b) * friction.work[KEPT, k + 1]
+    if spins:
+        goes_on += real(c) * friction.work[KEPT, k + 2] / real(reach)
+    if own.tally[RELEASED + number] >= RELEASES or goes_on > 0.0:
+        largest = real(limit)
+    size = np.sqrt(a * a + b * b + c * c + 0.0 * load)
+    branch = own.bidden[number]
+    if np.isnan(branch):
+        branch = 1.0 if real(size) > largest else 0.0
+        if branch != 0.0 and own.branch[number] == 0.0:
+            own.tally[RELEASED + number] += 1.0
+    if record.control.stick[0] == np.inf:
+        miss_x, miss_y, branch = x[1] + 0.0 * load, y[1] + 0.0 * load, 0.0
+        if spins:
+            miss_z = (own.lam[place + 2] - friction.anchor[k + 2]) / reach
+    if not real(load) > 0.0:
+        miss_x, miss_y, branch = F, G, 0.0
+    elif branch != 0.0:
+        share = limit / size if real(size) > 0.0 else 0.0 * load
+        miss_x, miss_y, miss_z = F - share * a, G - share * b, H - share * c
+    value[first], value[first + 1] = miss_x, miss_y
+    if count == 3:
+        value[first + 2] = miss_z if spins and real(load) > 0.0 else own.lam[place + 2]
+    for m in range(count):
+        own.branch[number + m], friction.force[k + m] = branch, real(own.lam[place + m])
+        own.limit[number + m] = real(limit) * (real(reach) if m == 2 else 1.0)
+
+
 @family
 def apply(machine, number, t):
     """Add the efforts of all frictions for the multipliers of the constraints to the wrenches of the bodies, and report them."""
     record = record_at(machine)
     place = record.residual.row.shape[0]
     for k in range(record.friction.columns.shape[0]):
-        if record.friction.columns[k, MODEL] == STICTION:
+        model = record.friction.columns[k, MODEL]
+        if model == STICTION:
             force = hold(machine, k, place)
+            place += 1
+        elif model == PATCH:
+            if record.friction.columns[k, FIRST] == k:
+                hold_patch(machine, k, place)
+            force = record.residual.lam[place]
             place += 1
         else:
             force = sliding_effort(machine, k)

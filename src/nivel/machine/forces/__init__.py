@@ -22,6 +22,7 @@ from nivel.machine.forces.pair_force import PairForce
 from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
+from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
@@ -99,5 +100,6 @@ __all__ = [
     "TorqueSpeed",
     "TorqueTable",
     "TorsionalSpringDamper",
+    "is_sticking",
     "register",
 ]

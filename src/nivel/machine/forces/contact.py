@@ -12,6 +12,7 @@ from nivel.machine.core.coefficient import (
     FoundationModulus,
     NotNegativeNumber,
     PoissonRatio,
+    PositiveNumber,
     PositiveSpeed,
     Pressure,
     Restitution,
@@ -45,7 +46,7 @@ class Contact(ForceElement):
     where they touch.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force", "rate")
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force", "rate", "friction_force", "slip_speed")
 
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
@@ -78,9 +79,14 @@ class Contact(ForceElement):
         default=None,
         description="the normal force at a point that touches, in place of `stiffness` and `restitution`; may use `depth` and `rate`",
     )
-    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of Coulomb friction")
+    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
+    static_friction: Maybe[PositiveNumber] = Field(default=None, description="coefficient, default `friction`")
+    friction_model: Literal["stiction", "coulomb"] = Field(
+        default="stiction",
+        description="stiction sticks; with coulomb friction goes as tanh(sliding speed / friction_transition_speed), so bodies creep",
+    )
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
-        default=None, description="friction goes as tanh(sliding speed / friction_transition_speed)"
+        default=None, description="of `friction_model: coulomb`; stiction makes no use of it"
     )
 
     def problems(self) -> Iterator[Problem]:
@@ -89,12 +95,34 @@ class Contact(ForceElement):
             yield superfluous(
                 "damping", "belongs to a `foundation_modulus`; here `restitution` says what an impact loses"
             )
-        if self.friction > 0 and self.friction_transition_speed is None:
-            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        yield from self._problems_of_friction()
         if self.foundation_modulus is not None:
             yield from self._problems_of_foundation()
         else:
             yield from self._problems_of_law() if self.law is not None else self._problems_of_stiffness()
+
+    @property
+    def static(self) -> float:
+        """Coefficient of static friction."""
+        return self.friction if self.static_friction is None else self.static_friction
+
+    @property
+    def sticks(self) -> bool:
+        """Whether friction can hold the bodies at rest."""
+        return self.friction > 0 and self.friction_model == "stiction"
+
+    def _problems_of_friction(self) -> Iterator[Problem]:
+        if self.static < self.friction:
+            message = f"`static_friction` {self.static:g} is smaller than `friction` {self.friction:g}"
+            yield Problem(("static_friction",), f"{message}; static friction is at least as strong as kinetic")
+        if self.static_friction is not None and not self.friction:
+            yield Problem(
+                (), "`friction` is missing, the coefficient of kinetic friction: bodies that slide would have none"
+            )
+        if self.friction > 0 and not self.sticks and self.friction_transition_speed is None:
+            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        if self.static > self.friction and not self.sticks:
+            yield superfluous("static_friction", "belongs to `friction_model: stiction`")
 
     def _problems_of_foundation(self) -> Iterator[Problem]:
         if self.bodies is None:

@@ -20,6 +20,7 @@ from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces import Bushing, Contact, Material, Stop
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
+from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.hulls import hull_of, row_of
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
@@ -53,6 +54,8 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         ("depth", "m", "deepest overlap"),
         ("normal_force", "N", "normal force"),
         ("rate", "m/s", "rate of the deepest overlap"),
+        ("friction_force", "N", "friction force"),
+        ("slip_speed", "m/s", "sliding speed"),
     )
     if force.foundation_modulus is not None:
         _add_hulls(builder, force, first)
@@ -77,14 +80,18 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         # every point that touches asks for it
         law = builder.function(force.law, symbols, switching=False)
     loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
-    numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
+    numbers = [stiffness or 0.0, force.exponent, loss, 0.0 if force.sticks else force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = POINTS.get(kind, 1)
     if kind == contact.HULL:
         corners = _corners(builder.machine.body_named[str(force.body)])
         numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
-    builder.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
+    patch = [NONE, 0, 0]
+    if force.sticks:
+        patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
+    columns = [first, kind, *markers, law, points, *patch]
+    builder.elements.add(contact.apply, columns, numbers, points, tuple(range(points)))
 
 
 def tangent_stiffness(machine: MachineRecord, force: Contact | Stop, load: float) -> float | None:
@@ -117,7 +124,8 @@ def _add_hulls(builder: SystemBuilder, force: Contact, first: int) -> None:
     bodies = [builder.machine.body_named[name] for name in force.bodies]
     hulls = hull_of(bodies[0]), hull_of(bodies[1])
     markers = [builder.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
-    columns, numbers = row_of(hulls, force)
+    patch = add_patch(builder, force, (markers[0], markers[1]), first, True) if force.sticks else [NONE, 0, 0]
+    columns, numbers = row_of(hulls, force, patch)
     builder.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
+from nivel.kernels.bodies.patch_coordinate import PATCH
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import Friction
+from nivel.machine.forces import Contact, Friction
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import GROUND, SystemBuilder
 from nivel.system.forces.kind import ForceKind
@@ -38,7 +39,7 @@ def add_friction(builder: SystemBuilder, force: Friction) -> None:
     frame = to if kind == CROSS_SECOND else seen_from
     # what slides on a beam has its bearing with it: `to` is only the first of the nodes
     bearing = seen_from if kind == ALONG else _bearing(builder, seen_from, to)
-    index = [coordinate, model, loaded_by, int(angle), state, first, frame, bearing]
+    index = [coordinate, model, loaded_by, int(angle), state, first, frame, bearing, NONE, NONE]
     numbers = [
         force.coefficient,
         force.static,
@@ -55,6 +56,20 @@ def add_friction(builder: SystemBuilder, force: Friction) -> None:
         0.0,
     ]
     builder.frictions.append((index, numbers))
+    builder.friction_names.append(force.name)
+
+
+def add_patch(builder: SystemBuilder, contact: Contact, ends: tuple[int, int], output: int, spins: bool) -> list[int]:
+    """Frictions along two tangents and, where the contact `spins`, about the normal. ends : markers of the two bodies. output : first one
+    of the contact. Returns the first friction, how many there are, and the first coordinate: see `nivel.kernels.elements.patch`."""
+    first, count = len(builder.frictions), 3 if spins else 2
+    coordinates = [builder.coordinates.add(PATCH, *ends, axis) for axis in range(count)]
+    for axis, coordinate in enumerate(coordinates):
+        index = [coordinate, friction.PATCH, NONE, int(axis == 2), NONE, output, *ends, first, count]
+        numbers = [contact.friction, contact.static, 0.0, 1.0, *[0.0] * 3, 1.0, *[0.0] * 5]
+        builder.frictions.append((index, numbers))
+        builder.friction_names.append(f"{contact.name}.{('slip_x', 'slip_y', 'spin')[axis]}")
+    return [first, count, coordinates[0]]
 
 
 def _bearing(builder: SystemBuilder, first: int, second: int) -> int:

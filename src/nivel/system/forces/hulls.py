@@ -89,15 +89,16 @@ def _edges(corners: Array, faces: Array) -> NDArray[np.int64]:
     return np.argwhere(np.triu(common >= 2, 1))
 
 
-def row_of(hulls: tuple[Hull, Hull], force: Contact) -> tuple[list[int], list[float]]:
-    """Columns behind the markers, and numbers, of a contact: see `nivel.kernels.forces.hull_pair`."""
+def row_of(hulls: tuple[Hull, Hull], force: Contact, patch: list[int]) -> tuple[list[int], list[float]]:
+    """Columns behind the markers, and numbers, of a contact with this patch: see `nivel.kernels.forces.hull_pair`."""
     first, second = hulls
     counts = (
         [len(each.corners) for each in hulls]
         + [len(each.faces) for each in hulls]
         + [each.edges.size for each in hulls]
     )
-    modulus, speed = force.foundation_modulus or 0.0, force.friction_transition_speed or 1.0
+    modulus = force.foundation_modulus or 0.0
+    speed = 0.0 if force.sticks else force.friction_transition_speed or 1.0
     # pressure of both bodies at the same depth: half the overlap each
     numbers = [2.0 * modulus, force.damping or 0.0, force.friction, speed, first.radius, second.radius]
     numbers += [0.0] * (NUMBERS - len(numbers))
@@ -105,7 +106,9 @@ def row_of(hulls: tuple[Hull, Hull], force: Contact) -> tuple[list[int], list[fl
     numbers += [*second.corners.ravel(), *second.faces.ravel(), *np.zeros(second.corners.size)]
     faces = len(first.faces) + len(second.faces)
     numbers += [0.0] * (faces + 4 * (faces + 4))
-    return [*counts, *first.edges.ravel().tolist(), *second.edges.ravel().tolist()], [float(each) for each in numbers]
+    return [*counts, *patch, *first.edges.ravel().tolist(), *second.edges.ravel().tolist()], [
+        float(each) for each in numbers
+    ]
 
 
 def _fault(body: Body, said: str) -> ModelError:

@@ -1,0 +1,373 @@
+"""Contact that sticks, against closed forms: slopes, stick-slip, rolling with and without slip, spinning, a top that turns over, towers."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.errors import ModelError
+from references import stick_slip
+from simulating import G, machine, simulate, slide, solid
+
+FAULT = Path(__file__).parents[1] / "faults" / "r02_box_incline.yaml"
+METHODS = pytest.mark.parametrize(
+    ("integrator", "coordinates", "step"),
+    [
+        ("rk4", "absolute", 2e-4),
+        ("rk4", "relative", 2e-4),
+        ("dopri5", "relative", 1e-3),
+        ("generalised-alpha", "absolute", 1e-3),
+        ("generalised-alpha", "independent", 1e-3),
+        ("radau", "absolute", 1e-3),
+        ("bdf", "relative", 1e-3),
+        ("ros2", "relative", 1e-3),
+        ("extrapolated-euler", "absolute", 1e-3),
+    ],
+)
+FEW = pytest.mark.parametrize(
+    ("integrator", "coordinates", "step"),
+    [("rk4", "absolute", 1e-4), ("generalised-alpha", "absolute", 2.5e-4), ("radau", "relative", 5e-4)],
+)
+MASS, STIFFNESS = 2.0, 1e6
+SIZE = np.array([0.3, 0.2, 0.1])
+INERTIA = (
+    MASS / 12.0 * np.array([SIZE[1] ** 2 + SIZE[2] ** 2, SIZE[0] ** 2 + SIZE[2] ** 2, SIZE[0] ** 2 + SIZE[1] ** 2])
+)
+
+
+def touching(mu, static=None, restitution=0.2, **more):
+    out = {"type": "contact", "stiffness": STIFFNESS, "exponent": 1, "restitution": restitution, "friction": mu, **more}
+    return out if static is None else {**out, "static_friction": static}
+
+
+def box(mu, static=None, slope=0.0, velocity=(0, 0, 0), forces=None, **more):
+    """A box that lies on its four corners, X down the slope; it begins with the overlap that carries it."""
+    overlap = MASS * G * np.cos(slope) / (4 * STIFFNESS)
+    body = {"mass": MASS, "position": [0, 0, SIZE[2] / 2 - overlap], "shape": {"type": "box", "size": SIZE.tolist()}}
+    return {
+        "gravity": [G * np.sin(slope), 0, -G * np.cos(slope)],
+        "bodies": {"box": {**body, "velocity": list(velocity), **more}},
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]}},
+        "forces": {"touch": touching(mu, static, body="box", plane="floor"), **(forces or {})},
+    }
+
+
+# --- rest ---
+@METHODS
+def test_a_box_on_a_slope_does_not_creep(integrator, coordinates, step):
+    """2° and μ = 1: after it has settled it has not moved by a nanometre in 10 s, and friction is what holds it."""
+    r = nivel.load(FAULT).simulate(integrator=integrator, coordinates=coordinates, step=step, duration=10)
+    settled = r.time >= 1.0
+    place = r.array("box.position")[settled]
+    assert np.abs(place - place[-1]).max() < 1e-11
+    assert np.abs(place[-1, :2]).max() < 1e-5
+    np.testing.assert_allclose(r.array("force.c.friction_force")[-1], 5 * 0.342369, rtol=1e-6)
+    assert r.array("force.c.slip_speed")[-1] < 1e-12
+
+
+def test_a_box_on_a_slope_does_not_move_in_an_hour():
+    r = nivel.load(FAULT, {"simulation.output_interval": 60}).simulate(duration=3600, verify=False)
+    assert r.time[-1] == 3600.0
+    place = r.array("box.position")[1:]
+    assert np.abs(place - place[0]).max() < 1e-9
+
+
+@FEW
+def test_a_bar_between_two_planes_does_not_creep(integrator, coordinates, step):
+    """Pressed by 5 weights from both sides it hangs by friction, which may share the load as it likes."""
+    overlap = 5 * MASS * G / (4 * STIFFNESS)
+    sections = {
+        "gravity": [0, 0, -G],
+        "bodies": {"bar": {"mass": MASS, "shape": {"type": "box", "size": [0.1, 0.2, 0.3]}}},
+        "markers": {
+            "left": {"body": "ground", "position": [-0.05 + overlap, 0, 0], "axis": [1, 0, 0], "x_axis": [0, 1, 0]},
+            "right": {"body": "ground", "position": [0.05 - overlap, 0, 0], "axis": [-1, 0, 0], "x_axis": [0, 0, 1]},
+        },
+        "forces": {side: touching(0.2, restitution=0.8, body="bar", plane=side) for side in ("left", "right")},
+    }
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.1}
+    r = simulate(sections, duration=3.0, **settings)
+    assert np.abs(r.array("bar.position")).max() < 1e-9
+    assert np.abs(r.array("bar.position")[5:] - r.array("bar.position")[-1]).max() < 1e-11
+
+
+@FEW
+def test_a_box_that_was_thrown_up_a_slope_stays(integrator, coordinates, step):
+    """tan α between μ_d and μ_s: it rises v0²/(2 g (sin α + μ_d cos α)) and is held there."""
+    slope = np.radians(20.0)
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.1}
+    r = simulate(box(0.3, 0.4, slope, (-1, 0, 0)), duration=1.0, **settings)
+    rises = 1.0 / (2 * G * (np.sin(slope) + 0.3 * np.cos(slope)))
+    place = r.array("box.position.x")
+    assert abs(place[-1] + rises) < 1e-4
+    assert np.abs(place[5:] - place[-1]).max() < 1e-9
+
+
+# --- sliding ---
+@FEW
+def test_a_box_slides_down_a_steep_slope(integrator, coordinates, step):
+    """a = g (sin α - μ cos α): friction at the floor tilts it once, within its overlap."""
+    slope = np.radians(40.0)
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.05}
+    r = simulate(box(0.3, slope=slope), duration=0.5, **settings)
+    a = G * (np.sin(slope) - 0.3 * np.cos(slope))
+    np.testing.assert_allclose(r.array("box.velocity.x"), a * r.time, atol=2e-3)
+    assert abs(r.array("energy_error")[-1]) < 1e-4 * r.array("dissipated_energy")[-1]
+
+
+@pytest.mark.parametrize(
+    ("integrator", "coordinates", "step"),
+    [
+        ("rk4", "absolute", 1e-4),
+        ("generalised-alpha", "absolute", 2.5e-4),
+        ("radau", "relative", 5e-4),
+        ("bdf", "relative", 5e-4),
+        ("dopri5", "absolute", 5e-4),
+    ],
+)
+def test_stick_slip_of_a_drawn_box(integrator, coordinates, step):
+    """A carriage draws it by a spring at V: slips and rests at their closed times, μ_s > μ_d."""
+    pull = stick_slip.Drawn(mass=MASS, stiffness=600.0, speed=0.05, load=MASS * G, static=0.4, kinetic=0.25)
+    sections = box(pull.kinetic, pull.static)
+    sections["bodies"]["carriage"] = solid(1.0, 0.01, position=[0.5, 0, SIZE[2] / 2], velocity=[pull.speed, 0, 0])
+    sections["joints"] = {"track": slide("ground", "carriage", point=[0.5, 0, SIZE[2] / 2])}
+    sections["drivers"] = {"winch": {"coordinate": "track.displacement", "value": f"{pull.speed}*time"}}
+    ends = [{"body": "box"}, {"body": "carriage"}]
+    sections["forces"]["rope"] = {
+        "type": "spring-damper",
+        "markers": ends,
+        "stiffness": pull.stiffness,
+        "free_length": 0.5,
+    }
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.01}
+    r = simulate(sections, duration=1.0, **settings)
+    assert pull.first_slip + pull.slip_duration + pull.stick_duration < 1.0
+    np.testing.assert_allclose(r.array("box.position.x"), pull.closed_form(r.time), atol=2e-4)
+
+
+@FEW
+def test_a_brick_spins_to_rest(integrator, coordinates, step):
+    """Its corners at r = half a diagonal: J ω̇ = -μ m g r. It stops at ω0² J/(2 μ m g r), and stays."""
+    mu, speed, reach = 0.3, 6.0, 0.5 * np.hypot(SIZE[0], SIZE[1])
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.02}
+    r = simulate(box(mu, angular_velocity=[0, 0, speed]), duration=0.5, **settings)
+    braking = mu * MASS * G * reach / INERTIA[2]
+    assert speed / braking < 0.4
+    spin = r.array("box.angular_velocity.z")
+    np.testing.assert_allclose(spin, np.maximum(speed - braking * r.time, 0.0), atol=braking * 2.5e-3)
+    assert np.abs(spin[-3:]).max() < 1e-9
+    turned = 2.0 * np.arctan2(r.array("box.orientation")[-1, 3], r.array("box.orientation")[-1, 0])
+    assert abs(turned - speed**2 / (2 * braking)) < 2e-3
+    lost = 0.5 * INERTIA[2] * speed**2
+    assert abs(r.array("dissipated_energy")[-1] - lost) < 2e-3 * lost
+
+
+# --- rolling ---
+RADIUS = 0.05
+
+
+def ball(mu, slope=0.0, velocity=(0, 0, 0), spin=(0, 0, 0)):
+    overlap = MASS * G * np.cos(slope) / STIFFNESS
+    return {
+        "gravity": [G * np.sin(slope), 0, -G * np.cos(slope)],
+        "bodies": {
+            "ball": {
+                "mass": MASS,
+                "position": [0, 0, RADIUS - overlap],
+                "shape": {"type": "sphere", "radius": RADIUS},
+                "velocity": list(velocity),
+                "angular_velocity": list(spin),
+            }
+        },
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
+        "forces": {"touch": touching(mu, body="ball", plane="floor")},
+    }
+
+
+@FEW
+@pytest.mark.parametrize(("degrees", "slips"), [(20, False), (60, True)])
+def test_a_ball_rolls_down_a_slope(integrator, coordinates, step, degrees, slips):
+    """Below tan α = 7/2 μ it rolls with 5/7 g sin α, above it slips with g (sin α - μ cos α)."""
+    mu, slope = 0.3, np.radians(degrees)
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.05}
+    r = simulate(ball(mu, slope), duration=0.5, **settings)
+    a = G * (np.sin(slope) - mu * np.cos(slope)) if slips else 5 / 7 * G * np.sin(slope)
+    np.testing.assert_allclose(r.array("ball.velocity.x"), a * r.time, atol=2e-3 * a)
+    if not slips:
+        assert r.array("force.touch.slip_speed").max() < 5e-3 * a * step / 1e-4
+        assert r.array("dissipated_energy")[-1] < 2e-3 * r.array("kinetic_energy")[-1]
+
+
+@FEW
+def test_a_billiard_ball_begins_to_roll(integrator, coordinates, step):
+    """Pushed without spin it slides until t = 2 v0/(7 μ g), then rolls with 5/7 v0."""
+    mu, v = 0.2, 1.0
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.01}
+    r = simulate(ball(mu, velocity=(v, 0, 0)), duration=0.3, **settings)
+    begin = 2 * v / (7 * mu * G)
+    expected = np.where(r.time < begin, v - mu * G * r.time, 5 / 7 * v)
+    np.testing.assert_allclose(r.array("ball.velocity.x"), expected, atol=2e-3)
+    assert r.array("force.touch.slip_speed")[r.time > begin + 0.02].max() < 1e-8
+
+
+@FEW
+def test_a_cylinder_rolls_down_a_slope(integrator, coordinates, step):
+    """With 2/3 g sin α, on the four points of each rim of which it has two at a time on the floor."""
+    slope, radius = np.radians(20.0), 0.05
+    overlap = MASS * G * np.cos(slope) / (2 * STIFFNESS)
+    shape = {"type": "cylinder", "radius": radius, "length": 0.2, "along": "y"}
+    sections = {
+        "gravity": [G * np.sin(slope), 0, -G * np.cos(slope)],
+        "bodies": {"roll": {"mass": MASS, "position": [0, 0, radius - overlap], "shape": shape}},
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
+        "forces": {"touch": touching(0.3, body="roll", plane="floor")},
+    }
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.05}
+    r = simulate(sections, duration=0.5, **settings)
+    a = 2 / 3 * G * np.sin(slope)
+    np.testing.assert_allclose(r.array("roll.velocity.x"), a * r.time, atol=4e-3 * a)
+    assert r.array("dissipated_energy")[-1] < 4e-3 * r.array("kinetic_energy")[-1]
+
+
+def test_a_top_turns_over_and_keeps_jelletts_number():
+    """A sphere with its mass below the middle. Friction acts at the lowest point alone: L · (from the middle of mass to it) is constant,
+    while friction lifts the mass above the middle (Jellett 1872). It takes little friction, so that it goes on slipping."""
+    mass, radius, low, spin = 0.02, 0.015, 0.004, 150.0
+    J = np.array([0.40, 0.40, 0.38]) * mass * radius**2
+    stiffness = 2e3
+    overlap = mass * G / stiffness
+    tilt = 0.15
+    axis = np.array([np.sin(tilt), 0.0, np.cos(tilt)])
+    sections = {
+        "gravity": [0, 0, -G],
+        "bodies": {
+            "top": {
+                "mass": mass,
+                "inertia": J.tolist(),
+                "centre_of_mass": [0, 0, -low],
+                "position": [0, 0, radius - overlap],
+                "orientation": {"axis": [0, 1, 0], "angle": tilt},
+                "angular_velocity": (spin * axis).tolist(),
+                "shape": {"type": "sphere", "radius": radius},
+            }
+        },
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
+        "forces": {"touch": {**touching(0.02, restitution=0.5, body="top", plane="floor"), "stiffness": stiffness}},
+    }
+    r = simulate(sections, duration=10.0, integrator="rk4", step=1e-4, output_interval=0.05)
+    q, w = r.array("top.orientation"), r.array("top.angular_velocity")
+    up = np.stack(
+        [
+            2 * (q[:, 1] * q[:, 3] + q[:, 0] * q[:, 2]),
+            2 * (q[:, 2] * q[:, 3] - q[:, 0] * q[:, 1]),
+            1 - 2 * (q[:, 1] ** 2 + q[:, 2] ** 2),
+        ],
+        axis=1,
+    )
+    along = np.sum(w * up, axis=1)
+    momentum = J[0] * w + (J[2] - J[0]) * along[:, None] * up
+    to_floor = low * up
+    to_floor[:, 2] -= r.array("top.position.z")
+    jellett = np.sum(momentum * to_floor, axis=1)
+    np.testing.assert_allclose(jellett, jellett[0], rtol=2e-3)
+    assert up[0, 2] > 0.9
+    assert up[-1, 2] < -0.3
+    assert np.all(np.diff(r.array("kinetic_energy") + r.array("potential_energy")) < 1e-7)
+
+
+# --- loads that change ---
+@FEW
+def test_a_box_slips_while_it_is_pressed_less(integrator, coordinates, step):
+    """Pulled by T = 0.9 μ m g, it is relieved by m g/4 between 0.2 and 0.3 s: there it slides with (T - 3/4 μ m g)/m, then it brakes with
+    (μ m g - T)/m, and rests."""
+    mu = 0.4
+    pull, relief = 0.9 * mu * MASS * G, 0.25 * MASS * G
+    # both rise within 2 ms, and the pull is at the height of the floor: nothing tilts
+    lift = f"{relief}*(min(1, max(0, (time - 0.2)/0.002)) - min(1, max(0, (time - 0.3)/0.002)))"
+    forces = {
+        "pull": {
+            "type": "force",
+            "body": "box",
+            "position": [0, 0, -SIZE[2] / 2],
+            "vector": [f"{pull}*min(1, time/0.05)", 0, 0],
+        },
+        "lift": {"type": "force", "body": "box", "vector": [0, 0, lift]},
+    }
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": step, "output_interval": 0.01}
+    r = simulate(box(mu, forces=forces), duration=1.0, **settings)
+    slides, brakes = pull / MASS - 0.75 * mu * G, mu * G - pull / MASS
+    speed = slides * 0.1
+    way = 0.5 * slides * 0.1**2 + speed**2 / (2 * brakes)
+    assert 0.302 + speed / brakes < 0.9
+    place = r.array("box.position.x")
+    assert np.abs(place[r.time < 0.195]).max() < 2e-6
+    assert abs(place[-1] - way) < 0.02 * way
+    assert np.abs(place[-5:] - place[-1]).max() < 1e-9
+
+
+# --- solids on solids ---
+BRICK, WIDTH, HEIGHT, COUNT = 1.0, 0.2, 0.08, 5
+
+
+def tower(mu, push):
+    """Five bricks on a table; the uppermost is pushed."""
+    modulus, middle = 2e8, 0.0
+    bodies = {"table": {"shape": {"type": "box", "size": [1, 1, 0.1]}, "mass": 50, "position": [0, 0, -0.05]}}
+    forces = {"push": {"type": "force", "body": f"brick{COUNT}", "vector": [push, 0, 0]}}
+    for k in range(1, COUNT + 1):
+        middle += HEIGHT - (COUNT + 1 - k) * BRICK * G / (modulus * WIDTH**2)
+        shape = {"type": "box", "size": [WIDTH, WIDTH, HEIGHT]}
+        bodies[f"brick{k}"] = {"shape": shape, "mass": BRICK, "position": [0, 0, middle - HEIGHT / 2]}
+        below = f"brick{k - 1}" if k > 1 else "table"
+        touch = {"type": "contact", "bodies": [below, f"brick{k}"], "foundation_modulus": modulus, "damping": 50.0}
+        forces[f"joint{k}"] = {**touch, "friction": mu}
+    joints = {"held": {"type": "fixed", "bodies": ["ground", "table"], "point": [0, 0, 0]}}
+    return {"gravity": [0, 0, -G], "bodies": bodies, "joints": joints, "forces": forces}
+
+
+@pytest.mark.parametrize(("integrator", "step"), [("generalised-alpha", 5e-4), ("radau", 1e-3)])
+def test_a_tower_of_bricks_slips_at_the_top(integrator, step):
+    """With 4 N/s, at μ m g; then the uppermost alone slides, m v = (t - t0)² 4/2."""
+    mu, rate = 0.3, 4.0
+    begin = mu * BRICK * G / rate
+    r = simulate(tower(mu, f"{rate}*time"), duration=1.0, integrator=integrator, step=step, output_interval=0.02)
+    late = np.maximum(r.time - begin, 0.0)
+    np.testing.assert_allclose(r.array("brick5.velocity.x"), 0.5 * rate / BRICK * late**2, atol=2e-3)
+    for k in range(1, COUNT):
+        assert np.abs(r.array(f"brick{k}.position.x")).max() < 1e-4
+    assert np.abs(r.array("force.joint1.slip_speed")).max() < 1e-5
+
+
+@pytest.mark.parametrize(("push", "tips"), [(10.0, False), (15.0, True)])
+def test_a_tower_of_bricks_tips(push, tips):
+    """μ m g is more than what tips it as a whole about its foot, 5 m g w/2 over (5 - 1/2) h = 13.6 N; near the edge the solids give way."""
+    assert 10.0 < COUNT * BRICK * G * WIDTH / 2 / ((COUNT - 0.5) * HEIGHT) < 15.0
+    ramp = f"{push}*min(1, time/0.2)"
+    r = simulate(tower(2.0, ramp), duration=0.6, integrator="generalised-alpha", step=5e-4, output_interval=0.02)
+    lean = r.array("brick5.position.x")[-1]
+    assert (lean > 0.1) if tips else (lean < 1e-3)
+
+
+# --- the trust report ---
+def test_creep_is_amber_and_stiction_is_not():
+    """With the smooth law the box creeps at v_t tan(2°): v_t atanh(…) in all 3.5e-4 m/s for 5 s."""
+    smooth = nivel.load(FAULT, {"forces.c.friction_model": "coulomb"}).simulate()
+    line = next(item for item in smooth.trust.items if item.name == "creep")
+    assert line.verdict == "amber"
+    assert smooth.trust.found["creep"][0]["way"] == pytest.approx(
+        0.01 * np.arctanh(np.tan(np.radians(2.0))) * 5, rel=0.02
+    )
+    assert not any(item.name == "creep" for item in nivel.load(FAULT).simulate().trust.items)
+
+
+def test_whole_steps_refuse_contact_that_sticks():
+    settings = {"integrator": "energy-momentum", "coordinates": "absolute", "stabilisation": "none", "step": 1e-3}
+    with pytest.raises(ModelError, match=r"friction_model: 'stiction' does not go with .*`friction_model: coulomb`"):
+        simulate(box(0.3), duration=0.1, **settings)
+
+
+def test_equilibria_have_no_friction_of_contacts():
+    """As documented: the box slides to no equilibrium that friction would hold, and `linearise` asks for a smooth law."""
+    with pytest.raises(ModelError, match="friction of a contact that sticks has no derivative"):
+        machine(box(0.3)).linearise()

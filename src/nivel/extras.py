@@ -26,6 +26,7 @@ LIBRARIES: Final = {
     "meshio": Library("meshio", "flex"),
     "mujoco": Library("mujoco-core", "robots"),
     "pandas": Library("pandas", ""),
+    "pyarrow.parquet": Library("pyarrow", "measured"),
     "PIL": Library("pillow", "film"),
     "skfem": Library("scikit-fem", "flex"),
     "websockets": Library("websockets", ""),

@@ -78,6 +78,22 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
     metavar="[FILE]",
     help="Write the motion of a result as an animated glTF file; default: NAME.glb in the working directory.",
 )
+@click.option(
+    "--mat",
+    "mat",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write a table for MATLAB; default: NAME.mat.",
+)
+@click.option(
+    "--parquet",
+    "parquet",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write a Parquet table with units; default: NAME.parquet in the working directory.",
+)
 @override_option
 def command(
     source: str,
@@ -92,6 +108,8 @@ def command(
     mjcf: str | None,
     urdf: str | None,
     film: str | None,
+    mat: str | None,
+    parquet: str | None,
     overrides: dict[str, str],
 ) -> None:
     """Write a result as a table or an animation, or a machine as a C library, an FMU or a model of another program.
@@ -106,8 +124,10 @@ def command(
     An MJCF or URDF file has the rigid part of the machine. The list of what was left out is printed and stands in its comments.
     """
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
-    if sum(each is not None for each in (target, folder, unit, mjcf, urdf, film)) > 1:
-        raise click.UsageError("one of --csv, --gltf, --c, --fmu, --mjcf and --urdf is written at a time")
+    if sum(each is not None for each in (target, folder, unit, mjcf, urdf, film, mat, parquet)) > 1:
+        raise click.UsageError(
+            "one of --csv, --mat, --parquet, --gltf, --c, --fmu, --mjcf and --urdf is written at a time"
+        )
     if unit is None and (fmi or parameters):
         raise click.UsageError("--fmi and --parameter belong to --fmu")
     if platforms and (len(platforms) > 1 if folder is not None else unit is None):
@@ -128,6 +148,8 @@ def command(
         if names:
             raise click.UsageError("--select belongs to --csv, --c and --fmu")
         _write_film(source, film, force)
+    elif mat is not None or parquet is not None:
+        _write_binary(source, mat, parquet, names, force)
     else:
         _write_table(source, target, names, force)
 
@@ -188,6 +210,19 @@ def _write_film(result: str, film: str, force: bool) -> None:
     check_target(path, "glTF file", force=force, sources=[Path(result)])
     write_gltf(Result.open(result), path)
     click.echo(f"glTF: {path}", err=True)
+
+
+def _write_binary(result: str, mat: str | None, parquet: str | None, names: list[str], force: bool) -> None:
+    from nivel.files.target import check_target
+    from nivel.results import Result
+    from nivel.results.frames.binary_table import write_mat, write_parquet
+
+    given, suffix = (mat, ".mat") if mat is not None else (parquet or BESIDE, ".parquet")
+    path = Path(Path(result).with_suffix(suffix).name) if given == BESIDE else Path(given)
+    opened = Result.open(result)
+    check_target(path, "table", force=force, sources=[Path(result)])
+    (write_parquet if mat is None else write_mat)(opened, path, names)
+    click.echo(f"table: {path}", err=True)
 
 
 def _write_table(result: str, target: str | None, names: list[str], force: bool) -> None:

@@ -1,4 +1,4 @@
-"""Tables that stand in CSV files: a column of values over a column of times, each with its unit."""
+"""Tables that stand in files, CSV, MAT or Parquet: a column of values over a column of times, each with its unit."""
 
 from __future__ import annotations
 
@@ -7,9 +7,13 @@ import io
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, Final
 
+import numpy as np
+
 from nivel.errors import Fault
+from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.outline import section_of
 from nivel.files.python_laws import WITH_LAWS
 from nivel.files.sources import Sources
@@ -18,8 +22,8 @@ from nivel.machine.core.record import unknown_word
 from nivel.machine.units.quantity import ANY, read_quantity, shown
 from nivel.machine.units.tree import TIME, ExpressionError
 
-KEYS: Final = ("csv", "column", "units", "time", "time_units", "of", "interpolation")
-MOST_ROWS: Final = 100_000
+KEYS: Final = ("csv", "column", "units", "time", "time_units", "time_offset", "of", "interpolation")
+MOST_ROWS: Final = 20_000_000
 _HEADING: Final = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<units>[^\])]*)[\])])?\s*")
 
 
@@ -44,7 +48,8 @@ def read_csv_tables(tree: Tree, sources: Sources) -> None:
     """Put the columns of `csv: cycle.csv` into each table, as `times` or `points` and `values`. Faults go to `tree.faults`."""
     for section in WITH_LAWS:
         for path, table in list(_tables(section_of(tree, section), (section,))):
-            found = sources.text(tree, (*path, "csv"), table["csv"])
+            binary = str(table["csv"]).lower().endswith(KINDS)
+            found = (sources.content if binary else sources.text)(tree, (*path, "csv"), table["csv"])
             if found is None:
                 tree.broken.add(path)
                 continue
@@ -71,23 +76,29 @@ def _tables(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
             yield from _tables(each, (*path, at))
 
 
-def _fill(table: dict[str, Any], text: str, file: str) -> None:
+def _fill(table: dict[str, Any], content: str | bytes, file: str) -> None:
     """Replace what is said of the file by its columns. Raises CsvError."""
     for key in table:
         if key not in KEYS:
             raise CsvError(unknown_word(str(key), KEYS, "key"), str(key))
-    columns = _columns(text)
-    names = list(columns)
+    given = _Rows(content) if isinstance(content, str) else _Measured(content, file)
+    names = given.names
     first = table.get("time", names[0])
     chosen = table.get("column", names[1] if len(names) == 2 else None)
     for key, name in (("time", first), ("column", chosen)):
         if name is None:
             listing = ", ".join(f"`{each}`" for each in names)
             raise CsvError(f"`column` is missing: `{file}` has {listing}")
-        if name not in columns:
+        if name not in names:
             raise CsvError(f"in `{file}`, {unknown_word(str(name), names, 'column')}", key)
     of, interpolation = table.get("of", TIME), table.get("interpolation")
-    points, values = columns[str(first)], columns[str(chosen)]
+    points, values = given.columns(str(first), str(chosen))
+    offset = _offset(table.get("time_offset"))
+    if offset and of != TIME:
+        raise CsvError(f"`time_offset` belongs to times; the table is over `{of}`", "time_offset")
+    if offset:
+        unit = points.units if table.get("time_units") is None else table["time_units"]
+        points = Column([value + offset / _factor(unit) for value in points.numbers], points.lines, points.units)
     new: dict[str, Any] = {
         "times" if of == TIME else "points": _with_units(points, table.get("time_units"), "time_units"),
         "values": _with_units(values, table.get("units"), "units"),
@@ -106,41 +117,83 @@ def _fill(table: dict[str, Any], text: str, file: str) -> None:
         table["interpolation"] = interpolation
 
 
-def _columns(text: str) -> dict[str, Column]:
-    """The columns by the names of their headings. Raises CsvError."""
-    lines = text.splitlines()
-    heading = next((line for line in lines if line.strip()), "")
-    delimiter = max(",;\t", key=heading.count)
-    rows = [
-        (number, row)
-        for number, row in enumerate(csv.reader(io.StringIO(text), delimiter=delimiter), 1)
-        if any(each.strip() for each in row)
-    ]
-    if len(rows) < 2 or len(rows[0][1]) < 2:
-        raise CsvError("a heading with two columns or more, separated by commas, and rows of numbers were expected")
-    if len(rows) > MOST_ROWS:
-        raise CsvError(f"{len(rows)} rows; up to {MOST_ROWS} are taken")
-    columns: dict[str, Column] = {}
-    for at, heading in enumerate(rows[0][1]):
-        found = _HEADING.fullmatch(heading)
-        assert found is not None  # it fits every text
-        name, units = found["name"], found["units"] or ""
-        if not name or _number(name, delimiter) is not None:
-            raise CsvError(
-                f"the first row names the columns, such as `time [s]{delimiter} angle [deg]`; got {shown(heading)}",
-                line=rows[0][0],
-            )
-        if name in columns:
-            raise CsvError(f"the column `{name}` stands twice", line=rows[0][0])
-        columns[name] = Column([], [], units)
-        for number, row in rows[1:]:
-            value = _number(row[at], delimiter) if at < len(row) else None
-            if value is None:
-                got = shown(row[at]) if at < len(row) else "nothing"
-                raise CsvError(f"a number was expected in the column `{name}`, got {got}", line=number)
-            columns[name].numbers.append(value)
-            columns[name].lines.append(number)
-    return columns
+class _Rows:
+    """The rows of a CSV file. Raises CsvError."""
+
+    def __init__(self, text: str) -> None:
+        heading = next((line for line in text.splitlines() if line.strip()), "")
+        self.text, self.delimiter = text, max(",;\t", key=heading.count)
+        rows = self._rows()
+        self.line, head = next(rows, (0, []))
+        if len(head) < 2 or next(rows, None) is None:
+            raise CsvError("a heading with two columns or more, separated by commas, and rows of numbers were expected")
+        self.names: list[str] = []
+        self.units: list[str] = []
+        for each in head:
+            found = _HEADING.fullmatch(each)
+            assert found is not None  # it fits every text
+            name = found["name"]
+            if not name or _number(name, self.delimiter) is not None:
+                raise CsvError(
+                    f"the first row names the columns, such as `time [s]{self.delimiter} angle [deg]`; got {shown(each)}",
+                    line=self.line,
+                )
+            if name in self.names:
+                raise CsvError(f"the column `{name}` stands twice", line=self.line)
+            self.names.append(name)
+            self.units.append(found["units"] or "")
+
+    def _rows(self) -> Iterator[tuple[int, list[str]]]:
+        reader = csv.reader(io.StringIO(self.text), delimiter=self.delimiter)
+        return ((number, row) for number, row in enumerate(reader, 1) if any(each.strip() for each in row))
+
+    def columns(self, *wanted: str) -> list[Column]:
+        """Columns by their names; the others may hold anything."""
+        places = [self.names.index(name) for name in wanted]
+        out = [Column([], [], self.units[at]) for at in places]
+        for number, row in islice(self._rows(), 1, None):
+            for column, at in zip(out, places, strict=True):
+                value = _number(row[at], self.delimiter) if at < len(row) else None
+                if value is None:
+                    got = shown(row[at]) if at < len(row) else "nothing"
+                    raise CsvError(f"a number was expected in the column `{self.names[at]}`, got {got}", line=number)
+                column.numbers.append(value)
+                column.lines.append(number)
+            if len(out[0].numbers) > MOST_ROWS:
+                raise CsvError(f"more than {MOST_ROWS} rows")
+        return out
+
+
+class _Measured:
+    """The columns of a binary file. Raises CsvError."""
+
+    def __init__(self, content: bytes, file: str) -> None:
+        try:
+            self.found = measured_columns(content, file)
+        except MeasuredError as problem:
+            raise CsvError(f"`{file}`: {problem}") from None
+        self.names = list(self.found)
+
+    def columns(self, *wanted: str) -> list[Column]:
+        """Columns by their names."""
+        out = []
+        for name in wanted:
+            values, unit = self.found[name]
+            bad = np.flatnonzero(~np.isfinite(values))
+            if len(bad):
+                raise CsvError(f"the column `{name}` has no number in row {int(bad[0]) + 1}")
+            out.append(Column(values.tolist(), [0] * len(values), unit))
+        return out
+
+
+def _offset(given: object) -> float:
+    """[s] that is added to all times. Raises CsvError."""
+    if given is None:
+        return 0.0
+    try:
+        return read_quantity(given, "time", {})
+    except ExpressionError as problem:
+        raise CsvError(f"an offset such as `-12 s` was expected: {problem}", "time_offset") from None
 
 
 def _number(text: str, delimiter: str) -> float | None:
@@ -150,6 +203,14 @@ def _number(text: str, delimiter: str) -> float | None:
     except ValueError:
         return None
     return value if abs(value) < float("inf") else None
+
+
+def _factor(unit: object) -> float:
+    """One unit of the times [s]."""
+    try:
+        return 1.0 if unit in ("", "-", "1", None) else read_quantity(f"1 {unit}", "time", {})
+    except ExpressionError:
+        return 1.0  # it is refused where the numbers get their unit
 
 
 def _with_units(column: Column, units: object, key: str) -> list[Any]:

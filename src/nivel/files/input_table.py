@@ -8,8 +8,12 @@ from collections.abc import Mapping
 from os import PathLike, fspath
 from typing import Final
 
+import numpy as np
+
 from nivel.errors import Fault, ModelError
+from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.reader import read_text
+from nivel.files.sources import read_bytes
 from nivel.machine import Input, MachineRecord
 from nivel.machine.laws.table import Table
 from nivel.machine.units.quantity import ANY, Kind, read_quantity
@@ -21,11 +25,14 @@ HEAD: Final = re.compile(r"\s*(?P<name>[^\[\(]*?)\s*(?:[\[\(](?P<unit>[^\]\)]*)[
 
 
 def read_input_table(path: str | PathLike[str], name: str) -> Table:
-    """The table of the input `name` in a CSV file: a line of names, each with a unit in brackets or without, SI then, and lines of numbers.
+    """The table of the input `name` in a CSV, MAT or Parquet file.
 
+    A CSV file has a line of names, each with a unit in brackets or without, SI then, and lines of numbers.
     Raises ModelError with every fault, each with its line.
     """
     file = fspath(path)
+    if file.lower().endswith(KINDS):
+        return _measured_table(file, name)
     rows = [(at, row) for at, row in enumerate(csv.reader(read_text(file).splitlines()), 1) if any(map(str.strip, row))]
     if not rows:
         raise ModelError(Fault(file, 1, 1, "", "the file is empty; its first line should be: time,value"))
@@ -49,6 +56,40 @@ def read_input_table(path: str | PathLike[str], name: str) -> Table:
     if faults:
         raise ModelError(faults)
     return Table(tuple(times), tuple(values))
+
+
+def _measured_table(file: str, name: str) -> Table:
+    """The table in a binary file: its first column is the time, which is called so or `t`."""
+    try:
+        found = measured_columns(read_bytes(file), file)
+    except MeasuredError as problem:
+        raise ModelError(Fault(file, 0, 0, file, str(problem))) from None
+    names = list(found)
+    column = name if name in names else names[1] if len(names) == 2 and names[1] == "value" else ""
+    if names[0].lower() not in ("time", "t") or not column:
+        listing = ", ".join(names[:12])
+        raise ModelError(
+            Fault(file, 0, 0, file, f"a first column `time` and a column `{name}` were expected; there are {listing}")
+        )
+    columns = []
+    for key, kind in ((names[0], "time"), (column, ANY)):
+        values, unit = found[key]
+        try:
+            factor = read_quantity(f"1 {unit}", kind, {}) if unit else 1.0
+        except ExpressionError as problem:
+            raise ModelError(Fault(file, 0, 0, file, f"the unit of the column `{key}`: {problem}")) from None
+        columns.append(factor * values)
+    times, values = columns
+    wrong = np.flatnonzero(~(np.isfinite(times) & np.isfinite(values)))
+    back = np.flatnonzero(np.diff(times) <= 0.0)
+    if len(wrong):
+        raise ModelError(Fault(file, 0, 0, file, f"row {int(wrong[0]) + 1} has no number"))
+    if len(back):
+        k = int(back[0])
+        raise ModelError(
+            Fault(file, 0, 0, file, f"times increase; {times[k + 1]:g} s does not come after {times[k]:g} s")
+        )
+    return Table(tuple(times.tolist()), tuple(values.tolist()))
 
 
 def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | PathLike[str] | Table]) -> MachineRecord:

@@ -1,0 +1,74 @@
+"""Columns of binary tables: MATLAB's MAT files and Parquet files."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path as FilePath
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.extras import needed
+
+KINDS: Final = (".mat", ".parquet")
+MOST_ROWS: Final = 20_000_000  # of a table
+UNIT_KEYS: Final = (b"unit", b"units")  # of the metadata of a field
+
+
+class MeasuredError(Exception):
+    """Why a file gives no table, in words."""
+
+
+def measured_columns(content: bytes, file: str) -> dict[str, tuple[NDArray[np.float64], str]]:
+    """The columns of numbers of a file, with their units where it has any. Raises MeasuredError."""
+    try:
+        found = _mat(content) if FilePath(file).suffix.lower() == ".mat" else _parquet(content)
+    except ModelError as error:
+        raise MeasuredError(error.faults[0].message) from None
+    except (ValueError, TypeError, KeyError, OSError, NotImplementedError, EOFError, IndexError, MemoryError) as error:
+        raise MeasuredError(f"the file is damaged, or not what its name says: {' '.join(str(error).split())}") from None
+    lengths = {len(values) for values, _ in found.values()}
+    if len(found) < 2:
+        raise MeasuredError("two columns of numbers or more were expected")
+    if len(lengths) > 1:
+        counts = ", ".join(f"`{name}` {len(values)}" for name, (values, _) in list(found.items())[:6])
+        raise MeasuredError(f"its columns have different lengths: {counts}")
+    if max(lengths) > MOST_ROWS:
+        raise MeasuredError(f"{max(lengths)} rows; up to {MOST_ROWS} are read")
+    return found
+
+
+def _mat(content: bytes) -> dict[str, tuple[NDArray[np.float64], str]]:
+    """Vectors of real numbers; those that are called `time` or `t` come first."""
+    from scipy.io import loadmat
+
+    found = {}
+    for name, value in loadmat(io.BytesIO(content)).items():
+        if (
+            not name.startswith("__")
+            and isinstance(value, np.ndarray)
+            and value.dtype.kind in "fiu"
+            and value.size == max(value.shape)
+        ):
+            found[name] = (value.astype(np.float64).ravel(), "")
+    first = [name for name in found if name.lower() in ("time", "t")]
+    return {name: found[name] for name in (*first, *(name for name in found if name not in first))}
+
+
+def _parquet(content: bytes) -> dict[str, tuple[NDArray[np.float64], str]]:
+    parquet: Any = needed("pyarrow.parquet", "Parquet files need")
+    file = parquet.ParquetFile(io.BytesIO(content))
+    if file.metadata.num_rows > MOST_ROWS:
+        raise ValueError(f"{file.metadata.num_rows} rows; up to {MOST_ROWS} are read")
+    table, found = file.read(), {}
+    for field, column in zip(table.schema, table.columns, strict=True):
+        values = column.to_numpy()
+        if values.dtype.kind == "M":  # instants: seconds from the first one
+            values = (values - values[0]).astype("timedelta64[ns]").astype(np.float64) * 1e-9
+        if values.dtype.kind not in "fiu":
+            continue
+        unit = next((field.metadata[key].decode() for key in UNIT_KEYS if key in (field.metadata or {})), "")
+        found[field.name] = (values.astype(np.float64), unit)
+    return found

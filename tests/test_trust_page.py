@@ -40,3 +40,14 @@ def test_every_line_that_is_told_where_it_is_not_green_stands_in_the_table():
     quiet = [check for check in every_check() if check.title and (check.quiet or check.blind)]
     assert {check.title.split()[0] for check in quiet} <= set(told)
     assert "Sensitivity" in told
+
+
+def test_the_table_of_what_each_line_examines_is_that_of_the_checks(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "packaging"))
+    from write_trust_table import BEGIN, END, SILENT, written
+
+    assert PAGE.count(BEGIN) == PAGE.count(END) == 1
+    assert written(PAGE) == PAGE, "run `python packaging/write_trust_table.py`"
+    table = PAGE.partition(BEGIN)[2].partition(END)[0]
+    assert all(check.title in table for check in every_check() if check.name not in SILENT)
+    assert "| nothing |" in table

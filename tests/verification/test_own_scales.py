@@ -55,3 +55,13 @@ simulation: {duration: 0.02, step: 1 ms}
     lines = [item.text for item in result.trust.items if item.name == "quantities"]
     assert lines
     assert all("by the steps alone" in line for line in lines)
+
+
+def test_round_off_of_a_sensor_in_degrees_is_no_error(tmp_path):
+    """A rotor that stands still at round-off, shown in degrees: an angle of its own is a radian, in whatever unit."""
+    text = MACHINE.replace(", angular_velocity: [0, 0, 1]", "").replace("duration: 10", "duration: 1, step: 10 ms")
+    sensor = 'sensors:\n  shown: {value: "180/pi*(pin.angle + 1e-14*sin(20*time))", units: deg}\nsimulation'
+    path = tmp_path / "shown.yaml"
+    path.write_text(text.replace("simulation", sensor), encoding="utf-8")
+    result = nivel.load(path).simulate(verify=True)
+    assert not [item.text for item in result.trust.items if item.name == "quantities" and item.verdict != "green"]

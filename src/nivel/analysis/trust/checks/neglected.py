@@ -1,4 +1,4 @@
-"""Cost of inertia invariants that flexible bodies move without, told by how far they bend in a run."""
+"""Cost of inertia invariants that flexible bodies move without, by how far they bend in a run."""
 
 from __future__ import annotations
 

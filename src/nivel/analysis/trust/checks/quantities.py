@@ -10,6 +10,10 @@ from numpy.typing import NDArray
 
 from nivel.analysis.trust.check import ESTIMATE, Check
 from nivel.analysis.trust.subject import Run
+from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.measure import measure
+from nivel.machine.units.quantity import ANY, constant_tree, read_quantity
+from nivel.machine.units.tree import ExpressionError
 from nivel.results.estimate import Estimate
 from nivel.results.trust import Item, Threshold, amount, number
 from nivel.system.layout import Variable
@@ -168,7 +172,14 @@ def _natural(run: Run, units: str) -> float:
         "kg/s": 1.0,
     }
     known |= {"N": weight, "N m": weight * size, "J": weight * size, "W": weight * speed, "A": 1.0, "V": 1.0}
-    return known.get(units, 1.0 if units in ("1", "", "rad", "m") else 0.0)
+    if units in known or units in ("1", "", "rad", "m"):
+        return known.get(units, 1.0)
+    try:  # a sensor has units of its own
+        kind, unit = measure(constant_tree(f"1 {units}", {})), read_quantity(f"1 {units}", ANY, {})
+    except ExpressionError:
+        return 0.0
+    same = [value for name, value in known.items() if measure(constant_tree(f"1 {name.replace(' ', '*')}", {})) == kind]
+    return (same[0] if same else 1.0 if kind in (KINDS["angle"][2], KINDS["length"][2]) else 0.0) / unit
 
 
 def _joined(variable: Variable, values: Array) -> Array:

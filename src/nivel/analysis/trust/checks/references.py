@@ -1,4 +1,4 @@
-"""References of a comparison of methods: whether they may be wrong alike, so that errors which are measured against them say nothing."""
+"""References of a comparison of methods: whether they may have the same error, so that errors measured against them say nothing."""
 
 from __future__ import annotations
 

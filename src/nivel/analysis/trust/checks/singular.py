@@ -1,5 +1,5 @@
-"""Positions passed in a run where constraints depend on each other that do not elsewhere: there freedoms split, and a motion may go on
-either way."""
+"""Positions passed in a run where constraints depend on each other that do not elsewhere: there a motion may continue in
+more than one way."""
 
 from __future__ import annotations
 

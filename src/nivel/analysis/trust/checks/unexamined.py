@@ -1,4 +1,4 @@
-"""Functions of a machine that nothing in the trust report has looked at."""
+"""Functions of a machine that nothing in the trust report has examined."""
 
 from __future__ import annotations
 

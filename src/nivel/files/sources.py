@@ -23,6 +23,22 @@ _BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (
     (b"CDF\x02", "this is a NetCDF-3 file, not a machine file"),
     (b"<!doctype html", "this is a page for a browser, such as a report of nivel, not a machine file"),
     (b"<html", "this is a page for a browser, such as a report of nivel, not a machine file"),
+    (
+        b"par1",
+        "this is a table (Parquet), not a machine file; a machine reads a column: `{{csv: {file}, column: NAME}}`",
+    ),
+    (
+        b"matlab 5.0",
+        "this is a table (MAT), not a machine file; a machine reads a column: `{{csv: {file}, column: NAME}}`",
+    ),
+    (
+        b"mdf     ",
+        "this is a recording (MDF), which nivel does not read; save it as Parquet or CSV, and write `{{csv: log.parquet, column: NAME}}`",
+    ),
+    (
+        b"\x89MCAP0\r\n",
+        "this is a recording (MCAP), which nivel does not read; save it as Parquet or CSV, and write `{{csv: log.parquet, column: NAME}}`",
+    ),
     (b"PK\x03\x04", "this is a zip file, not a machine file"),
     (b"solid ", "this is a mesh (STL), not a machine file; a body refers to it: `shape: {{type: mesh, file: {file}}}`"),
     (

@@ -81,6 +81,8 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         corners=np.zeros(0),
         pace=np.full((5, names.PARTS), np.inf),
         events=np.zeros((0, 3)),
+        ends=np.zeros(0),
+        windows=np.zeros((0, 3)),
     )
     machine, history = resting(), Handle(run)
     time, states, inside, orders = [0.0], [y.copy()], [], []

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -40,8 +42,11 @@ from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.input import apply
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.kernels.signals.sampling import sample
+from nivel.kernels.signals.watch import MARK
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.expression import Expression, expression_of
+from nivel.machine.units.sides import marks
 from nivel.system.beams.beams import add_beam, no_tangent, shared_mass
 from nivel.system.beams.gradient_beams import point_inertia
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
@@ -81,6 +86,8 @@ def add_inputs(builder: SystemBuilder) -> None:
 DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
 # [s] time within which stiction stops a joint, until a run says better
 STICK = 1e-3
+# marks of an event that are watched, at most
+MOST_MARKS = 200
 
 
 def build(machine: MachineRecord, equations: Equations, *, measured: bool = False) -> System:
@@ -211,11 +218,13 @@ def _add_force(builder: SystemBuilder, force: Any) -> None:
 
 def _watched(builder: SystemBuilder) -> Watched:
     """Events, the surfaces of contacts and stops, and the switches of all functions."""
-    events, taking = [], {state.event for state in builder.machine.states}
+    events, marked, taking = [], [], {state.event for state in builder.machine.states}
     for event in builder.machine.events:
         ends = ENDS_RUN if event.stop else ENDS_STEP if event.name in taking else NOTED
         with located(f"events.{event.name}.when"):
             events.append((builder.function(event.when, switching=False), DIRECTIONS[event.direction], ends))
+            marked += [(builder.function(mark, switching=False), BOTH, MARK) for mark in _marks_of(event.when)]
+    events += marked
     surfaces, switches = builder.elements.surfaces(), builder.functions.switches
     count = len(events) + len(surfaces) + len(switches)
     return Watched(
@@ -227,6 +236,13 @@ def _watched(builder: SystemBuilder) -> Watched:
         rate=np.zeros(count),
         followed=np.zeros(1, dtype=np.uint32),
     )
+
+
+def _marks_of(when: object) -> Iterator[Expression]:
+    """What decides within the function of an event; of functions with more of that than a run can watch at no cost, nothing."""
+    found = list(islice(marks(when), MOST_MARKS + 1)) if isinstance(when, Expression | Table) else []
+    if len(found) <= MOST_MARKS:
+        yield from map(expression_of, found)
 
 
 def _hooks(builder: SystemBuilder, *, sensors: bool, sampled: bool) -> Hooks:

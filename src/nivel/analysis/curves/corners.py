@@ -3,7 +3,7 @@ minimum or a maximum of expressions of time alone changes sides."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import TypeGuard
 
@@ -15,8 +15,8 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.functions import FUNCTIONS, inner_parts, is_truth
-from nivel.machine.units.tree import COMPARISONS, TIME, Call, ExpressionError, Lookup, Node, Number, Operation, signals
+from nivel.machine.units.sides import sides
+from nivel.machine.units.tree import TIME, ExpressionError, Node, signals
 
 # Sides of an expression are looked at so many times in a run.
 SAMPLES = 2000
@@ -103,19 +103,3 @@ def _holds(expression: Expression, time: float) -> bool:
 
 def _of_time_alone(*nodes: Node) -> bool:
     return not any(signals(node) for node in nodes)
-
-
-def sides(node: Node, counts: Callable[..., bool], *, curves: bool) -> Iterator[tuple[Node, Node | None]]:
-    """Pairs of expressions whose order decides about a value within `node`, those of which `counts` says so. curves : with the points of
-    curves."""
-    for part in inner_parts(node):
-        yield from sides(part, counts, curves=curves)
-    match node:
-        case Operation(symbol, left, right) if symbol in COMPARISONS and counts(left, right):
-            yield left, right
-        case Lookup(argument, kind, points, _, _) if curves and counts(argument) and kind != "quintic":
-            yield from ((argument, Number(point)) for point in points)
-        case Call(function, arguments):
-            own = FUNCTIONS[function].sides
-            pairs = own(counts, *arguments) if own is not None else ()
-            yield from ((first, second) for first, second in pairs if second is not None or not is_truth(first))

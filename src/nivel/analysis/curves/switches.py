@@ -7,13 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.curves.corners import sides
 from nivel.analysis.curves.functions import ExpressionCurve, Varying
 from nivel.analysis.curves.path import Array, Path, Steps
 from nivel.machine.laws.functions import functions_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.bounds import values_of
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.sides import sides
 from nivel.machine.units.tree import Node, signals
 
 # Halvings of the time between two frames, and the share of it that is left out around a switch: on either side the function is smooth.

@@ -57,6 +57,7 @@ from nivel.system.system import Array, System
 
 BUFFER_BYTES = 1_000_000
 EVENT_ROWS = 1000
+WINDOWS = 256
 # Stiction stops a joint within this many steps.
 STICK_STEPS = 2.0
 # Fixed steps that make a time in which a machine moves by its own length, at least.
@@ -67,8 +68,9 @@ TORN = 0.1
 UNSEEN = 1e30
 
 
-def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
-    """History of a run at its start: energies referred to the assembled state, joint angles followed from it, nothing remembered."""
+def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts, ends: int = 0) -> Run:
+    """History of a run at its start: energies referred to the assembled state, joint angles followed from it, nothing remembered. ends : of
+    so many steps it is kept when they ended."""
     system, y = prepared.motion.system, prepared.start.copy()
     width, count = system.layout.width, _counters(settings, facts)
     rows = max(2, min(4096, BUFFER_BYTES // (8 * width)))
@@ -105,6 +107,8 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         corners=np.array(prepared.corners, dtype=float),
         pace=_pace(prepared, settings),
         events=np.zeros((EVENT_ROWS if len(system.record.watched.event) else 0, 3)),
+        ends=np.zeros(ends),
+        windows=np.full((WINDOWS if ends else 0, 3), np.inf),
     )
 
 

@@ -20,12 +20,14 @@ from nivel.integrate.loop.run import (
     REACHED,
     SIDE,
     TIME,
+    TO,
     WHEN,
     run_at,
 )
 from nivel.kernels.core.status import EVENT_NOT_FINITE, OK
 from nivel.kernels.record.hook import call_correct, call_evaluate, call_hook
-from nivel.kernels.record.record import BOTH, DIRECTION, RISING, WATCH, record_at
+from nivel.kernels.record.record import BOTH, DIRECTION, RISING, STOP, WATCH, record_at
+from nivel.kernels.signals.watch import MARK
 from nivel.native.function import leaf
 
 # A value is located to this share of its step, or to the round-off of the time where that is larger.
@@ -39,12 +41,25 @@ PATIENCE = 4
 
 
 @leaf
+def is_mark(watched, k):
+    """Whether value k is none of an event, but one whose sign decides within an event's function."""
+    return k < watched.event.shape[0] and watched.event[k, STOP] == MARK
+
+
+@leaf
+def value_of(watched, k):
+    """Value k in the state last evaluated; a mark that has none is on no side."""
+    value = watched.value[k]
+    return 0.0 if is_mark(watched, k) and not np.abs(value) < np.inf else value
+
+
+@leaf
 def read_values(machine, history, row, t):
     """Row BEFORE or AFTER := the values watched in the state last evaluated, and their rates. Returns a status."""
     run, watched = run_at(history), record_at(machine).watched
     call_hook(machine, WATCH, 0, t)
     for k in range(run.event_values.shape[1]):
-        value = watched.value[k]
+        value = value_of(watched, k)
         if not np.abs(value) < np.inf:
             record_at(machine).control.failure[0] = k
             return EVENT_NOT_FINITE
@@ -82,28 +97,35 @@ def value_at(evaluate, correct, machine, history, k, theta):
     status = probe(evaluate, correct, machine, history, theta)
     if status == OK:
         call_hook(machine, WATCH, 0, run.clock[TIME] + theta * run.clock[LENGTH])
-        if not np.abs(watched.value[k]) < np.inf:
+        if not np.abs(value_of(watched, k)) < np.inf:
             record_at(machine).control.failure[0] = k
             status = EVENT_NOT_FINITE
-    return status, watched.value[k]
+    return status, value_of(watched, k)
 
 
 @leaf
 def locate(evaluate, correct, machine, history, k, high, above):
-    """(status, θ) where value k, which has the value `above` on its other side at θ = high, changes to it.
+    """(status, θ) where value k, which has the value `above` on its other side at θ = high, changes to it."""
+    values, events = run_at(history).event_values, record_at(machine).watched.event.shape[0]
+    below = values[BEFORE, k]
+    if below == 0.0 and k < events:
+        return OK, 0.0
+    return locate_between(evaluate, correct, machine, history, k, values[SIDE, k], 0.0, below, high, above)
+
+
+@leaf
+def locate_between(evaluate, correct, machine, history, k, side, low, below, high, above):
+    """(status, θ) where value k, on this side at θ = low with the value `below`, changes to the other one, on which it is at θ = high.
 
     Regula falsi in the Illinois form (Dowell & Jarratt 1971), bisection where that is slow. No state is looked at nearer to an end of
     the bracket than half the tolerance, so the bracket closes when the estimate no longer moves. θ is its upper end: on the other side.
     """
     run = run_at(history)
     events, clock = record_at(machine).watched.event.shape[0], run.clock
-    side, below = run.event_values[SIDE, k], run.event_values[BEFORE, k]
-    if below == 0.0 and k < events:
-        return OK, 0.0
     if below * side <= 0.0:
         below = side * UNKNOWN
     tolerance = max(SHARE, ROUND_OFF * np.abs(clock[REACHED]) / clock[LENGTH])
-    low, last, width, slow = 0.0, side, high, 0
+    last, width, slow = side, high - low, 0
     while high - low > tolerance:
         theta = 0.5 * (low + high)
         if slow < PATIENCE:
@@ -141,6 +163,7 @@ def find_crossings(evaluate, correct, machine, history, first, last, high):
         side, now = values[SIDE, k], side_of(values[AFTER, k], k, events)
         if side * now >= 0.0 or (k < events and not is_wanted(watched.event[k, DIRECTION], now)):
             continue
+        values[TO, k] = now if k < events else values[TO, k]
         status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, high, values[AFTER, k])
         if status != OK:
             return status

@@ -1,14 +1,15 @@
 """Events of a step: which values change their sides in it, when, and where the step then ends.
 
-An event is a change of sides from one accepted state to the next; of two changes within one step nothing is seen. Sides are kept from
-step to step, never found anew from the state, so an event is found once whatever changes the state afterwards by round-off
-(corrections, energies).
+An event is a change of sides from one accepted state to the next, or there and back within the step (`nivel.integrate.loop.passes`), of
+which the first one that is wanted counts. Sides are kept from step to step, never found anew from the state, so an event is found once
+whatever changes the state afterwards by round-off (corrections, energies).
 """
 
 from __future__ import annotations
 
-from nivel.integrate.loop.crossing import NEVER, end_at, find_crossings, read_values, side_of
+from nivel.integrate.loop.crossing import NEVER, end_at, find_crossings, is_mark, read_values, side_of
 from nivel.integrate.loop.dense import cubic
+from nivel.integrate.loop.passes import find_passes
 from nivel.integrate.loop.run import (
     AFTER,
     ALL_STEPS,
@@ -24,6 +25,8 @@ from nivel.integrate.loop.run import (
     SIDE,
     STOPPED,
     TIME,
+    TO,
+    TWICE,
     WHEN,
     run_at,
 )
@@ -31,7 +34,7 @@ from nivel.integrate.loop.surfaces import find_contacts
 from nivel.integrate.loop.switches import first_switch, has_switches, note_slopes, pass_unseen
 from nivel.kernels.core.status import BUFFER_FULL, OK
 from nivel.kernels.record.hook import call_evaluate
-from nivel.kernels.record.record import ENDS_RUN, NOTED, STOP, record_at
+from nivel.kernels.record.record import ENDS_RUN, ENDS_STEP, STOP, record_at
 from nivel.native.function import leaf
 
 
@@ -52,7 +55,8 @@ def first_stop(watched, when, fixed):
     """Number of the first event that ends the run, or the step, or -1. Fixed steps are ended by the end of the run alone."""
     first = -1
     for k in range(watched.event.shape[0]):
-        ends = watched.event[k, STOP] == ENDS_RUN if fixed else watched.event[k, STOP] != NOTED
+        stop = watched.event[k, STOP]
+        ends = stop == ENDS_RUN or (stop == ENDS_STEP and not fixed)
         if ends and when[k] < NEVER and (first < 0 or when[k] < when[first]):
             first = k
     return first
@@ -83,20 +87,25 @@ def find_events(evaluate, correct, machine, history):
     status, end = find_contacts(evaluate, correct, machine, history, events)
     if status == OK:
         status = find_crossings(evaluate, correct, machine, history, 0, events, end)
+    if status == OK and events > 0:
+        status = find_passes(evaluate, correct, machine, history, end)
     stop = first_stop(watched, values[WHEN], counter[ALL_STEPS] > 0)
     if status == OK and stop >= 0:
         end = values[WHEN, stop]
         status = end_at(evaluate, correct, machine, history, end)
         if watched.event[stop, STOP] == ENDS_RUN:
             counter[STOPPED] = stop + 1
-    note_slopes(machine, run)
+    note_slopes(run)
     for k in range(count):
         now = side_of(values[AFTER, k], k, events)
         if k >= events:
             values[SIDE, k] = now if k < first_switch(machine) else values[SIDE, k]
         elif values[WHEN, k] <= end:
-            values[SIDE, k] = -values[SIDE, k]
-            record_at(machine).sampled.came[k] = 1
+            values[SIDE, k] = now if values[TWICE, k] == 1.0 and now != 0.0 else -values[SIDE, k]
+            if is_mark(watched, k):
+                values[WHEN, k] = NEVER
+            else:
+                record_at(machine).sampled.came[k] = 1
         else:
             values[WHEN, k] = NEVER
             values[SIDE, k] = now if now != 0.0 else values[SIDE, k]
@@ -120,6 +129,6 @@ def hand_out_events(machine, history):
             return BUFFER_FULL
         row = run.events[counter[EVENTS]]
         row[0] = min(run.clock[TIME] + when[next_one] * run.clock[LENGTH], run.clock[REACHED])
-        row[1], row[2] = next_one, run.event_values[SIDE, next_one]
+        row[1], row[2] = next_one, run.event_values[TO, next_one]
         when[next_one] = NEVER
         counter[EVENTS] += 1

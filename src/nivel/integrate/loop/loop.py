@@ -298,6 +298,8 @@ def advance(evaluate, correct, step, machine, history):
             counter[INSIDE] = 0
             clock[TIME] = clock[REACHED]
             counter[DONE_STEPS] += 1
+            if run.ends.shape[0] > 0:
+                run.ends[counter[DONE_STEPS] % np.int64(run.ends.shape[0])] = clock[TIME]
         due = is_due(run)
         if due and counter[FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL

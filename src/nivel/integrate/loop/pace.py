@@ -8,15 +8,18 @@ from nivel.integrate.loop.run import (
     ALLOWED,
     DONE_STEPS,
     END,
+    FROM,
     LARGEST,
     LEAST,
     MOVING,
     PARTS,
     REACHED,
+    SHORT,
     START,
     TAKEN,
     TIME,
     TURNED,
+    UNTIL,
 )
 from nivel.integrate.loop.step_control import fastest_turn
 from nivel.kernels.bodies.rigid import turn_to_body_axes
@@ -38,13 +41,17 @@ def part_at(run, t):
 @leaf
 def allow(run):
     """clock[LARGEST] := what a step that begins now may be long: where it reaches into the next part, no longer there than one that begins
-    there may be."""
+    there may be; and a window no further than by a short step."""
     clock, t = run.clock, run.clock[TIME]
     k = part_at(run, t)
     clock[LARGEST] = run.pace[ALLOWED, k]
     if k + 1 < PARTS:
         left = clock[START] + (k + 1) * (clock[END] - clock[START]) / PARTS - t
         clock[LARGEST] = min(clock[LARGEST], left + run.pace[ALLOWED, k + 1])
+    for w in range(run.windows.shape[0]):
+        window = run.windows[w]
+        if t < window[UNTIL]:
+            clock[LARGEST] = min(clock[LARGEST], max(window[FROM] - t, 0.0) + window[SHORT])
 
 
 @leaf

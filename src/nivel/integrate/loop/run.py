@@ -25,12 +25,16 @@ COUNTS = 25
 BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # those of switches
 MIDDLE, LAST, JUMP, WAIT, PATIENCE, SLOPE, PAST = 6, 7, 8, 9, 10, 11, 12
+# those of events, beside SLOPE and PAST
+TWICE, TO, BETWEEN = 6, 7, 8
 VALUE_ROWS = 13
 # most rows of Run.dense
 DENSE_ROWS = 13
 # rows of Run.pace, and parts of the duration
 ALLOWED, TAKEN, LEAST, TURNED, MOVING = 0, 1, 2, 3, 4
 PARTS = 1024
+# columns of Run.windows
+FROM, UNTIL, SHORT = 0, 1, 2
 
 
 class Run(NamedTuple):
@@ -74,7 +78,8 @@ class Run(NamedTuple):
     # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see
     # `nivel.integrate.loop.events`. Of switches, whose SIDE is 1, or 0 where they are let go: the margin in the MIDDLE of the step, the
     # LAST side, the JUMP of the rates at its change as a share of their scales [1/s], steps to WAIT until it is kept again and the
-    # PATIENCE that it had last, the mean SLOPE of the margin in the step before [1/s], the length of that, PAST [s], or 0: other sides
+    # PATIENCE that it had last, the mean SLOPE of the margin in the step before [1/s], the length of that, PAST [s], or 0: other sides.
+    # Of events the same two; whether they were passed TWICE, the side that they changed TO, and values BETWEEN the ends of the step
     event_values: F2  # (VALUE_ROWS, values watched)
     samples: I1  # (sampled states,) taken so far of those with a period
     # [s] ascending: explicit methods that choose their steps end one there; implicit ones know corners themselves
@@ -84,6 +89,10 @@ class Run(NamedTuple):
     # bodies MOVING at some steps [J]
     pace: F2
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
+    # (capacity,) [s] times at which steps ended, step n in place n modulo the capacity; none where nobody asks for them
+    ends: F1
+    # (capacity, 3) times [s] FROM and UNTIL which steps are no longer than SHORT [s], where steps are chosen; infinite: none
+    windows: F2
 
 
 run_at = reader(Run)

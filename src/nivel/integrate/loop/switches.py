@@ -151,10 +151,10 @@ def may_return(machine, run):
 
 
 @leaf
-def note_slopes(machine, run):
-    """Keep the mean slopes of margins in the step just done, for the next one."""
+def note_slopes(run):
+    """Keep the mean slopes of all values in the step just done, for the next one."""
     values, h = run.event_values, run.clock[REACHED] - run.clock[TIME]
-    for k in range(first_switch(machine), values.shape[1]):
+    for k in range(values.shape[1]):
         values[SLOPE, k], values[PAST, k] = (values[AFTER, k] - values[BEFORE, k]) / h, h
 
 
@@ -194,17 +194,18 @@ def pass_unseen(evaluate, machine, history):
 
 
 @leaf
-def look_between(evaluate, correct, machine, history, k):
-    """(status, θ, margin) of a state within the step in which switch k is beyond, although at its end it is not; θ is NEVER where there
-    is none.
+def look_between(evaluate, correct, machine, history, k, end, between):
+    """(status, θ, value) of a state within the step up to the share `end` in which value k, which is `between` half way there, is on its
+    other side, although at the end it is not; θ is NEVER where there is none.
 
-    States are looked at where the parabola through the nearest three margins known is least, as long as that is beyond (Brent 1973, §5.3).
+    States are looked at where the parabola through the nearest three values known is least, as long as that is beyond (Brent 1973, §5.3).
     """
     values = run_at(history).event_values
-    low, middle, high = 0.0, 0.5, 1.0
-    f, g, h = max(values[BEFORE, k], 0.0), values[MIDDLE, k], values[AFTER, k]
+    side = values[SIDE, k]
+    low, middle, high = 0.0, 0.5 * end, end
+    f, g, h = max(side * values[BEFORE, k], 0.0), side * between, side * values[AFTER, k]
     if g < 0.0:
-        return OK, middle, g
+        return OK, middle, between
     for _ in range(LOOKS):
         first, second = (g - f) / (middle - low), (h - g) / (high - middle)
         bend = (second - first) / (high - low)
@@ -217,8 +218,9 @@ def look_between(evaluate, correct, machine, history, k):
         if f + (theta - low) * (first + bend * (theta - middle)) >= 0.0:
             break
         status, value = value_at(evaluate, correct, machine, history, k, theta)
-        if status != OK or value < 0.0:
+        if status != OK or side * value < 0.0:
             return status, theta, value
+        value *= side
         if value >= g and theta < middle:
             low, f = theta, value
         elif value >= g:
@@ -243,7 +245,7 @@ def find_between(evaluate, correct, machine, history):
     for k in range(first_switch(machine), values.shape[1]):
         if values[SIDE, k] == 0.0 or values[WHEN, k] < NEVER:
             continue
-        status, theta, margin = look_between(evaluate, correct, machine, history, k)
+        status, theta, margin = look_between(evaluate, correct, machine, history, k, 1.0, values[MIDDLE, k])
         if status == OK and theta < NEVER:
             status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, margin)
         if status != OK:

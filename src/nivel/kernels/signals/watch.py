@@ -9,6 +9,9 @@ from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import FUNCTION, record_at
 
+# A value of `Watched.event`'s STOP beside those of the record: no event, but a value whose sign decides within the functions of events, in
+# the rows behind all events. Where it changes an event may be passed twice in one step.
+MARK = 3
 # the margin of a switch of which no side can be told
 NOT_BEYOND = 1e-300
 

@@ -44,14 +44,6 @@ def test_pressures_of_a_water_hammer_are_in_the_headline():
     assert result.trust.verdict != "green"
 
 
-def test_a_function_of_a_signal_that_is_not_in_the_result_is_named():
-    """A wall that a sensor's distance switches: no line knows where it is narrow."""
-    result = nivel.load(FAULTS / "t5-gap.yaml").simulate(verify=True, integrator="radau")
-    line = next(item for item in result.trust.items if item.name == "unexamined")
-    assert "wall.vector.x" in line.text
-    assert not result.trust.headline.startswith("exact")
-
-
 def test_constant_numbers_have_no_range_to_be_wrong_by():
     """A speed that stays as it is, to round-off: its own magnitude is the scale."""
     trust = nivel.load(FAULTS / "t5-gap.yaml").simulate(verify=True, duration=0.1).trust

@@ -145,6 +145,26 @@ class LawCurve:
         return None
 
 
+@dataclass(frozen=True)
+class SideOf:
+    """The sign of a curve, as an event has it."""
+
+    curve: Curve
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        return self.curve.signals
+
+    def values(self, known: Mapping[str, Array]) -> Array:
+        """Signs, zero also where there is no value."""
+        return np.sign(np.nan_to_num(self.curve.values(known)))
+
+    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+        """The signs of its bounds."""
+        found = self.curve.bounds(known)
+        return None if found is None else (np.sign(found[0]), np.sign(found[1]))
+
+
 def varying(machine: MachineRecord, *, sampled: bool = False) -> Iterator[Varying]:
     """The functions of a machine that may do something by themselves: what is linear only passes on what it depends on.
 

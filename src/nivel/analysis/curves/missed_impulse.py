@@ -8,7 +8,7 @@ between samples are found by bounds of the function over intervals, which are ha
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,15 +30,15 @@ SAMPLES, WINDOWS = 16, 20
 # A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.
 QUIET = 1e-2
 # Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
-BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
+BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 26, 20_000
 # Shares from which on it is asked whether the signals go straight between two frames.
 DOUBTFUL = 1e-3
 # Share of the range of a state by which it is moved to find how fast it forgets.
 SHIFT = 1e-6
 # Below this share of the range of a state it counts as missed no more.
 FORGOTTEN = 1e-2
-# A found feature is sampled by so many points; at most so many are.
-FEATURE, MOST_FEATURES = 2048, 32
+# A found feature is sampled by so many points, which are halved so often where it changes; at most so many are.
+FEATURE, SPLITS, MOST_FEATURES = 2048, 20, 32
 
 
 @dataclass(frozen=True)
@@ -58,37 +58,47 @@ class Unseen:
 
 
 def unseen_loads(
-    machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts, *, chosen: bool
+    machine: MachineRecord,
+    result: Result,
+    steps: Steps,
+    facts: IntegratorFacts,
+    *,
+    chosen: bool,
+    known: Mapping[str, float] | None = None,
 ) -> Iterator[Unseen]:
     """What the steps of a run have missed of each function that is looked at in every step and whose signals are known.
 
-    chosen : the steps were chosen, and end at switches.
+    chosen : the steps were chosen, and end at switches. known : of functions by name what they are known to give in a short time, which
+    frames need not show: the integral of the magnitude.
     """
     for function in varying(machine):
+        if function.of.startswith("events."):  # whose side alone counts
+            continue
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
-            found = _missed_along(function, path, cut_at_switches(function, path, steps) if chosen else steps, facts)
+            its = cut_at_switches(function, path, steps) if chosen else steps
+            found = _missed_along(function, path, its, facts, (known or {}).get(function.name, 0.0))
             if found is not None:
                 yield found
 
 
-def _missed_along(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
+def _missed_along(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts, known: float) -> Unseen | None:
     """What was missed of one function however its signals go between two frames: the less of what straight lines and splines say.
 
     The rate of a stiff state, k (f - x), is a small difference of two large terms: with straight lines of x it has bumps between frames,
     k h² x''/8, that no run has.
     """
-    found = missed(function, path, steps, facts)
+    found = missed(function, path, steps, facts, known)
     if found is None or not path.can_curve or (found.share < DOUBTFUL and found.hidden == 0.0):
         return found
-    other = missed(function, replace(path, curved=True), steps, facts)
+    other = missed(function, replace(path, curved=True), steps, facts, known)
     if other is None:
         return found
     return replace(min(found, other, key=lambda each: each.share), hidden=min(found.hidden, other.hidden))
 
 
-def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
-    """What was missed of one function; None where it has no value anywhere."""
+def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts, known: float = 0.0) -> Unseen | None:
+    """What was missed of one function; None where it has no value anywhere. known : what it gives in a short time."""
     # the samples of one share of all steps stand side by side, as sums over the samples of a step are fast then
     share = np.arange(SAMPLES + 1)[:, None] / SAMPLES
     time = steps.begin + steps.length * share
@@ -104,12 +114,14 @@ def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) 
     # what changes its sign once in a step is a kink of the magnitude, not a vibration within the step
     vibrates = (np.diff(np.signbit(values), axis=1)).sum(axis=1) > 1
     seen_magnitude = np.where(vibrates, curve_magnitude, magnitude)
-    found = _beyond_samples(function, path, steps, values)
-    narrow = _put_right(function, path, steps, found, exact, magnitude)
-    features = np.union1d(found, _beyond_curve(values, curve))
-    hidden = float(np.abs(exact - seen)[features].sum()) / max(float(magnitude.sum()), 1e-300)
-    judged = _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden)
-    if len(found) or (judged.share < DOUBTFUL and hidden == 0.0):
+    places = beyond_samples(function, path, steps, values)
+    narrow = _put_right(function, path, steps, places, exact, magnitude)
+    features = np.union1d(places.step, _beyond_curve(values, curve))
+    hidden = float(np.abs(exact - seen)[features].sum()) / max(float(magnitude.sum()), known, 1e-300)
+    judged = _judged(
+        function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden, known
+    )
+    if len(places.step) or (judged.share < DOUBTFUL and hidden == 0.0):
         return judged
     forgotten = _forgotten(function, path, steps, np.abs(values - curve).max(axis=1))
     return replace(judged, share=forgotten, hidden=0.0) if forgotten < min(judged.share, FORGOTTEN) else judged
@@ -154,56 +166,85 @@ def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
     return exact, np.where(changes, trapezoidal, np.abs(exact))
 
 
-def _beyond_samples(function: Varying, path: Path, steps: Steps, values: Array) -> NDArray[np.int64]:
-    """The steps in which the function goes beyond what was sampled."""
+@dataclass(frozen=True)
+class Places:
+    """Where a function goes beyond what was sampled: numbers of steps (n,), ascending, and times in them (n,) [s]."""
+
+    step: NDArray[np.int64]
+    time: Array
+
+    def within(self, step: int) -> Array:
+        """The times in one step [s]."""
+        return self.time[np.searchsorted(self.step, step) : np.searchsorted(self.step, step, side="right")]
+
+
+def beyond_samples(function: Varying, path: Path, steps: Steps, values: Array, largest: float = 0.0) -> Places:
+    """Where the function goes beyond its `values` (n, samples) over steps, by bounds of it over intervals. An interval is halved until its
+    middle shows what the bounds allow, or these allow nothing any more. largest : the largest magnitude known beside."""
     low, high = values.min(axis=1), values.max(axis=1)
     begin, width = steps.begin, steps.length
     of = np.arange(len(begin))
-    largest, found = float(np.abs(values).max()), set[int]()
+    largest = max(largest, float(np.abs(values).max()))
+    numbers, times = [np.zeros(0, dtype=np.int64)], [np.zeros(0)]
     for _ in range(HALVINGS):
         bounds = function.curve.bounds(_intervals(path, begin, width))
         if bounds is None:
             break
         least, most = bounds
-        beyond = np.maximum(np.maximum(most - high[of], low[of] - least), 0.0)
+        beyond = np.maximum(np.maximum(most - high, low - least), 0.0)
         floor = max(BEYOND * largest, 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond))))
         keep = np.flatnonzero(beyond > floor)
         if len(keep) > MOST_INTERVALS:
             keep = keep[np.argsort(-beyond[keep], kind="stable")[:MOST_INTERVALS]]
         if not len(keep):
             break
-        begin, width, of = begin[keep], width[keep], of[keep]
+        begin, width, of, low, high = begin[keep], width[keep], of[keep], low[keep], high[keep]
         middle = begin + 0.5 * width
         inside = np.nan_to_num(function.curve.values(path.at(middle)))
-        is_feature = np.maximum(inside - high[of], low[of] - inside) > floor
+        is_feature = np.maximum(inside - high, low - inside) > floor
         largest = max(largest, float(np.abs(inside).max()))
-        if is_feature.any():
-            found |= set(of[is_feature].tolist())
+        numbers.append(of[is_feature])
+        times.append(middle[is_feature])
+        # what is found in an interval is known in both halves of it, and in no other
+        low, high = np.tile(np.minimum(low, inside), 2), np.tile(np.maximum(high, inside), 2)
         begin, width, of = np.concatenate([begin, middle]), np.tile(0.5 * width, 2), np.tile(of, 2)
-    return np.array(sorted(found), dtype=np.int64)
+    number, time = np.concatenate(numbers), np.concatenate(times)
+    order = np.lexsort((time, number))
+    return Places(number[order], time[order])
 
 
 def _put_right(
-    function: Varying, path: Path, steps: Steps, found: NDArray[np.int64], exact: Array, magnitude: Array
+    function: Varying, path: Path, steps: Steps, places: Places, exact: Array, magnitude: Array
 ) -> float | None:
-    """The integrals over the steps `found`, of many over MOST_FEATURES of them, which then stand for the others; the shortest time [s] in
-    which the function changes by its range there, None where nothing was found."""
+    """The integrals over the steps that have `places`, of many over MOST_FEATURES of them, which then stand for the others; the shortest
+    time [s] in which the function changes by its range there, None where there is none."""
+    found = np.unique(places.step)
     if not len(found):
         return None
     chosen = found[np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_FEATURES)).astype(int))]
-    refined = np.array([_refined(function, path, float(steps.begin[k]), float(steps.length[k])) for k in chosen])
+    refined = np.array(
+        [_refined(function, path, float(steps.begin[k]), float(steps.length[k]), places.within(k)) for k in chosen]
+    )
     mean = refined[:, :2].sum(axis=0) / steps.length[chosen].sum()
     exact[found], magnitude[found] = mean[0] * steps.length[found], mean[1] * steps.length[found]
     exact[chosen], magnitude[chosen] = refined[:, 0], refined[:, 1]
     return float(refined[:, 2].min())
 
 
-def _refined(function: Varying, path: Path, begin: float, length: float) -> tuple[float, float, float]:
+def _refined(function: Varying, path: Path, begin: float, length: float, places: Array) -> tuple[float, float, float]:
     """∫F and ∫|F| over one step, with a sample wherever the function may have a feature, and the time [s] in which it changes by its
     range."""
-    time = begin + length * np.linspace(0.0, 1.0, FEATURE + 1)
+    time, values = sampled_densely(function, path, begin, length, places)
+    slope = float(np.max(np.abs(np.diff(values)) / np.maximum(np.diff(time), 1e-300)))
+    scale = float(np.ptp(values)) / slope if slope > 0.0 else length
+    return float(np.trapezoid(values, time)), float(np.trapezoid(np.abs(values), time)), scale
+
+
+def sampled_densely(function: Varying, path: Path, begin: float, length: float, places: Array) -> tuple[Array, Array]:
+    """Times (n,) [s] in one step, `places` among them, close together where the function changes, and its values (n,)."""
+    time = np.union1d(begin + length * np.linspace(0.0, 1.0, FEATURE + 1), places[:FEATURE])
     values = np.nan_to_num(function.curve.values(path.at(time)))
-    for _ in range(HALVINGS):
+    for _ in range(SPLITS):
         jump = np.abs(np.diff(values))
         split = np.flatnonzero(jump > 0.02 * max(float(np.abs(values).max()), 1e-300))
         if not len(split) or len(time) > 4 * FEATURE:
@@ -211,9 +252,7 @@ def _refined(function: Varying, path: Path, begin: float, length: float) -> tupl
         middle = 0.5 * (time[split] + time[split + 1])
         time = np.insert(time, split + 1, middle)
         values = np.insert(values, split + 1, np.nan_to_num(function.curve.values(path.at(middle))))
-    slope = float(np.max(np.abs(np.diff(values)) / np.maximum(np.diff(time), 1e-300)))
-    scale = float(np.ptp(values)) / slope if slope > 0.0 else length
-    return float(np.trapezoid(values, time)), float(np.trapezoid(np.abs(values), time)), scale
+    return time, values
 
 
 def _intervals(path: Path, begin: Array, width: Array) -> dict[str, Interval]:
@@ -229,12 +268,13 @@ def _judged(
     values: Array,
     narrow: float | None,
     hidden: float,
+    known: float,
 ) -> Unseen:
     """The part of the run in which most is missed."""
     end = float(steps.begin[-1] + steps.length[-1])
     window = np.minimum((steps.begin / end * WINDOWS).astype(int), WINDOWS - 1)
     off, off_magnitude, magnitude = (np.bincount(window, each, WINDOWS) for each in sums)
-    scale = np.maximum(magnitude, max(QUIET * float(magnitude.max()), 1e-300))
+    scale = np.maximum(magnitude, max(QUIET * float(magnitude.max()), known, 1e-300))
     share = np.maximum(np.abs(off), np.abs(off_magnitude)) / scale
     worst = int(np.argmax(share))
     inside = np.flatnonzero(window == worst)

@@ -73,6 +73,12 @@ def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[fl
     return Steps(ends[:-1][::stride], np.diff(ends)[::stride])
 
 
+def steps_between(ends: Array) -> Steps:
+    """The steps between times (n + 1,) [s]."""
+    stride = -(-(len(ends) - 1) // MOST_STEPS)
+    return Steps(ends[:-1][::stride], np.diff(ends)[::stride])
+
+
 @dataclass(frozen=True)
 class Path:
     """The signals of one function along a run, at the times of its frames.
@@ -135,7 +141,7 @@ def _signal(name: str, function: Varying, machine: MachineRecord, result: Result
         case "control":
             return result.array(f"control.{symbol.name}" if symbol.quantity == VALUE else f"control.{name}")
         case "sensors":
-            return result.array(f"sensor.{symbol.name}")
+            return result.array(f"sensor.{name}")
         case "markers":
             marker = next(each for each in machine.markers if each.name == symbol.name)
             return _of_point(symbol, marker.body, np.array(marker.position, dtype=float), result)

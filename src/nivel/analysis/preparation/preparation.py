@@ -78,7 +78,7 @@ class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
     absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
     of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s];
-    its functions that jump with the motion, in words."""
+    its functions that jump with the motion, in words; the machine itself."""
 
     path: PathFacts
     motion: MotionEquations
@@ -92,6 +92,7 @@ class Prepared:
     corners: tuple[float, ...] = ()
     allowed: Array | None = None
     jumping: tuple[str, ...] = ()
+    machine: MachineRecord | None = None
 
     def again(self) -> Prepared | None:
         """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to FMUs."""
@@ -172,6 +173,7 @@ def prepare(
         corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
         jumping,
+        machine,
     )
 
 

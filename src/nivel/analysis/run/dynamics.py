@@ -26,6 +26,7 @@ from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.progress.pacing import Pacing
 from nivel.analysis.run.history import start_history
+from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
     ACCEPTED,
@@ -67,8 +68,9 @@ from nivel.native.entry import Entry
 from nivel.results.frames.occurrence import Occurrence
 from nivel.system.system import Array, System
 
-# A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
+# A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at. Steps of one, at most.
 CHUNK = 0.05
+MOST_STEPS = 1_000_000_000
 GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
 # What a method may end with near a position that its machine cannot pass.
 BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
@@ -81,6 +83,7 @@ class RunOutcome:
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
     steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end, of a
     run that failed in the last state that was accepted.
+    ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses : of `NarrowFeatures`.
     """
 
     outcome: str
@@ -91,6 +94,8 @@ class RunOutcome:
     failure: tuple[str, str, float] | None = None
     pace: Array | None = None
     last: tuple[float, Array] | None = None
+    ends: Array | None = None
+    impulses: dict[str, float] = field(default_factory=dict)
 
 
 class Loop(NamedTuple):
@@ -130,13 +135,13 @@ def march(
     """
     system, loop = prepared.motion.system, start_loop(prepared, settings)
     run = loop.history.record
-    finished = RunOutcome("done")
+    finished, narrow = RunOutcome("done"), NarrowFeatures.of(prepared, len(run.ends))
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     crawl = Crawl(settings.duration, bool(prepared.jumping)) if settings.steps == 0 else None
     while status in GOES_ON and finished.outcome == "done":
         status, spent = march_in_chunks(
-            loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl
+            loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl, narrow
         )
         loop_seconds += spent
         if status in BEFORE_A_JAM:
@@ -154,6 +159,8 @@ def march(
     failed = finished.outcome == "failed"
     finished.pace = run.pace
     finished.last = float(run.clock[ACCEPTED if failed else TIME]), (run.previous if failed else run.y).copy()
+    if narrow is not None:
+        finished.ends, finished.impulses = narrow.ends, narrow.impulses
     finished.timing = {
         **counts_of(system, run),
         "loop_seconds": loop_seconds,
@@ -168,10 +175,22 @@ def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     _feed_back(prepared.motion.system, settings, stabilisation)
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
-    run = start_history(prepared, settings, facts)
+    run = start_history(prepared, settings, facts, _kept_ends(prepared, settings))
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
     step = facts.step
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
+
+
+def _kept_ends(prepared: Prepared, settings: RunSettings) -> int:
+    """Of how many steps it is kept when they ended: where they are chosen and a function may have narrow features. FMUs do not go back."""
+    if (
+        settings.steps > 0
+        or prepared.motion.system.fmus
+        or prepared.machine is None
+        or not narrow_functions(prepared.machine)
+    ):
+        return 0
+    return LONGEST + 1
 
 
 def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
@@ -192,6 +211,7 @@ def march_in_chunks(
     chunk_steps: int | None,
     pacing: Pacing | None = None,
     crawl: Crawl | None = None,
+    narrow: NarrowFeatures | None = None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
@@ -200,11 +220,21 @@ def march_in_chunks(
             if pacing is not None and not pacing.before(run):
                 finished.outcome = "interrupted"
                 break
-            run.counter[BUDGET] = budget
+            run.counter[BUDGET] = budget if narrow is None else narrow.before(run, budget)
             begin = clock_of_python.thread_time()
             status = advance()
             spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
+            if chunk_steps is None and status == BUDGET_SPENT:
+                budget = _next_budget(budget, spent)
+            if narrow is not None:
+                narrow.hold(run)
+                if not narrow.is_whole(run, goes_on=status in GOES_ON) and not interrupted():
+                    continue
+                if not interrupted() and not narrow.stands(run, goes_on=status in (BUDGET_SPENT, DONE)):
+                    status = BUDGET_SPENT
+                    continue
+                give_held(narrow, run, system, sinks, finished, goes_on=status in GOES_ON)
             give_frames(run, sinks)
             finished.events += taken_events(run, system.events)
             if progress is not None:
@@ -213,8 +243,6 @@ def march_in_chunks(
                 pacing.after(run)
             if crawl is not None and status in GOES_ON:
                 status = crawl.seen(run) or status
-            if chunk_steps is None and status == BUDGET_SPENT:
-                budget = _next_budget(budget, spent)
             if status in GOES_ON and interrupted():
                 finished.outcome = "interrupted"
                 break
@@ -225,7 +253,7 @@ def march_in_chunks(
 def _next_budget(budget: int, spent: float) -> int:
     """Steps of the next chunk, after one of `budget` steps took `spent` [s]: as many as last for CHUNK, at most twice as many."""
     if spent < CHUNK:
-        return max(1, min(2 * budget, int(budget * CHUNK / max(spent, 1e-9))))
+        return max(1, int(min(2 * budget, budget * CHUNK / max(spent, 1e-9), MOST_STEPS)))
     return max(1, budget // 2)
 
 
@@ -331,11 +359,26 @@ def give_frames(run: Run, sinks: Sequence[Sink]) -> None:
         run.counter[FRAMES] = 0
 
 
+def give_held(
+    narrow: NarrowFeatures, run: Run, system: System, sinks: Sequence[Sink], finished: RunOutcome, *, goes_on: bool
+) -> None:
+    """Give the frames and events of a stretch that may stand."""
+    frames, events = narrow.released(run, goes_on=goes_on)
+    if len(frames):
+        for sink in sinks:
+            sink.take(frames)
+    finished.events += _occurrences(events, system.events)
+
+
 def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
     """Events of the buffer, which is empty then."""
     filled = int(run.counter[EVENTS])
     run.counter[EVENTS] = 0
+    return _occurrences(run.events[:filled], names)
+
+
+def _occurrences(events: Array, names: tuple[str, ...]) -> list[Occurrence]:
     return [
         Occurrence(names[int(number)], float(time), "rising" if direction > 0.0 else "falling")
-        for time, number, direction in run.events[:filled]
+        for time, number, direction in events
     ]

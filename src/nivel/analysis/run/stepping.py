@@ -23,6 +23,7 @@ from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.remembered import remembered
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.writer import write_machine
 from nivel.integrate.loop.loop import advance
@@ -421,11 +422,7 @@ def _of_fmus(prepared: Prepared) -> list[NDArray[Any]]:
 
 def _remembered(prepared: Prepared, run: Run) -> list[NDArray[Any]]:
     """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
-    motion = prepared.motion
-    twin = () if motion.twin is None else _arrays(motion.twin.record)
-    own = [array for name, array in run._asdict().items() if name != "frames"]
-    every = [*own, *_arrays(motion.system.record), *twin, *_of_fmus(prepared)]
-    return [array for array in every if array.size and array.dtype != np.uint64]
+    return [*remembered(run, prepared.motion), *_of_fmus(prepared)]
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:
@@ -433,8 +430,3 @@ def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:
     names = [fact.name for fact in prepared.motion.system.states]
     first = len(run.y) - 2 - len(names)
     return {name: first + k for k, name in enumerate(names)}
-
-
-def _arrays(record: Any) -> list[NDArray[Any]]:
-    """All arrays of a record of records."""
-    return [record] if isinstance(record, np.ndarray) else [array for field in record for array in _arrays(field)]

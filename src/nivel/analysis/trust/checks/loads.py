@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 
-from nivel.analysis.curves.corners import corners
 from nivel.analysis.curves.missed_impulse import Unseen, unseen_loads
-from nivel.analysis.curves.path import steps_of
 from nivel.analysis.curves.sampled import between_samples
 from nivel.analysis.trust.check import STEPS, Check
 from nivel.analysis.trust.checks.accuracy import error_from_finer, extent
+from nivel.analysis.trust.steps_of_run import steps_of_run
 from nivel.analysis.trust.subject import Run
 from nivel.results.motion import Motion
 from nivel.results.trust import Item, Threshold, number
@@ -70,14 +69,11 @@ def _most(found: list[Unseen]) -> list[Unseen]:
 
 
 def _unseen(run: Run) -> list[Unseen]:
-    end = float(run.result.time[-1])
-    if not end > 0.0:
+    chosen, steps = run.plan.settings.steps == 0, steps_of_run(run)
+    if steps is None:
         return []
-    settings, facts = run.plan.settings, run.prepared.integrator
-    step = settings.step if settings.steps else None
-    ends = corners(run.machine) if step is None or facts.knows_corners else ()
-    steps = steps_of(run.pace, settings.duration, step, ends)
-    return list(unseen_loads(run.machine, run.result, steps.until(end), facts, chosen=step is None))
+    known = run.finished.impulses
+    return list(unseen_loads(run.machine, run.result, steps, run.prepared.integrator, chosen=chosen, known=known))
 
 
 def _agreed(run: Run) -> float | None:

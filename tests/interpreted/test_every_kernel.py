@@ -223,7 +223,10 @@ def test_states_and_samples(integrator):
             "held": {"update": "slow.value + axle.angle_rate", "every": 2 * STEP},
             "count": {"update": "count.value + 1", "event": "passed"},
         },
-        "events": {"passed": {"when": "axle.angle - 0.005"}},
+        "events": {
+            "passed": {"when": "axle.angle - 0.005"},
+            "twice": {"when": "abs(axle.angle - 0.0045) - 0.0002", "direction": "rising"},
+        },
     }
     short(machine(sections).record, integrator, steps=5)
 

@@ -193,7 +193,9 @@ class NarrowFeatures:
         largest = max(self._largest.get(function.name, 0.0), float(np.abs(values).max()))
         self._largest[function.name] = largest
         passed = beyond_samples(function, path, steps, _known(function, values), largest).step
-        if not is_side:
+        if is_side:
+            passed = np.union1d(passed, np.flatnonzero(np.count_nonzero(np.diff(values, axis=1), axis=1) > 1))
+        else:
             off = np.abs(values - as_seen(values, steps, self._facts)).max(axis=1)
             passed = np.union1d(passed, np.flatnonzero(off > BEYOND * largest))
         margin = LATER * float(np.diff(path.time).max())
@@ -249,6 +251,8 @@ def _feature(function: Varying, path: Path, step: Steps, largest: float) -> Feat
     known = _known(function, _sampled(function, path, step))
     places = beyond_samples(function, path, step, known, largest)
     time, values = sampled_densely(function, path, float(step.begin[0]), float(step.length[0]), places.time)
+    if isinstance(function.curve, SideOf):
+        return _first_pass(time, values)
     low, high = min(values[0], values[-1]), max(values[0], values[-1])
     beyond = np.maximum(values - high, low - values)
     if not beyond.max() > BEYOND * largest:
@@ -260,3 +264,12 @@ def _feature(function: Varying, path: Path, step: Steps, largest: float) -> Feat
     is_half = np.flatnonzero(beyond[first : last + 1] > 0.5 * beyond[first : last + 1].max()) + first
     width = time[min(is_half[-1] + 1, len(time) - 1)] - time[max(is_half[0] - 1, 0)]
     return Feature(float(time[first]), float(time[last]), float(width), float(np.trapezoid(np.abs(values), time)))
+
+
+def _first_pass(time: Array, sides: Array) -> Feature | None:
+    """What lies between the first two changes of a side; None where it changes once."""
+    change = np.flatnonzero(np.diff(sides) != 0.0)
+    if len(change) < 2:
+        return None
+    begin, end = float(time[change[0]]), float(time[change[1] + 1])
+    return Feature(begin, end, end - begin, 0.0)

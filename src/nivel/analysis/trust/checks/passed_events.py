@@ -15,7 +15,6 @@ from nivel.analysis.curves.path import Path, Steps, path_of
 from nivel.analysis.trust.check import STEPS, Check
 from nivel.analysis.trust.steps_of_run import steps_of_run
 from nivel.analysis.trust.subject import Run
-from nivel.results.frames.occurrence import Occurrence
 from nivel.results.trust import Item, number
 
 # parts of a step between samples
@@ -24,7 +23,7 @@ SAMPLES = 16
 
 @dataclass(frozen=True)
 class Passed:
-    """An event that is on its other side at `time` [s], within a step [s] that has it on one side at both ends; how many steps have."""
+    """An event that was passed unseen near `time` [s], within a step [s] in which its side changes more than once; how many such passes."""
 
     event: str
     time: float
@@ -39,30 +38,41 @@ def look(run: Run) -> list[Passed]:
 
 
 def _unseen(run: Run, steps: Steps) -> Iterator[Passed]:
+    directions = {each.name: each.direction for each in run.machine.events}
     for function in varying(run.machine):
         section, _, event = function.of.partition(".")
         path = path_of(function, run.machine, run.result) if section == "events" else None
         if path is not None and len(path.time) > 1:
-            found = passed(replace(function, curve=SideOf(function.curve)), path, steps, run.finished.events, event)
+            came = [each.time for each in run.finished.events if each.name == event]
+            side = replace(function, curve=SideOf(function.curve))
+            found = passed(side, path, steps, came, directions[event])
             if found is not None:
-                yield found
+                yield replace(found, event=event)
 
 
-def passed(side: Varying, path: Path, steps: Steps, events: list[Occurrence], event: str) -> Passed | None:
-    """The first step in which a side changes there and back without an event of this name near it; each stands for one such step. Near is
-    what two frames are apart by, between which the path is straight."""
+def passed(side: Varying, path: Path, steps: Steps, came: list[float], direction: str) -> Passed | None:
+    """The first pass within a step in which a side changes more than once, without an event that `came` [s] near it; each of these stands
+    for one pass. Near is what two frames are apart by, between which the path is straight."""
     time = steps.begin + steps.length * (np.arange(SAMPLES + 1)[:, None] / SAMPLES)
     values = side.curve.values(path.at(time.ravel())).reshape(time.shape).T
-    is_back = (values[:, 0] == values[:, -1])[:, None] & (values[:, 1:-1] == -values[:, :1]) & (values[:, :1] != 0.0)
     places = beyond_samples(side, path, steps, values)
-    sampled, inside = np.nonzero(is_back)
-    step, first = np.unique(np.concatenate([sampled, places.step]), return_index=True)
-    when = np.concatenate([time.T[sampled, inside + 1], places.time])[first]
-    missed = _unmatched(when, [each.time for each in events if each.name == event], float(np.diff(path.time).max()))
+    signs = values.copy()
+    for k in range(1, SAMPLES + 1):  # a zero belongs to what was before
+        signs[:, k] = np.where(signs[:, k] == 0.0, signs[:, k - 1], signs[:, k])
+    change = np.diff(signs, axis=1)
+    repeated = np.count_nonzero(change, axis=1) > 1
+    # of both directions a step tells the first change of two
+    first = np.cumsum(change != 0.0, axis=1) % 2 == 1
+    wanted = {"rising": change > 0.0, "falling": change < 0.0}.get(direction, (change != 0.0) & first)
+    sampled, inside = np.nonzero(repeated[:, None] & wanted)
+    number, at = np.unique(places.step, return_index=True)
+    step = np.concatenate([sampled, number])
+    when = np.concatenate([time.T[sampled, inside + 1], places.time[at]])
+    order = np.argsort(when, kind="stable")
+    missed = order[_unmatched(when[order], came, float(np.diff(path.time).max()))]
     if not len(missed):
         return None
-    k = missed[0]
-    return Passed(event, float(when[k]), float(steps.length[step[k]]), len(missed))
+    return Passed("", float(when[missed[0]]), float(steps.length[step[missed[0]]]), len(missed))
 
 
 def _unmatched(when: NDArray[np.float64], came: list[float], near: float) -> list[int]:
@@ -79,7 +89,7 @@ def _unmatched(when: NDArray[np.float64], came: list[float], near: float) -> lis
 
 def say(found: Passed) -> Item:
     """Which event was passed, and the step that sees it."""
-    more = f", and so in {found.count - 1} further steps" if found.count > 1 else ""
+    more = f", and so {found.count - 1} times more" if found.count > 1 else ""
     said = f"{found.event} passes zero and back near t = {found.time:.6g} s within one step of {number(found.step)} s{more}"
     text = f"Events: {said}; the run has not seen it: use a shorter step, or a method that chooses its steps"
     return Item("events", "amber", text, row=found.event, time=found.time)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import nivel
+from nivel.analysis.plan.compilation import run_entries
+from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
 from references import stick_slip
 from simulating import G, machine, simulate, slide, solid
@@ -371,3 +373,19 @@ def test_equilibria_have_no_friction_of_contacts():
     """As documented: the box slides to no equilibrium that friction would hold, and `linearise` asks for a smooth law."""
     with pytest.raises(ModelError, match="friction of a contact that sticks has no derivative"):
         machine(box(0.3)).linearise()
+
+
+def test_compilation_ahead_knows_what_sticks():
+    """The friction of a contact is among what a run of the machine compiles, and of one with the smooth law it is not."""
+    smooth = box(0.3)
+    smooth["forces"]["touch"] |= {"friction_model": "coulomb", "friction_transition_speed": 1e-3}
+    entries = [{each.name for each in run_entries(plan_run(machine(each).record, ()))} for each in (box(0.3), smooth)]
+    name = "nivel.kernels.elements.friction:apply.code"
+    assert name in entries[0]
+    assert name not in entries[1]
+
+
+def test_statics_says_that_friction_of_contacts_is_none():
+    sections = box(0.3) | {"joints": {"guide": slide("ground", "box", (0, 0, 1))}}
+    result = machine(sections).statics()
+    assert any("friction of contacts exerts no force at rest (touch)" in item.text for item in result.trust.items)

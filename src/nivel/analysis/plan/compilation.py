@@ -19,6 +19,7 @@ from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
+from nivel.machine.forces import is_sticking
 from nivel.machine.hydraulics import Actuator
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
@@ -307,7 +308,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
     )
     needed = {
         MEASURE: bool(measured),
-        FRICTION: "friction" in types,
+        FRICTION: "friction" in types or any(map(is_sticking, machine.forces)),
         RAIL: any(JOINT_WORDS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),

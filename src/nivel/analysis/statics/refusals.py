@@ -6,7 +6,7 @@ from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.plan.smooth_contacts import with_smooth_contacts
 from nivel.analysis.statics.free_coordinates import holding_free
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Friction
+from nivel.machine.forces import Contact, Friction
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 
@@ -64,6 +64,9 @@ def at_rest(machine: MachineRecord) -> tuple[str, ...]:
         out.append(f"dampers exert no force at rest ({_named(damping)})")
     if rubbing:
         out.append(f"coulomb friction depends on speed and exerts no force at rest ({_named(rubbing)})")
+    touching = [force.name for force in machine.forces if isinstance(force, Contact) and force.friction]
+    if touching:
+        out.append(f"friction of contacts exerts no force at rest ({_named(touching)})")
     if machine.events:
         out.append("events are ignored")
     return tuple(out)

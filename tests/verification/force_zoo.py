@@ -171,6 +171,11 @@ CASES = {
     "rope, slack": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 2, "length": 9.0}),
     "winch": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 1, "length": 0.3,
                    "speed": "0.3*lever.value + 0.1*sin(time)"}, more={"inputs": {"lever": LEVER}}),
+    "rope around wheels": Case({"type": "rope", "markers": [{"body": "wheel"}, "far", "eye"], "radii": [0.05, -0.08, 0],
+                                "wound": [1.3, 0], "stiffness": 60, "damping": 2, "length": 0.8}),
+    "rope around wheels, between drums": Case({"type": "rope", "markers": [{"body": "wheel"}, "far", {"body": "a"}],
+                                               "radii": [-0.05, 0.08, 0.06], "wound": [2.2, 0.7], "stiffness": 60, "length": 0.8,
+                                               "speed": "0.3*lever.value"}, more={"inputs": {"lever": LEVER}}),
     "hand": Case({"type": "hand", "pull": "0.8 + 0.1*time", "body_number": 1, "point": [0.1, -0.2, 0.3], "towards": ["time", 1, "tip.x"]}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
     "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),
@@ -216,7 +221,11 @@ COUPLED = {
     "belt": {"type": "belt", "joints": ["p", "q"], "radii": [0.04, 0.1]},
     "rack": {"type": "rack", "joints": ["p", "s"], "radius": 0.05},
     "linear": {"type": "linear", "coordinates": ["p.angle", "q.angle", "s.displacement"], "factors": [1.0, -2.0, 5.0]},
-}
+    "function": {"type": "function", "coordinate": "p", "from_start": True,
+                 "value": "0.5*sin(q.angle) + 2*s.displacement*q.angle + s.displacement^2"},
+    "cubic table": {"type": "function", "coordinate": "p", "from_start": True, "value": {
+        "of": "q.angle", "points": [-0.5, -0.1, 0.2, 0.6], "values": [0.1, -0.2, 0.3, 0.4], "interpolation": "cubic"}},
+}  # fmt: skip
 DRIVEN = {
     "angle": {"coordinate": "p.angle", "value": "0.3*sin(4*time)"},
     "displacement": {"coordinate": "s", "value": "0.05*time + 0.1*time^2"},

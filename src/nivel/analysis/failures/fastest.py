@@ -66,15 +66,16 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
         A[:, k] = (ends[0] - ends[1])[:count] / (2.0 * steps[k])
     if not np.isfinite(A).all():
         return None
-    from scipy.linalg import eig  # takes a tenth of a second to import
-
-    rates, left, right = cast(tuple[Vectors, Vectors, Vectors], eig(A, left=True))
+    rates, right = cast(tuple[Vectors, Vectors], np.linalg.eig(A))
     k = int(np.argmax(np.abs(rates)))
     if not np.abs(rates[k]) > 0.0:
         return None
+    # left vectors of A are right ones of its transpose
+    its, left = cast(tuple[Vectors, Vectors], np.linalg.eig(A.T))
+    j = int(np.argmin(np.abs(its - rates[k])))
     # a phase at which positions and speeds of a vibration are both there
     shape = np.real(right[:, k] * np.exp(0.25j * np.pi))
-    owner = _taking_part(motion, np.abs(left[:, k] * right[:, k]))
+    owner = _taking_part(motion, np.abs(left[:, j] * right[:, k]))
     return Fastest(float(np.abs(rates[k])), owner or _working(motion, t, y, shape), t)
 
 

@@ -13,7 +13,6 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
 from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.equations import MotionEquations
@@ -90,6 +89,8 @@ class RowPivots:
         saddle, n = self.motion.system.record.saddle, self.rank
         x, last = np.zeros(len(saddle.order)), np.zeros(n)
         last[-1] = 1.0
+        from scipy.linalg import solve_triangular  # takes a tenth of a second to import
+
         x[saddle.pivot[:n]] = solve_triangular(saddle.dense[:n, :n], last, lower=True, trans=1)
         return x
 

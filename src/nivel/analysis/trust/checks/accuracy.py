@@ -100,7 +100,7 @@ def factor(left: float) -> float:
 
     Of e₁ - e₂ = (1 - left) e₁, with a margin.
     """
-    return MARGIN / (1.0 - left)
+    return MARGIN / abs(1.0 - left)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning

@@ -1,4 +1,4 @@
-"""Damping by the method: energy that it takes from the motion, and takes from that of a second, finer run too."""
+"""Damping by the method: energy that it takes from the motion, and takes from that of a second run with other steps too."""
 
 from __future__ import annotations
 
@@ -19,34 +19,37 @@ IMPLICIT = Need("an implicit method", lambda run: run.prepared.integrator.needs 
 
 @dataclass(frozen=True)
 class Damped:
-    """Energy [J] that the run lost, and what a finer one did. method : the integrator."""
+    """Energy [J] that the run lost, and what the second run did. method : the integrator. longer : the steps of the second run are."""
 
     lost: float
-    lost_finer: float
+    lost_other: float
     method: str
+    longer: bool
 
 
 def look(run: Run) -> Damped | None:
     """Energy that the method takes from the motion whatever the step: None where it takes none that counts, or less with finer steps."""
-    result, finer = run.result, run.finer.result
+    result, other, longer = run.result, run.finer.result, run.finer.refinement.left > 1.0
     if "energy_error" not in result.variables:
         return None
-    first, second = common_frames(result.time, finer.time)
+    first, second = common_frames(result.time, other.time)
     if not len(first):
         return None
-    coarse, fine = result.array("energy_error")[first], finer.array("energy_error")[second]
-    k = int(np.argmin(coarse))
-    lost, lost_finer = -float(coarse[k]), -float(fine[k])
+    errors, others = result.array("energy_error")[first], other.array("energy_error")[second]
+    k = int(np.argmin(errors))
+    lost, lost_other = -float(errors[k]), -float(others[k])
+    finer, coarser = (lost, lost_other) if longer else (lost_other, lost)
     scale = largest_energy(result, run.scales.size)[0]
-    if not (lost > LOSS * scale and lost_finer > STAYS * lost):
+    if not (lost > LOSS * scale and finer > STAYS * coarser):
         return None
-    return Damped(lost, lost_finer, run.plan.settings.integrator)
+    return Damped(lost, lost_other, run.plan.settings.integrator, longer)
 
 
 def say(found: Damped) -> Item:
     """How much it takes, and what to do."""
+    steps = "longer" if found.longer else "finer"
     text = (
-        f"Damped: {found.method} takes {quantity(found.lost, 'J')} from the motion, and {quantity(found.lost_finer, 'J')} with finer "
+        f"Damped: {found.method} takes {quantity(found.lost, 'J')} from the motion, and {quantity(found.lost_other, 'J')} with {steps} "
         f"steps: vibrations faster than the steps are damped numerically; use steps of a tenth of their period, or add damping to the "
         f"model if these vibrations do not matter "
         f"(green if finer steps lose less, amber otherwise)"

@@ -66,3 +66,18 @@ def test_vectors_are_refused(wheel):
         wheel.cycles("hinge.force")
     with pytest.raises(nivel.ModelError, match="did you mean"):
         wheel.cycles("hing.force.x")
+
+
+@pytest.mark.parametrize(
+    ("turns", "positions", "said"),
+    [(10, 26, "from one reversal to the next"), (2, 17, "work between frames"), (2, 2001, "")],
+)
+def test_frames_that_are_too_coarse_are_told(turns, positions, said):
+    """The power of the wheel is a sine, with frames 2.5, 8 and 1000 a turn: the trapezoidal rule leaves 5 % of it open with eight."""
+    body = nivel.Body(name="m", mass=3.0, inertia=(0.1, 0.1, 0.1), position=(1, 0, 0))
+    hinge = nivel.Joint(name="hinge", type="revolute", bodies=("ground", "m"), point=(0, 0, 0), axis=(0, 0, 1))
+    machine = nivel.Machine("wheel", bodies=[body], joints=[hinge], gravity=(0, -9.81, 0))
+    result = machine.kinematics(drive="hinge", end=2.0 * np.pi * turns, duration=turns, positions=positions)
+    headline = str(result.powers().attrs["headline"])
+    told = [each for each in ("from one reversal to the next", "work between frames") if each in headline]
+    assert said in told if said else not told

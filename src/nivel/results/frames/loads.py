@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 PARABOLA = 3  # frames
 SEEN = 2e-3  # of the largest peak: what frames may hide of it without a word
+WORK = 1e-2  # of the largest work: what the trapezoidal rule may leave open without a word
+FEW = 3.0  # frames from one reversal to the next: with fewer no parabola shows a peak
+SMALL = 1e-3  # of the range of a history: smaller changes are no reversals
 
 
 def reactions(result: Result) -> xarray.Dataset:
@@ -32,15 +35,17 @@ def reactions(result: Result) -> xarray.Dataset:
 
     if "joint_force" not in result.variables or not len(result.time):
         raise ModelError("the result has no reactions of joints")
-    values, hidden = {}, 0.0
+    values, hidden, frames = {}, 0.0, np.inf
     for word, unit in (("force", "N"), ("torque", "N m")):
         size = np.linalg.norm(result.array(f"joint_{word}"), axis=2)
-        hidden = max(hidden, hidden_between_frames(size))
+        hidden, frames = max(hidden, hidden_between_frames(size)), min(frames, frames_of_a_swing(size))
         at = np.argmax(size, axis=0)
         values[f"peak_{word}"] = (("joint",), size[at, np.arange(size.shape[1])], {"units": unit})
         values[f"peak_{word}_time"] = (("joint",), result.time[at], {"units": "s"})
         values[f"rms_{word}"] = (("joint",), _rms(size, result.time), {"units": unit})
-    return xarray.Dataset(values, coords={"joint": list(result.coordinates["joint"])}, attrs=_trusted(result, hidden))
+    return xarray.Dataset(
+        values, coords={"joint": list(result.coordinates["joint"])}, attrs=_trusted(result, hidden, frames)
+    )
 
 
 def hidden_between_frames(history: Array) -> float:
@@ -57,8 +62,35 @@ def hidden_between_frames(history: Array) -> float:
     return float(np.max(above, initial=0.0)) / largest
 
 
-def _trusted(result: Result, hidden: float) -> dict[str, str | int]:
-    lacks = (f"peaks between frames, which may be {100.0 * hidden:.2g} % larger",) if hidden > SEEN else ()
+def frames_of_a_swing(history: Array) -> float:
+    """Frames from one reversal to the next, in the mean, of that one of histories (t, n) which turns most often; infinite if none does."""
+    least = np.inf
+    for values in history.T:
+        change = np.diff(values)
+        change = change[np.abs(change) > SMALL * np.ptp(values)]
+        turns = np.count_nonzero(change[1:] * change[:-1] < 0.0)
+        least = min(least, len(values) / turns) if turns > PARABOLA else least
+    return float(least)
+
+
+def open_work(history: Array, time: Array) -> float:
+    """Error of the work of histories of power (t, n) that is integrated between frames, as a share of the largest work: a third of what
+    the trapezoidal rule is off by with every other frame."""
+    if len(time) < 2 * PARABOLA:
+        return 0.0
+    last = len(time) - 1 - (len(time) - 1) % 2
+    work = np.trapezoid(np.abs(history[: last + 1]), time[: last + 1], axis=0)
+    halved = np.trapezoid(np.abs(history[: last + 1 : 2]), time[: last + 1 : 2], axis=0)
+    largest = float(np.max(work, initial=0.0))
+    return float(np.max(np.abs(work - halved))) / (3.0 * largest) if largest > 0.0 else 0.0
+
+
+def _trusted(result: Result, hidden: float, frames: float, work: float = 0.0) -> dict[str, str | int]:
+    lacks = [f"peaks between frames, which may be {100.0 * hidden:.2g} % larger"] if hidden > SEEN else []
+    if frames < FEW:
+        lacks.append(f"peaks between frames, of which there are {frames:.2g} from one reversal to the next")
+    if work > WORK:
+        lacks.append(f"work between frames, which is open by {100.0 * work:.2g} %")
     return result.trust.of_derived(*lacks).attributes()
 
 
@@ -86,7 +118,9 @@ def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
         values["work_per_cycle"] = (dims, work, {"units": "J"})
         values["mean_power"] = (dims, work / period, {"units": "W"})
     elements = [name.removesuffix(".power") for name in names]
-    return xarray.Dataset(values, coords={"element": elements}, attrs=_trusted(result, hidden_between_frames(history)))
+    hidden, frames = hidden_between_frames(history), frames_of_a_swing(history)
+    trusted = _trusted(result, hidden, frames, open_work(history, result.time))
+    return xarray.Dataset(values, coords={"element": elements}, attrs=trusted)
 
 
 def _work_of_cycle(power: Array, time: Array, period: float) -> Array:
@@ -128,7 +162,9 @@ def cycles(result: Result, name: str, *, repeating: bool = False) -> xarray.Data
         "mean": (("cycle",), columns[:, 1], units),
         "count": (("cycle",), columns[:, 2], {"units": "1"}),
     }
-    return xarray.Dataset(data, attrs={"signal": name, **_trusted(result, hidden_between_frames(values[:, None]))})
+    column = values[:, None]
+    trusted = _trusted(result, hidden_between_frames(column), frames_of_a_swing(column))
+    return xarray.Dataset(data, attrs={"signal": name, **trusted})
 
 
 def _whole(found: list[Cycle]) -> list[Cycle]:

@@ -40,3 +40,29 @@ def test_velocities_that_fit_the_joints_are_green(given, expected):
     )
     trust = pendulum.simulate(verify=False, duration=0.01).trust
     assert [item.verdict for item in lines(trust)] == expected
+
+
+ROCKER = """\
+format: 1
+gravity: [0, 0, -9.81]
+bodies:
+  bar: {{mass: 1, inertia: [0.1, 0.1, 0.1], position: [0.1, 0, 1]}}
+joints:
+  hinge: {{type: revolute, bodies: [ground, bar], point: [0, 0, 0], axis: [0, 1, 0]}}
+forces:
+  spring: {{type: joint-spring-damper, coordinate: hinge.angle, stiffness: {stiffness} N*m/rad, damping: 10}}
+simulation: {{duration: 0.02, step: 1 ms, start: equilibrium}}
+"""
+
+
+@pytest.mark.parametrize(("stiffness", "verdict"), [(1.0, "amber"), (200.0, "green")])
+def test_an_equilibrium_that_snapped_through_is_a_line(tmp_path, stiffness, verdict):
+    """A bar that stands on a spring is stable for k > m g l = 9.9 N m; with less it falls to the other side."""
+    path = tmp_path / "rocker.yaml"
+    path.write_text(ROCKER.format(stiffness=stiffness), encoding="utf-8")
+    result = nivel.load(path).simulate(verify=False)
+    angle = abs(float(result.array("hinge.angle")[0]))
+    assert (angle > 0.5) == (verdict == "amber")
+    lines = [item for item in result.trust.items if item.name == "start"]
+    assert [item.verdict for item in lines] == (["amber"] if verdict == "amber" else [])
+    assert all("snapped through" in item.text and item.row == "bar" for item in lines)

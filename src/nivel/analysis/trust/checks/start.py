@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.trust.check import Check
+from nivel.analysis.trust.check import FRAMES, Check
 from nivel.analysis.trust.subject import Linearisation, Run
 from nivel.machine.bodies.body import Body
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
@@ -17,6 +17,13 @@ THRESHOLD = Threshold(
     math.inf,
     "Of the machine's size, of a radian or of the velocity that was given. Drawings are rounded to less than a hundredth; a start that "
     "differs by more is another one.",
+)
+
+SNAPPED = Threshold(
+    0.5,
+    math.inf,
+    "Of the machine's size. Loads move a machine less than that to its equilibrium; farther away it is another one than "
+    "that near to the drawing.",
 )
 
 
@@ -31,6 +38,17 @@ class Moved:
     share: float
     gap: float
     row: str
+
+
+@dataclass(frozen=True)
+class Settled:
+    """The body that is farthest from where it was given in the equilibrium from which a run starts: by how much [m] and [rad], and its
+    distance as a share of the machine's size."""
+
+    name: str
+    distance: float
+    angle: float
+    share: float
 
 
 @dataclass(frozen=True)
@@ -62,6 +80,30 @@ def say_moves(found: Moved) -> Item:
     return THRESHOLD.item("start", f"Start: {found.name} was moved by {amount} {why}", found.share, 0.0, found.name)
 
 
+def look_at_equilibrium(run: Run) -> Settled | None:
+    """The farthest way to the equilibrium from which the run starts; None where it starts from no equilibrium."""
+    result, size = run.result, run.scales.size
+    if run.machine.simulation.start != "equilibrium" or "position" not in result.variables:
+        return None
+    place, theta = result.array("position", slice(0, 1))[0], result.array("orientation", slice(0, 1))[0]
+    found = []
+    for k, name in enumerate(result.coordinates["body"]):
+        if name not in run.machine.poses:
+            continue  # a node of a beam
+        position, given = run.machine.poses[name]
+        distance = float(np.linalg.norm(place[k] - position))
+        angle = 2.0 * float(np.arccos(np.clip(abs(np.dot(theta[k], given)), 0.0, 1.0)))
+        found.append(Settled(name, distance, angle, distance / size))  # a drum turns as it likes
+    return max(found, key=lambda each: each.share, default=None)
+
+
+def say_equilibrium(found: Settled) -> Item:
+    """How far the equilibrium is from what was given."""
+    amount = f"{number(found.distance)} m and {number(found.angle)} rad"
+    said = f"in the equilibrium at the start {found.name} is {amount} from where it was given: the machine may have snapped through"
+    return SNAPPED.item("start", f"Start: {said}", found.share, 0.0, found.name)
+
+
 def look_for_changes(subject: Run | Linearisation) -> Changed | None:
     """The largest change of a velocity that stands in the machine file."""
     given = {body.name: _speeds(body) for body in subject.machine.bodies}
@@ -89,6 +131,18 @@ def _speeds(body: Body) -> tuple[float, float]:
 
 OF = (Run, Linearisation)
 CHECKS = (
+    Check(
+        "start_equilibrium",
+        Run,
+        look_at_equilibrium,
+        say_equilibrium,
+        119,
+        (FRAMES,),
+        "Start",
+        SNAPPED,
+        line="start",
+        quiet=True,
+    ),
     Check("start_moved", OF, look_for_moves, say_moves, 120, (), "Start", THRESHOLD, line="start", quiet=True),
     Check("start_velocity", OF, look_for_changes, say_changes, 121, (), "Start", THRESHOLD, line="start", quiet=True),
 )

@@ -164,8 +164,20 @@ simulation: {duration: 1 s, step: 5 ms}
 """
 
 
-def test_a_comparison_whose_references_share_a_blind_spot_says_so(tmp_path):
-    """A wall of 17.7 J, 2 µm wide: a block of 0.5 J turns back at it. Both references step over it and agree."""
+def test_references_turn_back_at_a_wall_that_fixed_steps_pass(tmp_path):
+    """A wall of 17.7 J, 2 µm wide: a block of 0.5 J turns back at it."""
+    file = tmp_path / "wall.yaml"
+    file.write_text(WALL, encoding="utf-8")
+    comparison = nivel.load(file).compare(integrators=["rk4"], repeat=1)
+    assert comparison.rows[0].motion_error > 0.1
+    chosen, fixed = comparison.references
+    assert not chosen.blind
+    assert "their steps miss wall" in fixed.blind
+
+
+def test_a_comparison_whose_references_share_a_blind_spot_says_so(tmp_path, monkeypatch):
+    """The same, where steps do not go back for narrow features: both references step over the wall and agree."""
+    monkeypatch.setattr("nivel.analysis.run.dynamics.narrow_functions", lambda machine: ())
     file = tmp_path / "wall.yaml"
     file.write_text(WALL, encoding="utf-8")
     comparison = nivel.load(file).compare(integrators=["rk4"], repeat=1)

@@ -12,6 +12,9 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
+from nivel.native.duals import DUAL, duals
+from plain_duals import MATH, NONE, Dual, slope, unit
+
 FUNCTIONS = {}
 UNSIGNED = (np.uint32, np.uint64)
 # (file, first line) of the kernels that were called
@@ -20,18 +23,32 @@ _addresses = itertools.count(1_000_003, 16)
 
 
 class Checked(np.ndarray):
-    """An array whose indices must be within it; entries that are indices come as Python's integers, which do not wrap."""
+    """An array whose indices must be within it; entries that are indices come as Python's integers, which do not wrap, dual numbers as
+    those of plain Python."""
 
     def __getitem__(self, key):
         if type(key) is not int or key < 0:
             _check(self.shape, key)
         found = _get(self, key)
+        if type(found) is np.void:
+            return Dual(found["value"], found["slopes"].copy())
         return int(found) if type(found) in UNSIGNED else found
 
     def __setitem__(self, key, value):
         if type(key) is not int or key < 0:
             _check(self.shape, key)
+        if self.dtype == DUAL:
+            value = _as_stored(value)
         _set(self, key, value)
+
+
+def _as_stored(value):
+    """A number, or an array, as an array of dual numbers takes it."""
+    if isinstance(value, Dual):
+        return value.real, value.slopes
+    if not isinstance(value, np.ndarray):
+        return value, NONE
+    return value if value.dtype == DUAL else duals(value)
 
 
 _get, _set = np.ndarray.__getitem__, np.ndarray.__setitem__
@@ -67,6 +84,12 @@ def noted(function):
     return called
 
 
+def called_from_python(entry, *arguments):
+    """An entry; dual numbers come as arrays of one."""
+    kinds = zip(entry.signature.arguments, arguments, strict=True)
+    return entry.plain(*(each.view(Checked)[0] if kind == "dual" else each for kind, each in kinds))
+
+
 def address_of(function):
     """A number that stands for the address of this function."""
     address = next(_addresses)
@@ -92,11 +115,17 @@ def install():
     Entry.plain.__set_name__(Entry, "plain")
     Entry.address = cached_property(lambda self: address_of(self.plain))
     Entry.address.__set_name__(Entry, "address")
-    Entry.__call__ = lambda self, *arguments: self.plain(*arguments)
+    Entry.__call__ = called_from_python
     Signature.function_at = lambda _, address: FUNCTIONS[int(address)]
     library.missing = lambda _: []
-    library.address_of_law = lambda text, _: address_of(noted(law_of(text, "<law>")))
-    from nivel.kernels.core import block, handle
+
+    def address_of_law(text, _):
+        law = law_of(text, "<law>")
+        law.__globals__["math"] = MATH
+        return address_of(noted(law))
+
+    library.address_of_law = address_of_law
+    from nivel.kernels.core import block, handle, lanes
 
     handles = WeakValueDictionary()
     make = block.Handle.__init__
@@ -109,5 +138,6 @@ def install():
     def record_at(address):
         return handles[int(address[0] if isinstance(address, tuple) else address)].checked
 
+    lanes.unit, lanes.slope = unit, slope
     block.Handle.__init__ = kept
     handle.reader = lambda *_: record_at

@@ -8,7 +8,6 @@ import pytest
 
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.curves.jumping import jumping_functions
-from nivel.kernels.algebra import analytic
 from nivel.kernels.record import program as kernel
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.bounds import bounds_of, values_of
@@ -16,7 +15,6 @@ from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import FUNCTIONS, SAME, Alike, FunctionKind, Units
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import TIME, Call, ExpressionError, Signal
-from nivel.system.laws.analytic_text import BRANCHING, PLAIN, STEPS
 from nivel.system.laws.program import expression_program, switching_program
 
 RANDOM = np.random.default_rng(1).uniform(-2.0, 2.0, (100, 5))
@@ -83,18 +81,6 @@ def test_the_derivative_agrees_with_differences(name):
             assert expression.derivative(0.0) == pytest.approx(difference, rel=2e-4, abs=1e-6)
             seen += 1
     assert seen > 10
-
-
-@pytest.mark.parametrize("name", [each for each in FUNCTIONS if each in {**PLAIN, **BRANCHING}])
-def test_python_laws_of_complex_numbers_have_the_value_of_the_row(name):
-    known = getattr(analytic, BRANCHING[name]).py_func if name in BRANCHING else getattr(np, PLAIN[name])
-    for values, expected in random_arguments(name):
-        assert known(*map(complex, values.values())) == pytest.approx(expected, rel=1e-14)
-
-
-def test_each_function_of_the_kernel_is_known_to_python_laws():
-    unlike = {name for name, kind in FUNCTIONS.items() if kind.operation} - {*PLAIN, *BRANCHING, *STEPS}
-    assert unlike == {"if"}
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import pytest
 import toy_entries as toys
 
 from nivel.native import library, store
+from nivel.native.duals import DUAL, duals
 from nivel.native.workers import CompilationError
 
 X = np.array([3.0, 4.0, 5.0])
@@ -30,13 +31,32 @@ def test_functions_made_of_others_are_told_apart():
     assert toys.made(X, 0) == 27.0 + 64.0 + 125.0 + 1000.0 * 50.0
 
 
-def test_rows_and_complex_numbers_are_passed():
-    x, z = X.copy(), X + 1j
-    assert toys.scale(x, z, 2 + 1j) == 3
+def test_rows_complex_and_dual_numbers_are_passed():
+    x, z, share = X.copy(), duals(X), duals([3.0])
+    share["slopes"][0, 4] = 1.0
+    assert toys.scale(x, z, 2 + 1j, share) == 3
     np.testing.assert_array_equal(x, 2.0 * X)
-    np.testing.assert_array_equal(z, (X + 1j) * (2 + 1j))
+    np.testing.assert_array_equal(z["value"], 3.0 * X + 1.0)
+    np.testing.assert_array_equal(z["slopes"], np.outer(X, np.eye(7)[4]))
     assert toys.fill(x) is None
     np.testing.assert_array_equal(x, 7.0)
+
+
+def test_code_on_dual_numbers_returns_slopes():
+    x = duals([1.0, 4.0])
+    x["slopes"][:, 2] = 1.0, 2.0
+    # (1 + s)/(4 + 2 s)
+    assert toys.slope_of_share(toys.share_of_duals.address, x) == 1.0 / 4.0 - 2.0 / 16.0
+
+
+def test_dual_numbers_need_no_alignment():
+    """C may hand them over from anywhere."""
+    room = np.zeros(3 * DUAL.itemsize + 8, dtype=np.uint8)
+    z = room[8:].view(np.float64)[: 3 * 8].view(DUAL)
+    z["value"] = X
+    assert (z.ctypes.data % DUAL.itemsize) in range(8, DUAL.itemsize)
+    toys.scale(X.copy(), z, 1 + 2j, duals([1.0]))
+    np.testing.assert_array_equal(z["value"], X + 2.0)
 
 
 def test_what_raises_is_told():

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from nivel.native.entry import entry
+from nivel.kernels.core.lanes import slope
+from nivel.native.entry import Entry, entry
 from nivel.native.function import caller, leaf, shared
 from nivel.native.signature import Signature
 
@@ -52,12 +53,23 @@ def made(x, first):
     return total(third, x, first) + 1000.0 * total(second, x, first)
 
 
-@entry(Signature("status", ("vector", "pairs", "complex")))
-def scale(x, z, factor):
+@entry(Signature("status", ("vector", "duals", "complex", "dual")))
+def scale(x, z, factor, share):
     for k in range(x.shape[0]):
         x[k] *= factor.real
-        z[k] *= factor
+        z[k] = z[k] * share + factor.imag
     return x.shape[0]
+
+
+SHARE = Signature("number", ("vector",))
+call_share = caller(SHARE)
+share_of_duals = Entry(lambda x: x[0] / x[1], SHARE.on_duals, "toy_entries:share_of_duals")
+
+
+@entry(Signature("number", ("entry", "duals")))
+def slope_of_share(function, x):
+    """Of what code on dual numbers returns, which goes through memory."""
+    return slope(call_share(function, x), 2)
 
 
 @entry(Signature("nothing", ("vector",)))

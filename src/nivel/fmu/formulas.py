@@ -17,6 +17,7 @@ from nivel.c_library.image import WORD
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, EVENTS, FRAMES
+from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import BUDGET_SPENT
 
 Vary = Callable[[Mapping[str, float]], Exported]
@@ -174,15 +175,15 @@ def _is_workspace(name: str, place: int, nominal: Exported) -> bool:
 
 
 def named_arrays(machine: Exported) -> Iterator[tuple[str, NDArray[Any]]]:
-    """The arrays of the records that an image is made of, with their names: `machine.bodies.mass`, `history.y`."""
+    """The arrays of the records that an image is made of, with their names: `machine.bodies.mass`, `history.y`; dual numbers as lanes."""
     twin = machine.prepared.motion.twin
     records = {
-        "machine": machine.loop.machine,
-        **({} if twin is None else {"twin": twin}),
-        "history": machine.loop.history,
+        "machine": machine.loop.machine.record,
+        **({} if twin is None else {"twin": lanes_of(twin.record)}),
+        "history": machine.loop.history.record,
     }
-    for name, handle in records.items():
-        yield from _named(handle.record, name)
+    for name, record in records.items():
+        yield from _named(record, name)
 
 
 def _named(record: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:

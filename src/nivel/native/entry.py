@@ -54,7 +54,7 @@ def entry(signature: Signature) -> Callable[[Callable[..., Any]], Entry]:
 
 
 def entry_of(name: str) -> Entry:
-    """The entry of this name: `module:function`, or `module:family.twin` for that on complex numbers."""
+    """The entry of this name: `module:function`, or `module:family.twin` for that on dual numbers."""
     module, path = name.split(":")
     found: Any = import_module(module)
     for part in path.split("."):

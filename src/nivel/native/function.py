@@ -80,16 +80,13 @@ class Intrinsic:
         raise TypeError("only compiled functions can call this")
 
 
-def caller(plain: Signature, twin: Signature | None = None) -> Intrinsic:
-    """`call(address, ...)` for kernels: a call of the entry of this signature at an address, about a nanosecond.
-
-    twin : the signature of its code on complex numbers, taken where the first argument is the address of a twin or a row of complex
-    numbers.
-    """
+def caller(signature: Signature) -> Intrinsic:
+    """`call(address, ...)` for kernels: a call of the entry of this signature at an address, about a nanosecond. Where the first argument
+    is the address of a twin, or a row of dual numbers, it is that of its code on dual numbers."""
 
     def make() -> Any:
         from nivel.native.with_numba.calls import caller
 
-        return caller(plain, twin)
+        return caller(signature)
 
     return Intrinsic(make)

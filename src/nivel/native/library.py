@@ -65,7 +65,7 @@ def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: N
 
 
 def address_of_law(text: str, signature: Signature) -> int:
-    """Address of the function `nivel_law` of the text of a module, for `LAW` or `COMPLEX_LAW`. Raises CompilationError."""
+    """Address of the function `nivel_law` of the text of a module, for `LAW` or that on dual numbers. Raises CompilationError."""
     made_by = fingerprint("nivel.kernels.algebra.analytic"), fingerprint("nivel.native.with_numba.laws")
     path = store.path_of("nivel_law", text, str(signature), *made_by)
     if (found := _loaded.get(path.name)) is not None:

@@ -1,13 +1,14 @@
 """Signatures of entries: what they take and return, and the same in C.
 
 machine   the address of a record              uint64_t
-twin      the same, its work complex           uint64_t
+twin      the same, its work dual numbers      uint64_t
 entry     the address of another entry         uint64_t
 number    a real number                        double
+dual      a dual number, see `nivel.native.duals`   double *
 complex   a complex number                     double, double
 count     an integer                           int64_t
 vector    a row of real numbers                double *, int64_t
-pairs     a row of complex numbers             double *, int64_t
+duals     a row of dual numbers                double *, int64_t
 status    of `nivel.kernels.core.status`            int64_t
 nothing   0, for Python nothing                int64_t
 """
@@ -15,19 +16,26 @@ nothing   0, for Python nothing                int64_t
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from nivel.native.duals import DUAL
 
 IN_C: dict[str, tuple[Any, ...]] = {
     "machine": (ctypes.c_uint64,),
     "twin": (ctypes.c_uint64,),
     "entry": (ctypes.c_uint64,),
     "number": (ctypes.c_double,),
+    "dual": (ctypes.c_void_p,),
     "complex": (ctypes.c_double, ctypes.c_double),
     "count": (ctypes.c_int64,),
     "vector": (ctypes.c_void_p, ctypes.c_int64),
-    "pairs": (ctypes.c_void_p, ctypes.c_int64),
+    "duals": (ctypes.c_void_p, ctypes.c_int64),
 }
-ROWS = {"vector": "float64", "pairs": "complex128"}
+ROWS: Final = {"vector": np.dtype(np.float64), "duals": DUAL}
+# what stands for real numbers where the same code runs on dual ones
+ON_DUALS: Final = {"machine": "twin", "number": "dual", "vector": "duals"}
 RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": ctypes.c_int64}
 # status of an entry in which something was raised, which kernels must not do; a number is then none
 BROKEN = -1
@@ -41,6 +49,12 @@ class Signature(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.result}({', '.join(self.arguments)})"
+
+    @property
+    def on_duals(self) -> Signature:
+        """That of the same code on dual numbers."""
+        result, *arguments = (ON_DUALS.get(kind, kind) for kind in (self.result, *self.arguments))
+        return Signature(result, tuple(arguments))
 
     def function_at(self, address: int) -> Any:
         """The entry at this address as a function of Python; it runs without the interpreter's lock."""
@@ -65,8 +79,12 @@ def _parts(kind: str, value: Any) -> tuple[Any, ...]:
     """An argument as C takes it."""
     if kind in ROWS:
         if value.dtype != ROWS[kind] or value.ndim != 1 or not value.flags.c_contiguous:
-            raise TypeError(f"a {kind} is a contiguous row of {ROWS[kind]}")
+            raise TypeError(f"a {kind} is a contiguous row of {ROWS[kind].name}")
         return value.ctypes.data, value.size
+    if kind == "dual":
+        if value.dtype != DUAL or value.size != 1:
+            raise TypeError("a dual is an array of one dual number")
+        return (value.ctypes.data,)
     if kind == "complex":
         value = complex(value)
         return value.real, value.imag
@@ -75,4 +93,3 @@ def _parts(kind: str, value: Any) -> tuple[Any, ...]:
 
 # the code of laws and expressions, of all that they depend on
 LAW = Signature("number", ("vector",))
-COMPLEX_LAW = Signature("complex", ("pairs",))

@@ -22,7 +22,7 @@ from nivel.system.system import Array, Equations, System, parameter_rates
 
 @dataclass(frozen=True)
 class MotionEquations:
-    """A system with its compiled `evaluate` and `normalise_state`; twin : its record with complex work, where implicit methods need one."""
+    """A system with its compiled `evaluate` and `normalise_state`; twin : its record on dual numbers, where implicit methods need one."""
 
     system: System
     kernels: Any

@@ -1,4 +1,4 @@
-"""The residual of a machine for implicit methods: its tables, its twin on complex numbers, and calls of it from Python."""
+"""The residual of a machine for implicit methods: its tables, its twin on dual numbers, and calls of it from Python."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknown_groups import frictions_with_stiction, integrals, unknown_groups
-from nivel.kernels.core.arrays import complex_twin
+from nivel.kernels.core.arrays import dual_twin
 from nivel.kernels.core.block import Handle
 from nivel.kernels.forces import held_beam
 from nivel.kernels.record.hook import FAMILIES, Family
@@ -51,7 +51,7 @@ from nivel.system.beams.tangent import (
 )
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
-from nivel.system.laws.laws import complex_address
+from nivel.system.laws.laws import dual_address
 from nivel.system.system import Array, System
 
 Index = NDArray[np.integer]
@@ -106,7 +106,7 @@ def with_residual(
     wanted: ResidualOptions = INSTANT,
     path: PathFacts | None = None,
 ) -> MotionEquations:
-    """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
+    """The same equations, with the residual of implicit methods, its derivatives, and the record of its twin on dual numbers.
 
     path : where they are; None: those of newton-euler in these coordinates.
     Of redundant constraints those rows stay that say something new at the state y of the start:
@@ -176,7 +176,7 @@ def _with_rows(
         record = record._replace(beams=tangent_tables(record, plan, plain))
     twin = _twin(record, held=by_hand)
     family, instant = _families(path, wanted)
-    record.newton.address[:] = twin.address, family.complex_address, instant.complex_address
+    record.newton.address[:] = twin.address, family.dual_address, instant.dual_address
     return MotionEquations(replace(system, record=record), motion.kernels, twin)
 
 
@@ -272,19 +272,19 @@ def _longest_chain(record: Record) -> int:
 
 
 def _twin(record: Record, *, held: bool) -> Handle:
-    """The record with complex work, and with the families of forces compiled for it.
+    """The record with dual numbers for its work, and with the families of forces compiled for it.
 
     held : elements of beams without damping keep their wrenches, since their derivatives are found by hand.
     """
-    twin = complex_twin(record)
+    twin = dual_twin(record)
     address = np.zeros_like(record.hooks.address)
     # behind the others are motions of joints
     for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS, *range(HOOKS, len(address))):
-        address[hook] = _complex(record.hooks.address[hook])
-    families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
+        address[hook] = _on_duals(record.hooks.address[hook])
+    families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[elastic_family(record)] = held_beam.apply.complex_address
-    laws = np.array([complex_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
+        families[elastic_family(record)] = held_beam.apply.dual_address
+    laws = np.array([dual_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(
             elements=twin.elements._replace(address=families),
@@ -294,9 +294,9 @@ def _twin(record: Record, *, held: bool) -> Handle:
     )
 
 
-def _complex(address: Any) -> int:
-    """Address of the same family on complex numbers; 0 where there is none."""
-    return FAMILIES[int(address)].complex_address if address else 0
+def _on_duals(address: Any) -> int:
+    """Address of the same family on dual numbers; 0 where there is none."""
+    return FAMILIES[int(address)].dual_address if address else 0
 
 
 def evaluate_residual(motion: MotionEquations, t: float) -> int:

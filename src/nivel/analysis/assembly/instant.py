@@ -2,7 +2,7 @@
 
     r = M v̇ + C_qᵀ λ - Q        ẋ = g        C        Ċ = C_q v + C_t        C̈ = C_q v̇ - γ
 
-Derivatives are by complex step (Squire, Trapp 1998) through the compiled residual of implicit methods, so they are exact to round-off.
+Derivatives are those of the compiled residual of implicit methods on dual numbers, so they are exact to round-off.
 Positions move by tangent increments: a body turns after its present rotation, about its own axes.
 """
 
@@ -18,18 +18,18 @@ from numpy.typing import NDArray
 from scipy.linalg import lstsq
 
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.lanes import Lanes, cross, product
 from nivel.errors import SolveError
+from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import FAMILIES, SHOWN
+from nivel.kernels.record.hook import FAMILIES, SHOWN, Family
 from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
-from nivel.machine.core.vectors import cross
+from nivel.native.duals import DUAL, LANES
 from nivel.system.system import Array, parameter_rates
 
-EPSILON = 1e-30
 # share of accelerations below which they are round-off
 ROUND_OFF = 1e-12
-Complex = NDArray[np.complex128]
-Reader = Callable[["Instant"], Complex]
+Reader = Callable[["Instant"], Lanes]
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Slopes:
 
 
 class Instant:
-    """The equations of `motion`, which has a residual and its complex twin, at time t [s] in the state y.
+    """The equations of `motion`, which has a residual and its twin, at time t [s] in the state y.
 
     n : velocities. free : those that mean something (points do not turn). velocity_rows : rows that hold
     velocities alone. v̇ (n,) and λ (K,) are those of the motion.
@@ -56,7 +56,7 @@ class Instant:
 
     def __init__(self, motion: MotionEquations, t: float, y: Array) -> None:
         if motion.twin is None:
-            raise TypeError("the equations have no complex twin")
+            raise TypeError("the equations have no twin on dual numbers")
         self.motion, self.system, self.record = motion, motion.system, motion.system.record
         self.t, self.y = t, y.copy()
         residual = self.record.residual
@@ -69,7 +69,7 @@ class Instant:
         self.length = np.where(units == "m", self.system.size, 1.0)
         self.length[units == "kg^0.5 m"] = self.system.modal_sizes()
         self.free = np.flatnonzero(~self._idle())
-        self.twin: Any = motion.twin.record
+        self.twin: Any = lanes_of(motion.twin.record)
         self._residual = FAMILIES[int(self.record.hooks.address[RESIDUAL])].twin
         measure = int(self.record.hooks.address[MEASURE])
         self._measure = FAMILIES[measure].twin if measure else None
@@ -83,9 +83,8 @@ class Instant:
 
     def _count_turns(self) -> None:
         """Tell the tree which turn its angles are in."""
-        for tree in (self.record.tree, self.twin.tree):
-            if len(tree.node):
-                tree.state[: self.positions] = self.y[: self.positions]
+        if len(self.record.tree.node):
+            self.record.tree.state[: self.positions] = self.y[: self.positions]
 
     def _idle(self) -> NDArray[np.bool_]:
         """Turns of point masses."""
@@ -140,29 +139,29 @@ class Instant:
         """r (n), g (S), C, Ċ, C̈ (K each) one behind the other, for the present v̇ and λ."""
         self._load()
         self._call()
-        return self.twin.residual.value.real.copy()
+        return self.twin.residual.value[:, 0].copy()
 
     def read(self, reader: Reader) -> Array:
         """What a reader reads at the state itself."""
         self.value()
-        return reader(self).real.copy()
+        return reader(self)[:, 0].copy()
 
     def along(self, what: str, reader: Reader | None = None) -> Slopes:
         """Derivatives with respect to `what`: q, v, vdot (columns: free unknowns), x (states), lam (multipliers) or t."""
         counts = {"q": len(self.free), "v": len(self.free), "vdot": len(self.free)}
         count = counts.get(what, {"x": self.state_count, "lam": self.rows, "t": 1}.get(what, 0))
-        values, seen = [], []
-        for k in range(count):
-            t: complex = self.t
+        values: list[Array] = []
+        seen: list[Array] = []
+        for first in range(0, count, LANES):
+            columns = min(count - first, LANES)
             self._load()
-            if what == "t":
-                t = self.t + 1j * EPSILON
-            else:
-                self._move(what, k)
-            self._call(t)
-            values.append(self.twin.residual.value.imag / EPSILON)
+            if what != "t":
+                for lane in range(columns):
+                    self._move(what, first + lane, 1 + lane)
+            self._call(1.0 if what == "t" else 0.0)
+            values += [*self.twin.residual.value[:, 1 : 1 + columns].T.copy()]
             if reader is not None:
-                seen.append(reader(self).imag / EPSILON)
+                seen += [*reader(self)[:, 1 : 1 + columns].T]
         if reader is not None and not count:
             return self._slopes(values, np.zeros((len(self.read(reader)), 0)))
         return self._slopes(values, np.array(seen).T if seen else np.zeros((0, count)))
@@ -176,22 +175,24 @@ class Instant:
 
     def _load(self) -> None:
         own = self.twin.residual
-        own.y[:], own.vdot[:], own.lam[:] = self.y, self.vdot, self.lam
+        for lanes, values in ((own.y, self.y), (own.vdot, self.vdot), (own.lam, self.lam)):
+            lanes[:] = 0.0
+            lanes[:, 0] = values
 
-    def _move(self, what: str, k: int) -> None:
+    def _move(self, what: str, k: int, lane: int) -> None:
         own = self.twin.residual
         if what == "x":
-            own.y[self.first_state + k] += 1j * EPSILON
+            own.y[self.first_state + k, lane] = 1.0
         elif what == "lam":
-            own.lam[k] += 1j * EPSILON
+            own.lam[k, lane] = 1.0
         elif what == "v":
-            own.y[self.positions + self.free[k]] += 1j * EPSILON
+            own.y[self.positions + self.free[k], lane] = 1.0
         elif what == "vdot":
-            own.vdot[self.free[k]] += 1j * EPSILON
+            own.vdot[self.free[k], lane] = 1.0
         else:
             psi = np.zeros(self.n)
             psi[self.free[k]] = 1.0
-            own.y[: self.positions] += 1j * EPSILON * self.position_rates(psi)
+            own.y[: self.positions, lane] = self.position_rates(psi)
 
     def beside(self, direction: tuple[Array, Array, Array], size: float) -> tuple[Array, Array]:
         """(r, g one behind the other, their derivative along the direction) at a state that is moved by `size` times a direction, which has
@@ -199,10 +200,11 @@ class Instant:
         psi, v, x = direction
         change = np.concatenate([self.position_rates(psi), v, x])
         self._load()
-        self.twin.residual.y[: len(change)] += (size + 1j * EPSILON) * change
+        self.twin.residual.y[: len(change), 0] += size * change
+        self.twin.residual.y[: len(change), 1] = change
         self._call()
         found = self.twin.residual.value[: self.n + self.state_count]
-        return found.real.copy(), found.imag / EPSILON
+        return found[:, 0].copy(), found[:, 1].copy()
 
     def position_rates(self, psi: Array) -> Array:
         """(positions,) change of q for tangent increments psi (n,)."""
@@ -215,36 +217,46 @@ class Instant:
             out[at] = parameter_rates(self.y[at], psi[first[:, None] + np.arange(3)])
         return out
 
-    def _call(self, t: complex | None = None) -> None:
+    def _time(self, slope: float = 0.0) -> NDArray[Any]:
+        """The time as a dual number, with this slope along the first direction."""
+        out = np.zeros(1, DUAL)
+        out["value"], out["slopes"][0, 0] = self.t, slope
+        return out
+
+    def _call(self, slope_of_time: float = 0.0) -> None:
         motion = self.motion
         assert motion.twin is not None
-        when = complex(self.t if t is None else t)
-        if self._residual(motion.twin.address, 0, when) != OK:
+        if self._residual(motion.twin.address, 0, self._time(slope_of_time)) != OK:
             raise SolveError(
                 f"the equations of motion cannot be evaluated at t = {self.t:g} s",
                 time=self.t,
                 advice="Look at the laws of forces and drivers there.",
             )
 
-    # --- what readers read: the twin's record as evaluated last, complex ---
+    # --- what readers read: the twin's record as evaluated last, with lanes ---
 
     def place_markers(self) -> None:
         """All markers of the twin, from its bodies; and the accelerations of bodies."""
         bodies, markers, residual = self.twin.bodies, self.twin.markers, self.twin.residual
         b = markers.body.astype(np.int64)
-        markers.u[:] = np.einsum("mij,mj->mi", bodies.A[b], markers.position_b)
+        markers.u[:] = np.einsum("mijz,mj->miz", bodies.A[b], markers.position_b)
         markers.r[:] = bodies.R[b] + markers.u
-        markers.A[:] = bodies.A[b] @ markers.frame_b
+        markers.A[:] = np.einsum("mijz,mjk->mikz", bodies.A[b], markers.frame_b)
         turning = cross(bodies.omega[b], markers.u)
         markers.rdot[:] = bodies.Rdot[b] + turning
         markers.bias[:] = cross(bodies.omega[b], turning)
         count = self.system.body_count
         alpha = residual.acceleration[:count, :3]
         bodies.Rddot[:count] = residual.acceleration[:count, 3:]
-        bodies.alpha_b[:count] = np.einsum("bij,bi->bj", bodies.A[:count], alpha)
+        bodies.alpha_b[:count] = product("bij,bi->bj", bodies.A[:count], alpha)
 
     def measure_coordinates(self) -> None:
         """Value and rate of all coordinates of the twin, from its markers."""
         if self._measure is not None:
             assert self.motion.twin is not None
-            self._measure(self.motion.twin.address, SHOWN, complex(self.t))
+            self._measure(self.motion.twin.address, SHOWN, self._time())
+
+    def sense(self, sensors: Family) -> None:
+        """Values of all sensors of the twin, from its markers and coordinates."""
+        assert self.motion.twin is not None
+        sensors.twin(self.motion.twin.address, 0, self._time())

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
@@ -187,9 +188,9 @@ class Mechanics:
         y[: own.positions] = (self.start if q is None else q) * self._position_signs()
         own.move_to(0.0, y, np.zeros(own.n))
         own.value()
-        axes = frame_axes(own, b).real
+        axes = frame_axes(own, b)[..., 0]
         marker = self._machine.marker_named.get(point)
-        place = frame_place(own, b).real + axes @ position
+        place = frame_place(own, b)[..., 0] + axes @ position
         return place, axes if marker is None else axes @ marker_frame(marker)[1]
 
     @property
@@ -236,8 +237,8 @@ def _measured(own: Instant) -> Instant:
     return own
 
 
-def _nothing(_: Instant) -> Complex:
-    return np.zeros(0, dtype=np.complex128)
+def _nothing(_: Instant) -> Lanes:
+    return np.zeros((0, len(NOTHING)))
 
 
 def _normalised(own: Instant, q: Array) -> Array:

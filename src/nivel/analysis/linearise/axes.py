@@ -52,7 +52,7 @@ class SpinningBody:
 
     def blocks(self, own: Instant) -> Iterator[tuple[int, Array, Array]]:
         """First unknown, T and Ṫ Tᵀ (3, 3 each) of the place and of the turns at an instant, last evaluated."""
-        A = own.twin.bodies.A[self.body].real
+        A = own.twin.bodies.A[self.body, ..., 0]
         spin = A @ own.y[own.positions + self.first :][:3]
         if self.omega is None:
             P, omega = A @ self.axes.T, spin
@@ -103,7 +103,7 @@ def candidates(own: Instant) -> list[Frames]:
     spinning = list(_spinning(own))
     if not spinning:
         return [Frames()]
-    axes = own.twin.bodies.A.real.copy()
+    axes = own.twin.bodies.A[..., 0].copy()
     carried = tuple(SpinningBody(*each, begin=own.t, axes=axes[each[1]], omega=None) for each in spinning)
     kept = tuple(replace(body, omega=_turning_of(own, body)) for body in carried)
     return [Frames(kept), Frames(carried)]

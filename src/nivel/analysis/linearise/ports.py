@@ -9,7 +9,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.user_frames import frame_place, frame_velocity
 from nivel.analysis.linearise.reduction import Ports
 from nivel.errors import Fault, ModelError
@@ -29,7 +30,7 @@ class Output:
 
     name: str
     units: str
-    read: Callable[[Instant], complex]
+    read: Callable[[Instant], Lanes]
 
 
 @dataclass(frozen=True)
@@ -133,17 +134,16 @@ class Catalogue:
             ]
         return out
 
-    def reader(self, outputs: Sequence[Output]) -> Callable[[Instant], Complex]:
+    def reader(self, outputs: Sequence[Output]) -> Callable[[Instant], Lanes]:
         """What reads these outputs from the twin."""
         has_sensors = bool(self.system.record.hooks.address[SENSE])
 
-        def read(own: Instant) -> Complex:
+        def read(own: Instant) -> Lanes:
             own.place_markers()
             own.measure_coordinates()
             if has_sensors:
-                assert own.motion.twin is not None
-                sensor.apply.twin(own.motion.twin.address, 0, complex(own.t))
-            return np.array([each.read(own) for each in outputs], dtype=np.complex128)
+                own.sense(sensor.apply)
+            return np.array([each.read(own) for each in outputs]).reshape(-1, len(NOTHING))
 
         return read
 
@@ -180,10 +180,10 @@ class Catalogue:
         own = self.instant
         force, held = np.zeros((own.n, len(inputs))), np.zeros((own.rows, len(inputs)))
 
-        def rates(twin_of: Instant) -> Complex:
+        def rates(twin_of: Instant) -> Lanes:
             twin_of.place_markers()
             twin_of.measure_coordinates()
-            return np.array([_rate(twin_of, each) for each in inputs], dtype=np.complex128)
+            return np.array([_rate(twin_of, each) for each in inputs])
 
         if inputs:
             force[own.free] = own.along("v", rates).seen.T
@@ -195,7 +195,7 @@ class Catalogue:
         return Ports(force, held, np.array(opened, dtype=np.intp))
 
 
-def _rate(own: Instant, each: Input) -> complex:
+def _rate(own: Instant, each: Input) -> Lanes:
     """The velocity on which an input does work; 0 where it does none."""
     if each.kind == "effort":
         return own.twin.coordinates.rate[each.place[0]]
@@ -203,7 +203,7 @@ def _rate(own: Instant, each: Input) -> complex:
         return frame_velocity(own, each.place[0])[each.place[1]]
     if each.kind == "torque":
         return own.twin.bodies.omega[each.place]
-    return 0.0
+    return NOTHING
 
 
 def _motion(row: str) -> str:

@@ -49,13 +49,13 @@ class Rotation:
         """
         own.value()
         bodies, count = own.twin.bodies, own.system.body_count
-        speeds = bodies.omega[:count].real
+        speeds = bodies.omega[:count, ..., 0]
         body = int(np.argmax(np.linalg.norm(speeds, axis=1))) if count else 0
         omega = speeds[body] if count else np.zeros(3)
         square = float(omega @ omega)
         if square == 0.0:  # a speed of zero in a diagram over speeds: an equilibrium
             return cls(np.zeros(3), np.zeros(3), np.zeros(own.n))
-        rate = bodies.Rdot[body].real
+        rate = bodies.Rdot[body, ..., 0]
         name = own.system.bodies[body]
         if abs(rate @ omega) > STILL * square * own.system.size:
             raise _fault(f"{name} moves along the axis about which it turns")
@@ -71,7 +71,7 @@ class Rotation:
         for _, first, last, free in _grounded(own):
             if not free:
                 held[first:last] = own.y[own.positions + first : own.positions + last]
-        return cls(omega, bodies.R[body].real + np.cross(omega, rate) / square, held)
+        return cls(omega, bodies.R[body, ..., 0] + np.cross(omega, rate) / square, held)
 
     def __mul__(self, share: float) -> Rotation:
         return replace(self, omega=share * self.omega, held=share * self.held)
@@ -79,7 +79,7 @@ class Rotation:
     def field(self, own: Instant) -> tuple[Array, Array, Array, Array]:
         """v, v̇ (n,) and their derivatives (n, n) with respect to positions, at those of an instant."""
         own.value()
-        A, R = own.twin.bodies.A.real, own.twin.bodies.R.real
+        A, R = own.twin.bodies.A[..., 0], own.twin.bodies.R[..., 0]
         v, vdot = self.held.copy(), np.zeros(own.n)
         by_v, by_vdot, W = np.zeros((own.n, own.n)), np.zeros((own.n, own.n)), _tilde(self.omega)
         for body, first, last, free in _grounded(own):

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
 from nivel.analysis.linearise.kinks import kinks
@@ -174,10 +175,10 @@ def _shapes(instant: Instant, reduction: Reduction, found: Eigen, signs: Array) 
     """(shift, turn), each (n, B, 3): what body frames do in each eigenvector."""
     count, m = instant.system.body_count, len(signs)
 
-    def read(own: Instant) -> Complex:
+    def read(own: Instant) -> Lanes:
         places = np.array([frame_place(own, b) for b in range(count)])
         axes = own.twin.bodies.A[:count]
-        return np.concatenate([places.ravel(), axes.ravel()])
+        return np.concatenate([places.reshape(-1, len(NOTHING)), axes.reshape(-1, len(NOTHING))])
 
     if not count or not m or len(found.values) == 0:
         return np.zeros((len(found.values), count, 3), complex), np.zeros((len(found.values), count, 3), complex)
@@ -215,7 +216,7 @@ def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant
     attributes = run_attributes(machine, source, moment.prepared, settings)
     own = instant
     own.value()
-    places = np.array([frame_place(own, b).real for b in range(count)]).reshape(count, 3)
-    axes = np.array([frame_axes(own, b).real for b in range(count)]).reshape(count, 3, 3)
+    places = np.array([frame_place(own, b)[..., 0] for b in range(count)]).reshape(count, 3)
+    axes = np.array([frame_axes(own, b)[..., 0] for b in range(count)]).reshape(count, 3, 3)
     theta = Rotation.from_matrix(axes).as_quat(scalar_first=True)
     return Posed(tuple(own.system.bodies), places, theta, own.system.size, {**attributes, "outcome": "done"})

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.unknowns import unknown_name
 from nivel.analysis.linearise.axes import Frames, candidates
 from nivel.analysis.linearise.names import velocity_names
@@ -109,9 +110,9 @@ def coordinate_signs(catalogue: Catalogue, instant: Instant) -> Array:
     return out
 
 
-def nothing(_: Instant) -> Complex:
+def nothing(_: Instant) -> Lanes:
     """What a reader of no outputs reads."""
-    return np.zeros(0, dtype=np.complex128)
+    return np.zeros((0, len(NOTHING)))
 
 
 def _signed(space: StateSpace, signs: Array) -> StateSpace:

@@ -55,7 +55,7 @@ POINTS = "nivel.kernels.residual.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.slider_nodes"
 PASSING = "nivel.kernels.residual.element_crossing"
-# modules, besides those of residuals and forces, that exact derivatives may need on complex numbers
+# modules, besides those of residuals and forces, that exact derivatives may need on dual numbers
 WITH_DERIVATIVES = (MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS)
 # what completes the frames of runs in relative coordinates
 COMPLETIONS = (
@@ -250,13 +250,13 @@ def _entries(modules: Iterable[str]) -> list[Entry]:
 
 
 def _twins(module: str) -> list[Entry]:
-    """The families of a module on complex numbers."""
+    """The families of a module on dual numbers."""
     parts = vars(import_module(module)).values()
     return [part.twin for part in parts if isinstance(part, Family) and part.module == module]
 
 
 def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], *, held: bool = True) -> list[Entry]:
-    """A residual, and on complex numbers it and what a run uses: modules, families. held : elements of beams are found by hand."""
+    """A residual, and on dual numbers it and what a run uses: modules, families. held : elements of beams are found by hand."""
     needed = [residual, *(module for module in WITH_DERIVATIVES if module in used)]
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)

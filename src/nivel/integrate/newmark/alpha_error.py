@@ -32,10 +32,11 @@ from nivel.integrate.newmark.alpha_step import (
     XDOT,
 )
 from nivel.integrate.newmark.residual_newton import apply_turns
+from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.kernels.residual.tangent import EPSILON, POSITIONS, differentiate, load_twin
+from nivel.kernels.residual.tangent import POSITIONS, differentiate, load_twin
 from nivel.kernels.solve.newton_matrix import factorise_entries, solve_entries
 from nivel.native.function import leaf
 
@@ -62,12 +63,12 @@ def keep_slow(machine, t, x):
     b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
     twin, moving = load_twin(newton, here)
     for k in range(n):
-        moving.vdot[k] += 1j * EPSILON * x[k]
-    status = call_family(newton.address[1], twin, 0, complex(t))
+        moving.vdot[k] += unit(0, x[k])
+    status = call_family(newton.address[1], twin, 0, t)
     if status != OK:
         return status
     for k in range(n):
-        b[k] = moving.value[k].imag / EPSILON
+        b[k] = slope(moving.value[k], 0)
     for k in range(states):
         b[n + k] = x[n + k]
     for k in range(n + states, b.shape[0]):

@@ -29,11 +29,12 @@ from nivel.integrate.newmark.alpha_step import (
     A,
     W,
 )
+from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate, call_family
 from nivel.kernels.record.record import record_at
 from nivel.kernels.residual.residual import known_multiplier
-from nivel.kernels.residual.tangent import EPSILON, POSITIONS, differentiate, load_twin, move_unknown
+from nivel.kernels.residual.tangent import POSITIONS, differentiate, load_twin, move_unknown
 from nivel.kernels.solve.newton_matrix import factorise, solve
 from nivel.native.function import leaf
 
@@ -70,14 +71,14 @@ def keep_fast(machine, t, cq, cv, cx, x):
     b, n, states = newton.b, here.vdot.shape[0], newton.state.shape[0]
     twin, moving = load_twin(newton, here)
     for k in range(n + states):
-        move_unknown(newton, moving, k, 1j * EPSILON * x[k], cq, cv, cx)
+        move_unknown(newton, moving, k, unit(0, x[k]), cq, cv, cx)
     for k in range(n):
         moving.vdot[k] = here.vdot[k]
-    status = call_family(newton.address[1], twin, 0, complex(t))
+    status = call_family(newton.address[1], twin, 0, t)
     if status != OK:
         return status
     for k in range(n + states):
-        b[k] = (1.0 if k < n else -1.0) * moving.value[k].imag / EPSILON
+        b[k] = (1.0 if k < n else -1.0) * slope(moving.value[k], 0)
     for k in range(n + states, b.shape[0]):
         b[k] = 0.0
     solve(machine)

@@ -1,4 +1,4 @@
-"""The rotation of one frame seen from another as a rotation vector, and its rate; on real and complex numbers."""
+"""The rotation of one frame seen from another as a rotation vector, and its rate; on real and dual numbers."""
 
 from __future__ import annotations
 

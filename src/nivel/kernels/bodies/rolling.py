@@ -14,7 +14,7 @@ The contact is no material point: ḋ = ρ [-(eᵀa') a + (σ/h)(tᵀa') t] + Ω
     d(bᵀw)/dt = bᵀ[P̈ + α × d + ω × ḋ - Ö - Ω̇ × D - Ω × Ḋ] + (Ω × b)ᵀw
 
 A slip is the rate of nothing that positions have. Its value is zero, and it changes with positions as the row of C_q says: that is its
-imaginary part where positions are complex, all that Newton's iterations for positions ask for.
+slope where positions are dual numbers, all that Newton's iterations for positions ask for.
 Source: O'Reilly 1996 for the sharp disc; Meijaard et al. 2007 for toroidal wheels; here with a plane that may move.
 """
 

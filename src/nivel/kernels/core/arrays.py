@@ -13,14 +13,16 @@ from typing import Annotated, Any, Final, get_args, get_origin, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.native.duals import LANES, duals
+
 F1 = Annotated[NDArray[np.float64], 1, "real"]
 F2 = Annotated[NDArray[np.float64], 2, "real"]
 F3 = Annotated[NDArray[np.float64], 3, "real"]
-# what an evaluation leaves: complex where it runs on complex numbers, for exact derivatives
+# what an evaluation leaves: dual numbers where it runs on these, for exact derivatives
 W1 = Annotated[NDArray[np.float64], 1, "work"]
 W2 = Annotated[NDArray[np.float64], 2, "work"]
 W3 = Annotated[NDArray[np.float64], 3, "work"]
-# complex in the record of real numbers too
+# complex numbers everywhere
 C1 = Annotated[NDArray[np.complex128], 1, "complex"]
 C2 = Annotated[NDArray[np.complex128], 2, "complex"]
 U1 = Annotated[NDArray[np.uint32], 1, "index"]
@@ -29,10 +31,16 @@ I1 = Annotated[NDArray[np.int64], 1, "count"]
 A1 = Annotated[NDArray[np.uint64], 1, "address"]
 
 
-def complex_twin(record: Any) -> Any:
-    """The record with complex copies of what an evaluation leaves; everything else is shared."""
+def dual_twin(record: Any) -> Any:
+    """The record with dual numbers for what an evaluation leaves, without slopes yet; everything else is shared."""
     twins = (_TWIN[kind](value) for kind, value in zip(_kinds(type(record)), record, strict=True))
     return type(record)(*twins)
+
+
+def lanes_of(twin: Any) -> Any:
+    """A twin with its dual numbers as lanes (…, 1 + LANES) of the same memory, for Python."""
+    fields = (_LANES[kind](value) for kind, value in zip(_kinds(type(twin)), twin, strict=True))
+    return type(twin)(*fields)
 
 
 def copied(record: Any) -> Any:
@@ -62,8 +70,10 @@ def _same(array: Any) -> Any:
     return array
 
 
-_TWIN: Final[Mapping[str, Callable[[Any], Any]]] = {
-    "record": complex_twin,
-    "work": lambda array: array.astype(np.complex128),
-    **dict.fromkeys(("real", "complex", "index", "count", "address"), _same),
-}
+def _lanes(array: Any) -> Any:
+    return array.view(np.float64).reshape(*array.shape, 1 + LANES)
+
+
+_OTHERS: Final = dict.fromkeys(("real", "complex", "index", "count", "address"), _same)
+_TWIN: Final[Mapping[str, Callable[[Any], Any]]] = {"record": dual_twin, "work": duals, **_OTHERS}
+_LANES: Final[Mapping[str, Callable[[Any], Any]]] = {"record": lanes_of, "work": _lanes, **_OTHERS}

@@ -1,4 +1,4 @@
-"""Elements of beams whose derivatives are found on complex numbers: those with damping, and those with total interpolation."""
+"""Elements of beams whose derivatives are found on dual numbers: those with damping, and those with total interpolation."""
 
 from __future__ import annotations
 

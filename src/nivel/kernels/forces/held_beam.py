@@ -1,4 +1,4 @@
-"""Elements of beams while derivatives of everything else are found on complex numbers: they keep the wrenches on their nodes as last
+"""Elements of beams while derivatives of everything else are found on dual numbers: they keep the wrenches on their nodes as last
 evaluated, so that what is left to differentiate is how these act."""
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ a number of the element; v is remembered from the first accepted state in contac
 
 from __future__ import annotations
 
-from nivel.kernels.algebra.analytic import absolute, maximum, real, real_power
+from nivel.kernels.algebra.analytic import absolute, maximum, real
 from nivel.native.function import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
@@ -28,7 +28,7 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     kept = speed if real(depth) > 0.0 else nothing
     if followed == 1 and remembered == 0.0:
         return nothing, nothing, nothing, kept
-    elastic = stiffness * real_power(absolute(depth), exponent)
+    elastic = stiffness * absolute(depth) ** exponent
     if real(depth) < 0.0:
         elastic = -elastic
     force = elastic * (1.0 + x / speed * rate)

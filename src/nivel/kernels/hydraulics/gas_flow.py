@@ -32,7 +32,7 @@ REFERENCE_ROOT = np.sqrt(293.15)  # √T_N [√K]
 def reduced_flow(n, high, low, secant):
     """p₁ ψ [Pa] for the pressures upstream and downstream.
 
-    secant : on complex numbers, the derivative below choking is that of a line through the origin: see `root_flow`.
+    secant : on dual numbers, the derivative below choking is that of a line through the origin: see `root_flow`.
     """
     x = (high - low) / (high * (1.0 - n[CRITICAL]))
     if real(x) >= 1.0:

@@ -51,14 +51,14 @@ def magnitude_within(x, width):
 def root_flow(difference, corner, secant):
     """Δp (Δp² + c²)^(-1/4), which is ±√|Δp| beyond the corner c [Pa] and Δp/√c within.
 
-    secant : on complex numbers, the derivative is that of a line through the origin. A linearly implicit step with the tangent in place of
+    secant : on dual numbers, the derivative is that of a line through the origin. A linearly implicit step with the tangent in place of
     the secant rings for ever, because it is one step of Newton's method on a root.
     """
     size = real(difference) * real(difference) + real(corner) * real(corner)
     slope = 1.0 / np.sqrt(np.sqrt(size))
     if secant == 1:
         return slope * difference
-    # of complex numbers the first derivative: that of (Δp² + c²)^(-1/4) is -½ Δp (Δp² + c²)^(-5/4)
+    # of dual numbers the first derivative: that of (Δp² + c²)^(-1/4) is -½ Δp (Δp² + c²)^(-5/4)
     change = difference - real(difference)
     return slope * (difference - 0.5 * real(difference) * real(difference) / size * change)
 

@@ -133,7 +133,7 @@ def find_pressure(machine, node, mass):
         return NO_VOLUME
     solve_volume(f, n, known, real(mass), real(volume))
     p, v, slope, energy = known[PRESSURE], known[VALUE], known[RATE], known[ENERGY]
-    # one step of Newton's method, which on complex numbers gives the exact derivative
+    # one step of Newton's method, which on dual numbers gives the exact derivative
     softness = 1.0 / (known[GIVE] - known[MASS] * slope / f[DENSITY])
     change = (mass * (v / f[DENSITY]) - volume - known[EXTRA]) * softness
     circuit.pressure[node] = p + change

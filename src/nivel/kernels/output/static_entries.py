@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import accept
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import record_at
-from nivel.kernels.residual.tangent import EPSILON, load_twin
+from nivel.kernels.residual.tangent import load_twin
 from nivel.kernels.residual.tangent_parts import differentiate_parts
 from nivel.native.entry import entry
 from nivel.native.signature import Signature
@@ -20,15 +21,15 @@ def find_parts(machine, t):
 
 @entry(Signature("status", ("machine", "number", "vector")))
 def find_time_slope(machine, t, out):
-    """out := ∂/∂t of all entries of `residual.value`, of functions of time alone, by complex step. Returns a status."""
+    """out := ∂/∂t of all entries of `residual.value`, of functions of time alone. Returns a status."""
     record = record_at(machine)
     newton = record.newton
     twin, moving = load_twin(newton, record.residual)
-    status = call_family(newton.address[1], twin, 0, t + 1j * EPSILON)
+    status = call_family(newton.address[1], twin, 0, t + unit(0, 1.0))
     if status != OK:
         return status
     for k in range(out.shape[0]):
-        out[k] = moving.value[k].imag / EPSILON
+        out[k] = slope(moving.value[k], 0)
     return OK
 
 

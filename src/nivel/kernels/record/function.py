@@ -8,7 +8,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.native.function import caller, leaf, stage
-from nivel.native.signature import COMPLEX_LAW, LAW
+from nivel.native.signature import LAW
 
 # A table is past a knot where its argument comes within this share of it: times of steps are products and sums.
 NEAR = 16.0 * 2.220446049250313e-16
@@ -19,7 +19,7 @@ NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE, OUT
 
 
 # call_law(address, arguments): the value of a law or an expression; about 3 ns
-call_law = caller(LAW, COMPLEX_LAW)
+call_law = caller(LAW)
 
 
 @leaf

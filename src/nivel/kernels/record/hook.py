@@ -11,20 +11,20 @@ from functools import cached_property
 from typing import Any
 
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.record import CORRECT, EVALUATE, FAMILY, FAMILY_ON_TWIN, FRICTION, MEASURE, record_at
+from nivel.kernels.record.record import CORRECT, EVALUATE, FAMILY, FRICTION, MEASURE, record_at
 from nivel.native.entry import Entry
 from nivel.native.function import Intrinsic, caller, stage
-from nivel.native.signature import COMPLEX_LAW, LAW, Signature
+from nivel.native.signature import LAW, Signature
 
 
 class Family:
-    """A function that kernels call by its address. code, twin : its entries, on real and on complex numbers."""
+    """A function that kernels call by its address. code, twin : its entries, on real and on dual numbers."""
 
-    def __init__(self, function: Callable[..., Any], real: Signature, twin: Signature) -> None:
+    def __init__(self, function: Callable[..., Any], signature: Signature) -> None:
         self.py_func, self.module = function, function.__module__
         name = f"{function.__module__}:{function.__qualname__}"
-        self.code = Entry(function, real, f"{name}.code")
-        self.twin = Entry(function, twin, f"{name}.twin")
+        self.code = Entry(function, signature, f"{name}.code")
+        self.twin = Entry(function, signature.on_duals, f"{name}.twin")
 
     @cached_property
     def address(self) -> int:
@@ -33,8 +33,8 @@ class Family:
         return self.code.address
 
     @property
-    def complex_address(self) -> int:
-        """Address of the function for records whose work is complex."""
+    def dual_address(self) -> int:
+        """Address of the function for records whose work is dual numbers."""
         return self.twin.address
 
 
@@ -44,15 +44,15 @@ FAMILIES: dict[int, Family] = {}
 
 def family(function: Callable[..., Any]) -> Family:
     """Decorator: `function(machine, family, t) -> status`, a function of the module, as something with an address."""
-    return Family(function, FAMILY, FAMILY_ON_TWIN)
+    return Family(function, FAMILY)
 
 
 def law(function: Callable[..., Any]) -> Family:
     """Decorator: `function(row) -> value`, a function of a row of numbers, as something with an address."""
-    return Family(function, LAW, COMPLEX_LAW)
+    return Family(function, LAW)
 
 
-call_family: Intrinsic = caller(FAMILY, FAMILY_ON_TWIN)
+call_family: Intrinsic = caller(FAMILY)
 call_evaluate: Intrinsic = caller(EVALUATE)
 call_correct: Intrinsic = caller(CORRECT)
 

@@ -127,7 +127,7 @@ class Shifted(NamedTuple):
 class Newton(NamedTuple):
     """Newton's iteration for the residual, in a state affine in the unknowns; see `nivel.integrate.newmark.newton_state`."""
 
-    address: A1  # (3,) of the record with complex work, of its residual, and of that at an instant where the residual is over a step
+    address: A1  # (3,) of the record on dual numbers, of its residual, and of that at an instant where the residual is over a step
     place: (
         U2  # (n, 2) place in y of the position that a velocity moves, NONE; or of four Euler parameters, axis 0, 1 or 2
     )

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, power, real, tanh
+from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real, tanh
 from nivel.kernels.record.hook import law
 from nivel.native.function import leaf
 
@@ -41,7 +41,7 @@ def operate(operation, x, y, condition):
     if operation == DIVIDE:
         return x / y
     if operation == POWER:
-        return power(x, y)
+        return x**y
     if operation == ATAN2:
         return arctan2(x, y)
     if operation == MIN:

@@ -463,7 +463,6 @@ OBSERVE = Signature("nothing", ("machine", "number", "vector", "vector"))
 CORRECT = Signature("status", ("machine", "number", "vector"))
 # address of the record, number of the family (0 for a hook), time → status
 FAMILY = Signature("status", ("machine", "count", "number"))
-FAMILY_ON_TWIN = Signature("status", ("twin", "count", "complex"))
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations

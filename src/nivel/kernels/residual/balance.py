@@ -13,7 +13,7 @@ from nivel.kernels.core.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import MOMENTARY, NONE, record_at
 from nivel.kernels.residual.residual import acceleration_of
-from nivel.kernels.residual.tangent_parts import ACCELERATION, differentiate_part, own_rates
+from nivel.kernels.residual.tangent_parts import differentiate_first, own_rates
 from nivel.kernels.solve.newton_matrix import factorise_entries, solve_entries
 from nivel.native.function import stage
 
@@ -29,8 +29,9 @@ def find_matrix(machine, t):
     record = record_at(machine)
     newton = record.newton
     newton.asked[2] = 1.0
-    own_rates(newton, np.int64(newton.place.shape[0]), newton.balance.value)
-    status = differentiate_part(machine, t, ACCELERATION, newton.balance.value)
+    M = newton.balance.value
+    own_rates(newton, np.int64(newton.place.shape[0]), M)
+    status = differentiate_first(machine, 1, (M, M, M), t)
     return factorise_entries(newton, newton.balance, record.control.failure) if status == OK else status
 
 

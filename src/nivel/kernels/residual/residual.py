@@ -4,8 +4,8 @@
 
 The feedback of Ċ and C is that of Baumgarte's stabilisation or of penalty methods; there is none with others.
 
-Nothing is factorised here, so it costs little; and every line is analytic, so that the same code on complex numbers gives exact
-derivatives. Coordinates add only how accelerations of bodies come from v̇, and generalised forces from wrenches on bodies.
+Nothing is factorised here, so it costs little; and the same code on dual numbers gives exact derivatives. Coordinates add
+only how accelerations of bodies come from v̇, and generalised forces from wrenches on bodies.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ f comes from M v̇ + C_qᵀ λ = Q and C̈ = 0, so the change of v̇ by a change
 
     [M + s D + s² K, C_qᵀ; ∂C̈/∂v̇, 0] [Δv̇; Δλ] = -(what the residual changes by along q: r_q + s r_v, v: r_v, x: r_x)
 
-whose right-hand side is one evaluation on complex numbers, with the time moved too where its part of f is wanted. The turning of a body's
+whose right-hand side is one evaluation on dual numbers, with the time moved too where its part of f is wanted. The turning of a body's
 axes by its own angular velocity within s, and the energies at the end of y, on which nothing depends, are left out: this is for
 iterations, and for methods that keep their order with any matrix.
 """
@@ -15,11 +15,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters
+from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.residual import known_multiplier
-from nivel.kernels.residual.tangent import ACCELERATIONS, EPSILON, differentiate, load_twin
+from nivel.kernels.residual.tangent import ACCELERATIONS, differentiate, load_twin
 from nivel.kernels.solve.newton_matrix import factorise, solve
 from nivel.native.function import leaf
 
@@ -44,10 +45,10 @@ def prepare_shifted(machine, t, y, rate, s):
 
 @leaf
 def move_along(newton, residual, moving, r, s):
-    """Move the complex state along the direction that r asks for before the accelerations change. Leaves rotations in newton.moved."""
+    """Move the twin's state along the direction that r asks for before the accelerations change. Leaves rotations in newton.moved."""
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
-    moved, factor = newton.moved, 1j * EPSILON
+    moved, factor = newton.moved, unit(0, 1.0)
     for k in range(n):
         p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
         moving.y[positions + k] += factor * r[positions + k]
@@ -75,16 +76,16 @@ def solve_shifted(machine, t, r, s, ahead):
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
     move_along(newton, residual, moving, r, s)
-    status = call_family(newton.address[1], twin, 0, complex(t, EPSILON * ahead))
+    status = call_family(newton.address[1], twin, 0, t + unit(0, ahead))
     if status != OK:
         return status
     b = newton.b
     for k in range(n):
-        b[k] = -moving.value[k].imag / EPSILON
+        b[k] = -slope(moving.value[k], 0)
     for k in range(states):
-        b[n + k] = moving.value[n + k].imag / EPSILON
+        b[n + k] = slope(moving.value[n + k], 0)
     for k in range(rows):
-        b[n + states + k] = -moving.value[n + states + 2 * rows + k].imag / EPSILON
+        b[n + states + k] = -slope(moving.value[n + states + 2 * rows + k], 0)
     solve(machine)
     for k in range(n + states):
         r[positions + k] += s * b[k]

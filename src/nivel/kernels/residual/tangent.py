@@ -1,7 +1,6 @@
-"""Exact derivatives of the residual by complex step (Squire, Trapp 1998): Im r(x + i ε d)/ε is the derivative along d to round-off.
+"""Exact derivatives of the residual: the same source runs on dual numbers, whose slopes are derivatives along LANES directions.
 
-The same compiled source runs on complex numbers. Unknowns that have no row in common are moved at once, so a chain of any length
-takes as many evaluations as a chain of three.
+Unknowns that have no row in common are moved along one direction, so a chain of any length takes as many evaluations as a short one.
 """
 
 from __future__ import annotations
@@ -9,13 +8,13 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family, call_hook
 from nivel.kernels.record.record import NONE, TANGENT, record_at
+from nivel.native.duals import LANES
 from nivel.native.function import leaf
 
-# far below round-off in every product with a real number, far above the smallest number in every product with a small direction
-EPSILON = 1e-30
 # which rows of the constraints stand in the matrix: C/cq or C̈
 POSITIONS, ACCELERATIONS = 0, 1
 
@@ -36,7 +35,7 @@ def inverse_tangent(psi, w):
 
 @leaf
 def move_unknown(newton, moving, j, factor, cq, cv, cx):
-    """Move unknown j of the complex residual `moving` by i ε: factor = i ε."""
+    """Move unknown j of the twin's residual `moving` by `factor`, a dual number."""
     n, states, positions = moving.vdot.shape[0], newton.state.shape[0], np.int64(moving.y.shape[0])
     positions -= n + states + 2
     if j >= n + states:
@@ -63,8 +62,8 @@ def move_unknown(newton, moving, j, factor, cq, cv, cx):
 
 
 @leaf
-def write_column(newton, value, j, n, held, cq, level):
-    """Column j of the matrix from the imaginary parts of the residual's value, and the row of C_qᵀ that goes with it.
+def write_column(newton, value, j, lane, n, held, cq, level):
+    """Column j of the matrix from the slopes of the residual's value along a direction, and the row of C_qᵀ that goes with it.
 
     held : constraint rows; those behind them are of frictions, at the level of accelerations always.
     """
@@ -72,17 +71,16 @@ def write_column(newton, value, j, n, held, cq, level):
     rows = newton.b.shape[0] - n - states
     for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
         row, p, transposed = np.int64(newton.entry[e, 0]), newton.entry[e, 1], newton.entry[e, 2]
-        slope = value[row].imag / EPSILON
+        found = slope(value[row], lane)
         if row >= n + states:
-            newton.value[p] = (
-                slope / cq if level == POSITIONS and row < n + states + held else value[row + 2 * rows].imag / EPSILON
-            )
+            of_positions = level == POSITIONS and row < n + states + held
+            newton.value[p] = found / cq if of_positions else slope(value[row + 2 * rows], lane)
             if transposed != NONE:
-                newton.value[transposed] = slope / cq
+                newton.value[transposed] = found / cq
         elif row >= n:
-            newton.value[p] = (1.0 if row == j else 0.0) - slope
+            newton.value[p] = (1.0 if row == j else 0.0) - found
         else:
-            newton.value[p] = slope
+            newton.value[p] = found
 
 
 @leaf
@@ -94,7 +92,7 @@ def add_compliance(newton, entries):
 
 @leaf
 def load_twin(newton, here):
-    """The complex residual at the same state, accelerations and multipliers. Returns the complex record's address and its residual."""
+    """The twin's residual at the same state, accelerations and multipliers. Returns the twin's address and its residual."""
     twin = (newton.address[0],)
     moving = record_at(twin).residual
     for i in range(here.y.shape[0]):
@@ -117,18 +115,19 @@ def differentiate(machine, t, cq, cv, cx, level):
     record = record_at(machine)
     newton, here = record.newton, record.residual
     twin, moving = load_twin(newton, here)
-    n, held = here.vdot.shape[0], here.row.shape[0]
-    for g in range(newton.group_start.shape[0] - 1):
-        first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
-        for m in range(first, last):
-            move_unknown(newton, moving, np.int64(newton.group[m]), 1j * EPSILON, cq, cv, cx)
-        status = call_family(newton.address[1], twin, 0, complex(t))
+    n, held, groups = here.vdot.shape[0], here.row.shape[0], np.int64(newton.group_start.shape[0]) - 1
+    for first in range(0, groups, LANES):
+        last = min(first + LANES, groups)
+        for g in range(first, last):
+            for m in range(np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])):
+                move_unknown(newton, moving, np.int64(newton.group[m]), unit(g - first, 1.0), cq, cv, cx)
+        status = call_family(newton.address[1], twin, 0, t)
         if status != OK:
             return status
-        for m in range(first, last):
-            write_column(newton, moving.value, np.int64(newton.group[m]), n, held, cq, level)
-        # moved back: a complex number less what was added would keep its imaginary part only to round-off
-        for m in range(first, last):
+        for g in range(first, last):
+            for m in range(np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])):
+                write_column(newton, moving.value, np.int64(newton.group[m]), g - first, n, held, cq, level)
+        for m in range(np.int64(newton.group_start[first]), np.int64(newton.group_start[last])):
             still(newton, moving, here, np.int64(newton.group[m]))
     add_compliance(newton, newton.value)
     newton.asked[0], newton.asked[1] = cq, cv

@@ -11,13 +11,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family, call_hook
 from nivel.kernels.record.record import NONE, TANGENT, record_at
-from nivel.kernels.residual.tangent import EPSILON, add_compliance, load_twin, still
+from nivel.kernels.residual.tangent import add_compliance, load_twin, still
+from nivel.native.duals import LANES
 from nivel.native.function import leaf
 
 ACCELERATION, VELOCITY, POSITION = 0, 1, 2
+PARTS = 3
 
 
 @leaf
@@ -30,7 +33,7 @@ def is_moved(j, n, states, part):
 
 @leaf
 def move_part(newton, moving, j, factor, part):
-    """Move what unknown j stands for in the complex residual `moving` by i ε: factor = i ε."""
+    """Move what unknown j stands for in this part, in the twin's residual `moving`, by `factor`, a dual number."""
     n, states = moving.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(moving.y.shape[0]) - n - states - 2
     if j >= n + states:
@@ -43,7 +46,12 @@ def move_part(newton, moving, j, factor, part):
         moving.y[newton.place[j, 0]] += factor
     else:
         p, axis, half = np.int64(newton.place[j, 0]), newton.place[j, 1], 0.5 * factor
-        x, y, z = half if axis == 0 else 0j, half if axis == 1 else 0j, half if axis == 2 else 0j
+        nothing = 0.0 * half
+        x, y, z = (
+            half if axis == 0 else nothing,
+            half if axis == 1 else nothing,
+            half if axis == 2 else nothing,
+        )
         e0, e1, e2, e3 = moving.y[p], moving.y[p + 1], moving.y[p + 2], moving.y[p + 3]
         moving.y[p] += -e1 * x - e2 * y - e3 * z
         moving.y[p + 1] += e0 * x - e3 * y + e2 * z
@@ -52,16 +60,16 @@ def move_part(newton, moving, j, factor, part):
 
 
 @leaf
-def write_part(newton, value, j, n, part, out):
-    """Column j of this part from the imaginary parts of the residual's value; with M also the row of C_qᵀ that goes with it."""
+def write_part(newton, value, j, lane, n, part, out):
+    """Column j of this part from the slopes of the residual's value along a direction; with M also the row of C_qᵀ that goes with it."""
     states = newton.state.shape[0]
     rows = newton.b.shape[0] - n - states
     for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
         row, p, transposed = np.int64(newton.entry[e, 0]), newton.entry[e, 1], newton.entry[e, 2]
-        slope = value[row if row < n + states else row + 2 * rows].imag / EPSILON
-        out[p] = -slope if n <= row < n + states else slope
+        found = slope(value[row if row < n + states else row + 2 * rows], lane)
+        out[p] = -found if n <= row < n + states else found
         if part == ACCELERATION and transposed != NONE:
-            out[transposed] = slope
+            out[transposed] = found
 
 
 @leaf
@@ -74,29 +82,62 @@ def own_rates(newton, n, out):
 
 
 @leaf
-def differentiate_part(machine, t, part, out):
-    """Fill `out` with the derivatives of one part for `residual.y`, `vdot` and `lam`. Returns a status."""
+def moves_with(newton, g, n, part):
+    """Whether a group has an unknown that stands for something of this part."""
+    for m in range(np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])):
+        if is_moved(np.int64(newton.group[m]), n, newton.state.shape[0], part):
+            return True
+    return False
+
+
+@leaf
+def differentiate_columns(machine, twin, moving, first, behind, out, t):
+    """The next LANES columns, or as many as there are, of groups of the first part, then of the second, from number `first` to `behind`.
+    Returns (status, number of the next one)."""
     record = record_at(machine)
     newton, here = record.newton, record.residual
-    twin, moving = load_twin(newton, here)
-    n, states = here.vdot.shape[0], newton.state.shape[0]
-    for g in range(newton.group_start.shape[0] - 1):
-        first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
-        count = 0
-        for m in range(first, last):
-            if is_moved(np.int64(newton.group[m]), n, states, part):
-                move_part(newton, moving, np.int64(newton.group[m]), 1j * EPSILON, part)
-                count += 1
-        if count == 0:
-            continue
-        status = call_family(newton.address[2], twin, 0, complex(t))
+    n, states, groups = here.vdot.shape[0], newton.state.shape[0], np.int64(newton.group_start.shape[0]) - 1
+    last, lane = first, np.int64(0)
+    while last < behind and lane < LANES:
+        part, g = last // groups, last % groups
+        if moves_with(newton, g, n, part):
+            for m in range(np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])):
+                if is_moved(np.int64(newton.group[m]), n, states, part):
+                    move_part(newton, moving, np.int64(newton.group[m]), unit(lane, 1.0), part)
+            lane += 1
+        last += 1
+    status = call_family(newton.address[2], twin, 0, t)
+    lane = np.int64(0)
+    for k in range(first, last):
+        part, g = k // groups, k % groups
+        if moves_with(newton, g, n, part):
+            entries = out[0] if part == ACCELERATION else (out[1] if part == VELOCITY else out[2])
+            for m in range(np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])):
+                if is_moved(np.int64(newton.group[m]), n, states, part):
+                    write_part(newton, moving.value, np.int64(newton.group[m]), lane, n, part, entries)
+            lane += 1
+    for k in range(first, last):
+        for m in range(np.int64(newton.group_start[k % groups]), np.int64(newton.group_start[k % groups + 1])):
+            still(newton, moving, here, np.int64(newton.group[m]))
+    return status, last
+
+
+@leaf
+def differentiate_first(machine, parts, out, t):
+    """Fill out[part], the entries of the first `parts` parts, for `residual.y`, `vdot` and `lam`. Returns a status."""
+    record = record_at(machine)
+    newton = record.newton
+    twin, moving = load_twin(newton, record.residual)
+    behind, next_one = parts * (np.int64(newton.group_start.shape[0]) - 1), np.int64(0)
+    while next_one < behind:
+        status, next_one = differentiate_columns(machine, twin, moving, next_one, behind, out, t)
         if status != OK:
             return status
-        for m in range(first, last):
-            if is_moved(np.int64(newton.group[m]), n, states, part):
-                write_part(newton, moving.value, np.int64(newton.group[m]), n, part, out)
-                still(newton, moving, here, np.int64(newton.group[m]))
-    return call_hook(machine, TANGENT, 1 + part, t)
+    for part in range(parts):
+        status = call_hook(machine, TANGENT, 1 + part, t)
+        if status != OK:
+            return status
+    return OK
 
 
 @leaf
@@ -104,11 +145,7 @@ def differentiate_parts(machine, t):
     """Fill newton.shifted.M, D and K for `residual.y`, `vdot` and `lam`. Returns a status."""
     newton = record_at(machine).newton
     newton.asked[2] = 0.0
-    own_rates(newton, np.int64(newton.place.shape[0]), newton.shifted.M)
-    add_compliance(newton, newton.shifted.M)
-    for part in range(3):
-        out = newton.shifted.M if part == ACCELERATION else (newton.shifted.D if part == VELOCITY else newton.shifted.K)
-        status = differentiate_part(machine, t, part, out)
-        if status != OK:
-            return status
-    return OK
+    M, D, K = newton.shifted.M, newton.shifted.D, newton.shifted.K
+    own_rates(newton, np.int64(newton.place.shape[0]), M)
+    add_compliance(newton, M)
+    return differentiate_first(machine, PARTS, (M, D, K), t)

@@ -33,13 +33,12 @@ from nivel.native.signature import Signature
 BY_ADDRESS: Final = TRANSLATIONAL_ON_BEAM + 1  # the motion of kind k is at Hooks.address[HOOKS + k - BY_ADDRESS]
 # (machine, node, y)
 MOTION = Signature("nothing", ("machine", "count", "vector"))
-MOTION_ON_TWIN = Signature("nothing", ("twin", "count", "pairs"))
-_call_motion = caller(MOTION, MOTION_ON_TWIN)
+_call_motion = caller(MOTION)
 
 
 def joint_motion(function: Callable[..., Any]) -> Family:
     """Decorator: `function(machine, n, y)`, the motion of the child of node n in the state y, as something with an address."""
-    return Family(function, MOTION, MOTION_ON_TWIN)
+    return Family(function, MOTION)
 
 
 @leaf

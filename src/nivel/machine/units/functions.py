@@ -1,8 +1,8 @@
 """Table of the functions of expressions: for each its value, bounds, derivative, units, operation of a program, and corners.
 
 A row is all that is known of a function. Everything that reads expressions reads the table: values at a point (arithmetic.py), on arrays
-and over intervals (bounds.py), derivatives (derivative.py), units (measure.py, plain_factors.py), programs (system/laws/program.py), Python
-laws of complex numbers (system/laws/analytic_text.py), corners and jumps (analysis/curves). The page for users lists the rows.
+and over intervals (bounds.py), derivatives (derivative.py), units (measure.py, plain_factors.py), programs (system/laws/program.py),
+corners and jumps (analysis/curves). The page for users lists the rows.
 """
 
 from __future__ import annotations
@@ -97,7 +97,6 @@ class FunctionKind:
     derivative : with respect to time, where dx is the rate of an argument x; arguments without a rate in it must be constant.
         There is none of a function with sides or jumps of its own. smooth : text of what is smooth instead
     operation : of `nivel.kernels.record.program`
-    analytic : on complex numbers the function of `nivel.kernels.algebra.analytic` is taken that has the name of numpy's
     sides : pairs of expressions, or one and zero, whose order decides about the value, of those that count
     choice : the value as a choice, whose condition is a switch
     jumps : the value jumps where its first argument passes a value. is_truth : it is 1 or 0
@@ -114,7 +113,6 @@ class FunctionKind:
     form: str = ""
     derivative: str = ""
     smooth: str = ""
-    analytic: bool = False
     sides: Callable[..., Iterator[Pair]] | None = None
     choice: str = ""
     jumps: bool = False
@@ -208,7 +206,7 @@ FUNCTIONS: Final[dict[str, FunctionKind]] = {
     ),
     "atan2": FunctionKind(
         "y x", "angle of the point (x, y), -π to π", Units((Alike(0.0),), is_angle=True), "ATAN2", math.atan2, np.arctan2,
-        intervals.polar_angle, derivative="(x*dy - y*dx)/(x*x + y*y)", analytic=True,
+        intervals.polar_angle, derivative="(x*dy - y*dx)/(x*x + y*y)",
     ),
     "sqrt": FunctionKind(
         "x", "square root", Units((Alike(0.5),)), "SQRT", math.sqrt, np.sqrt, domain=(0.0, np.inf), derivative="1/(2*sqrt(x))*dx",
@@ -219,15 +217,15 @@ FUNCTIONS: Final[dict[str, FunctionKind]] = {
     ),
     "abs": FunctionKind(
         "x", "absolute value", SAME, "ABS", math.fabs, np.abs, intervals.absolute,
-        analytic=True, sides=_sign_decides, choice="if(-x, -x, x)",
+        sides=_sign_decides, choice="if(-x, -x, x)",
     ),
     "min": FunctionKind(
         "x y", "the smallest of two or more values", SAME, "MIN", min, np.minimum,
-        more=True, analytic=True, sides=_order_decides, choice="if(x - y, y, x)",
+        more=True, sides=_order_decides, choice="if(x - y, y, x)",
     ),
     "max": FunctionKind(
         "x y", "the largest of two or more values", SAME, "MAX", max, np.maximum,
-        more=True, analytic=True, sides=_order_decides, choice="if(y - x, y, x)",
+        more=True, sides=_order_decides, choice="if(y - x, y, x)",
     ),
     "step": FunctionKind(
         _POINTS, "`y0` up to `x0`, `y1` from `x1` on; a quintic between them, with continuous second derivative",
@@ -257,7 +255,7 @@ FUNCTIONS: Final[dict[str, FunctionKind]] = {
     "floor": FunctionKind("x", "the largest integer ≤ x", PURE, "FLOOR", math.floor, np.floor, jumps=True),
     "mod": FunctionKind("x y", "the remainder of x divided by y", SAME, form="x - y*floor(x/y)", jumps=True),
     "tanh": FunctionKind(
-        "x", "hyperbolic tangent", OF_NUMBER, "TANH", math.tanh, np.tanh, derivative="(1 - tanh(x)^2)*dx", analytic=True,
+        "x", "hyperbolic tangent", OF_NUMBER, "TANH", math.tanh, np.tanh, derivative="(1 - tanh(x)^2)*dx",
     ),
 }
 # fmt: on

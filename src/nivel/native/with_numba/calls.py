@@ -6,11 +6,13 @@ from typing import Any
 
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.extending import intrinsic
 
 from nivel.native.signature import ROWS, Signature
 from nivel.native.with_numba.arrays import WORD, array_of, item_pointer, item_size
-from nivel.native.with_numba.kinds import ARGUMENTS, RESULTS, arguments_of
+from nivel.native.with_numba.duals import DUAL
+from nivel.native.with_numba.kinds import ARGUMENTS, RESULTS, TWIN, arguments_of
 
 _DOUBLE = ir.DoubleType()
 _IN_C: dict[str, tuple[Any, ...]] = {
@@ -18,18 +20,21 @@ _IN_C: dict[str, tuple[Any, ...]] = {
     "twin": (WORD,),
     "entry": (WORD,),
     "number": (_DOUBLE,),
+    "dual": (_DOUBLE.as_pointer(),),
     "complex": (_DOUBLE, _DOUBLE),
     "count": (WORD,),
     "vector": (_DOUBLE.as_pointer(), WORD),
-    "pairs": (_DOUBLE.as_pointer(), WORD),
+    "duals": (_DOUBLE.as_pointer(), WORD),
 }
+# bytes; dual numbers that C hands over may stand anywhere a double may
+ALIGNMENT = 8
 _RESULT_IN_C: dict[str, Any] = {"status": WORD, "number": _DOUBLE, "nothing": WORD}
 
 
 def function_type(signature: Signature) -> Any:
-    """The type of the C function of an entry. A complex result is written to an address that goes before the arguments."""
+    """The type of the C function of an entry. A dual result is written to an address that goes before the arguments."""
     arguments = [part for kind in signature.arguments for part in _IN_C[kind]]
-    if signature.result == "complex":
+    if signature.result == "dual":
         return ir.FunctionType(ir.VoidType(), [_DOUBLE.as_pointer(), *arguments])
     return ir.FunctionType(_RESULT_IN_C[signature.result], arguments)
 
@@ -38,6 +43,8 @@ def to_c(context: Any, builder: Any, kind: str, value: Any) -> list[Any]:
     """An argument as C takes it."""
     if kind == "twin":
         return [builder.extract_value(value, 0)]
+    if kind == "dual":
+        return [builder.bitcast(cgutils.alloca_once_value(builder, value), _DOUBLE.as_pointer())]
     if kind == "complex":
         return [builder.extract_value(value, 0), builder.extract_value(value, 1)]
     if kind in ROWS:
@@ -50,6 +57,8 @@ def from_c(context: Any, builder: Any, kind: str, parts: list[Any]) -> Any:
     """An argument as Numba has it."""
     if kind == "twin":
         return builder.insert_value(ir.Constant(ir.ArrayType(WORD, 1), ir.Undefined), parts[0], 0)
+    if kind == "dual":
+        return builder.load(builder.bitcast(parts[0], DUAL.vector.as_pointer()), align=ALIGNMENT)
     if kind == "complex":
         value = context.make_complex(builder, types.complex128)
         value.real, value.imag = parts
@@ -61,13 +70,16 @@ def from_c(context: Any, builder: Any, kind: str, parts: list[Any]) -> Any:
     return parts[0]
 
 
-def caller(plain: Signature, twin: Signature | None = None) -> Any:
-    """An intrinsic `call(address, ...)` for the entry of this signature at an address. twin : the signature of its code on complex numbers,
-    taken where the first argument is the address of a twin or a row of complex numbers."""
-    twins = None if twin is None else ARGUMENTS[twin.arguments[0]]
+def _is_of_duals(kind: types.Type) -> bool:
+    return kind == TWIN or getattr(kind, "dtype", None) == DUAL
+
+
+def caller(plain: Signature) -> Any:
+    """An intrinsic `call(address, ...)` for the entry of this signature at an address, or of its code on dual numbers where the first
+    argument is of these."""
 
     def call(arguments: tuple[Any, ...]) -> tuple[Any, Any]:
-        signature = twin if twin is not None and arguments[0] == twins else plain
+        signature = plain.on_duals if _is_of_duals(arguments[0]) else plain
         kinds = arguments_of(signature)
 
         def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
@@ -75,10 +87,10 @@ def caller(plain: Signature, twin: Signature | None = None) -> Any:
             for kind, value, given, wanted in zip(signature.arguments, args[1:], sig.args[1:], kinds, strict=True):
                 parts += to_c(context, builder, kind, context.cast(builder, value, given, wanted))
             function = builder.inttoptr(args[0], function_type(signature).as_pointer())
-            if signature.result == "complex":
-                place = context.make_complex(builder, types.complex128)
-                builder.call(function, [builder.bitcast(place._getpointer(), _DOUBLE.as_pointer()), *parts])
-                return place._getvalue()
+            if signature.result == "dual":
+                place = cgutils.alloca_once(builder, DUAL.vector)
+                builder.call(function, [builder.bitcast(place, _DOUBLE.as_pointer()), *parts])
+                return builder.load(place)
             result = builder.call(function, parts)
             return context.get_dummy_value() if signature.result == "nothing" else result
 

@@ -10,7 +10,7 @@ from numba.core.typing.typeof import typeof_impl
 
 from nivel.native.entry import Entry
 from nivel.native.function import OPTIONS, Function, Intrinsic
-from nivel.native.with_numba import calls, views  # noqa: F401 - they tell Numba of their types
+from nivel.native.with_numba import calls, duals, views  # noqa: F401 - they tell Numba of their types
 
 _njit: Any = njit  # its stubs do not know all options
 # more options for all functions, of processes that only translate

@@ -7,24 +7,26 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 from numba import types
 
 from nivel.native.signature import Signature
+from nivel.native.with_numba.duals import DUAL
 
-# The address of a record whose work is complex: a type of its own, so that kernels compile for it, and never take one for the other.
+# The address of a record whose work is dual numbers: a type of its own, so that kernels compile for it, and never take one for the other.
 TWIN = types.UniTuple(types.uint64, 1)
-ROW, PAIRS = types.Array(types.float64, 1, "C"), types.Array(types.complex128, 1, "C")
+ROW, DUALS = types.Array(types.float64, 1, "C"), types.Array(DUAL, 1, "C", aligned=False)
 ARGUMENTS: dict[str, types.Type] = {
     "machine": types.uint64,
     "twin": TWIN,
     "entry": types.uint64,
     "number": types.float64,
+    "dual": DUAL,
     "complex": types.complex128,
     "count": types.int64,
     "vector": ROW,
-    "pairs": PAIRS,
+    "duals": DUALS,
 }
 RESULTS: dict[str, types.Type] = {
     "status": types.int64,
     "number": types.float64,
-    "complex": types.complex128,
+    "dual": DUAL,
     "nothing": types.void,
 }
 SCALARS: dict[str, types.Type] = {
@@ -42,7 +44,7 @@ def arguments_of(signature: Signature) -> tuple[types.Type, ...]:
 
 
 def record_type(record_class: type, work: types.Type = types.float64) -> Any:
-    """Numba's type of a record class; `work` is the type of what an evaluation leaves (complex128 for exact derivatives)."""
+    """Numba's type of a record class; `work` is the type of what an evaluation leaves (dual numbers for exact derivatives)."""
     hints = get_type_hints(record_class, include_extras=True)
     return types.BaseTuple.from_types([_field(hint, work) for hint in hints.values()], record_class)
 
@@ -50,5 +52,6 @@ def record_type(record_class: type, work: types.Type = types.float64) -> Any:
 def _field(hint: Any, work: types.Type) -> types.Type:
     if get_origin(hint) is Annotated:
         _, dimensions, kind = get_args(hint)
-        return types.Array(work if kind == "work" else SCALARS[kind], dimensions, "C")
+        number = work if kind == "work" else SCALARS[kind]
+        return types.Array(number, dimensions, "C", aligned=number != DUAL)
     return record_type(hint, work)

@@ -11,11 +11,12 @@ from numba.core.errors import NumbaError
 
 from nivel.native.signature import Signature
 from nivel.native.with_numba import functions  # noqa: F401 - tells Numba what kernels are
+from nivel.native.with_numba.duals import DUAL
 from nivel.native.with_numba.translate import NeedsNumbaError, object_code
 
 # laws may allocate
 LAW_OPTIONS: dict[str, Any] = {"error_model": "numpy"}
-_REAL, _COMPLEX = types.CPointer(types.float64), types.CPointer(types.complex128)
+_REAL, _DUAL = types.CPointer(types.float64), types.CPointer(DUAL)
 _kept: list[Any] = []
 
 
@@ -42,12 +43,12 @@ def law_of(text: str, file: str) -> Any:
 def address_here(text: str, file: str, signature: Signature) -> int:
     """Its address, compiled in this process: for laws that call functions of Numba when they run, those that allocate arrays among them."""
     law = njit(error_model="numpy")(law_of(text, file))
-    if signature.result == "complex":
+    if signature.result == "dual":
 
-        def call_complex(out, x, n):
+        def call_dual(out, x, n):
             out[0] = law(x)
 
-        code: Any = cfunc(types.void(_COMPLEX, _COMPLEX, types.int64), error_model="numpy")(call_complex)
+        code: Any = cfunc(types.void(_DUAL, _DUAL, types.int64), error_model="numpy")(call_dual)
     else:
 
         def call(x, n):

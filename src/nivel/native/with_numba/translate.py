@@ -27,7 +27,7 @@ from nivel.native.function import OPTIONS
 from nivel.native.signature import BROKEN, Signature
 from nivel.native.with_numba import front_end, functions, known_parts
 from nivel.native.with_numba.arrays import WORD
-from nivel.native.with_numba.calls import _IN_C, from_c, function_type
+from nivel.native.with_numba.calls import _IN_C, ALIGNMENT, from_c, function_type
 from nivel.native.with_numba.kinds import RESULTS, arguments_of
 
 _njit: Any = njit
@@ -206,7 +206,7 @@ def _in_c(context: Any, description: Any, signature: Signature, symbol: str) -> 
     function = ir.Function(module, function_type(signature), symbol)
     builder = ir.IRBuilder(function.append_basic_block())
     parts = list(function.args)
-    place = parts.pop(0) if signature.result == "complex" else None
+    place = parts.pop(0) if signature.result == "dual" else None
     values = []
     for kind in signature.arguments:
         count = len(_IN_C[kind])
@@ -219,7 +219,7 @@ def _in_c(context: Any, description: Any, signature: Signature, symbol: str) -> 
         builder.ret(builder.select(status.is_ok, ir.Constant(WORD, 0), ir.Constant(WORD, BROKEN)))
     elif place is not None:
         pointer = builder.bitcast(place, context.get_value_type(result).as_pointer())
-        builder.store(value, pointer)
+        builder.store(value, pointer, align=ALIGNMENT)
         builder.ret_void()
     elif result == types.int64:
         builder.ret(builder.select(status.is_ok, value, ir.Constant(value.type, BROKEN)))

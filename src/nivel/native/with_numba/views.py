@@ -14,6 +14,7 @@ from numba.core.typing.templates import AttributeTemplate
 from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, register_model
 
 from nivel.native.with_numba.arrays import WORD, array_of, item_pointer
+from nivel.native.with_numba.duals import DUAL
 from nivel.native.with_numba.kinds import TWIN, record_type
 
 BYTES = 8
@@ -93,7 +94,7 @@ def reader(record_class: type) -> Any:
     """An intrinsic that gives kernels a view of the record of this class at an address, or of its twin at the address of one."""
     views = (
         View(record_type(record_class), ""),
-        View(record_type(record_class, types.complex128), " on complex numbers"),
+        View(record_type(record_class, DUAL), " on dual numbers"),
     )
 
     @intrinsic

@@ -1,4 +1,4 @@
-"""Python laws as machine code: functions of a row of arguments, `LAW` and `COMPLEX_LAW`."""
+"""Python laws as machine code: functions of a row of arguments, real or dual numbers."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.record.hook import FAMILIES
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.units.tree import TIME
+from nivel.native.duals import LANES
 from nivel.native.library import address_of_law
-from nivel.native.signature import COMPLEX_LAW, LAW
+from nivel.native.signature import LAW
 from nivel.native.workers import NO_COMPILER, CompilationError
-from nivel.system.laws.analytic_text import analytic_text
 
-# Functions of the text are compiled when the law calls them; division by zero gives infinity, as in the rest of a run. On complex
-# numbers: the text made analytic, or where that is not possible, its derivative along the imaginary parts of its arguments by
-# differences of order four, whose steps are shares of the arguments.
+# Functions of the text are compiled when the law calls them; division by zero gives infinity, as in the rest of a run. On dual numbers the
+# text runs as it is written, or where it calls what these have not, its slopes are differences of order four, whose steps are shares of
+# the arguments.
 LAW_TEXT = """{source}
 
 
@@ -23,6 +23,8 @@ import types as _nivel_python_types
 
 import numba as _nivel_numba
 import numpy as _nivel_numpy
+
+from nivel.kernels.core.lanes import slope as _nivel_slope, unit as _nivel_unit
 
 for _nivel_name, _nivel_part in list(globals().items()):
     if isinstance(_nivel_part, _nivel_python_types.FunctionType) and _nivel_part.__module__ == __name__:
@@ -35,18 +37,18 @@ def nivel_law(x):
 SHARE = 1e-4
 
 
-def complex_address(address: int) -> int:
-    """Address of the code on complex numbers of the function at `address`. That of a law is compiled when it is asked for, from the first
-    of its texts that can be compiled."""
+def dual_address(address: int) -> int:
+    """Address of the code on dual numbers of the function at `address`. That of a law is compiled when it is asked for, from the first of
+    its texts that can be compiled."""
     if address in FAMILIES:
-        return FAMILIES[address].complex_address
+        return FAMILIES[address].dual_address
     first, *others = _twins[address]
     for other in others:
         try:
-            return address_of_law(first, COMPLEX_LAW)
+            return address_of_law(first, LAW.on_duals)
         except CompilationError:  # there is another way
             first = other
-    return address_of_law(first, COMPLEX_LAW)
+    return address_of_law(first, LAW.on_duals)
 
 
 def law_address(law: PythonLaw, *, motion: bool) -> int:
@@ -60,7 +62,7 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
         where = f" in {law.file}" if law.file else ""
         message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
         raise ModelError(Fault("", 0, 0, "", message)) from problem
-    _twins[address] = _complex_law_texts(law, motion=motion)
+    _twins[address] = _dual_law_texts(law, motion=motion)
     return address
 
 
@@ -80,43 +82,44 @@ def _law_text(law: PythonLaw, *, motion: bool) -> str:
     return LAW_TEXT.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
 
 
-def _complex_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
-    """Modules of the law on complex arguments, the best one first. Motions depend on the time alone: their derivatives are what they
-    return."""
+def _dual_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
+    """Modules of the law on dual arguments, the best one first. Motions depend on the time alone: their slopes are what they return."""
     count = len(law.arguments)
 
-    def call(step: str) -> str:
-        return f"{law.function}({', '.join(f'x[{n}].real + {step} * x[{n}].imag' for n in range(count))})"
+    def call(argument: str) -> str:
+        return f"{law.function}({', '.join(argument.format(n=n) for n in range(count))})"
 
-    def module(text: str, lines: list[str]) -> str:
-        return LAW_TEXT.format(source=text, body="\n".join(f"    {line}" for line in lines))
+    def module(lines: list[str]) -> str:
+        return LAW_TEXT.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
 
     if motion:
         lines = [
-            f"value, rate, acceleration = {call('0.0')}",
-            f"x[{count}] = complex(rate, x[0].imag * acceleration)",
+            f"value, rate, acceleration = {call('x[{n}].real')}",
+            "beyond = x[0] - x[0].real",
+            f"x[{count}] = rate + acceleration * beyond",
             f"x[{count + 1}] = acceleration",
-            "return complex(value, x[0].imag * rate)",
+            "return value + rate * beyond",
         ]
-        return (module(law.source, lines),)
+        return (module(lines),)
+
+    def beside(steps: str) -> str:
+        return call("x[{n}].real + " + steps + " * reach * _nivel_slope(x[{n}], k)")
+
     lines = [
-        "reach = _nivel_numpy.inf",
-        f"for n in range({count}):",
-        "    if x[n].imag != 0.0:",
-        f"        reach = min(reach, {SHARE} * max(abs(x[n].real), {SHARE}) / abs(x[n].imag))",
-        f"value = {call('0.0')}",
-        "if reach == _nivel_numpy.inf:",
-        "    return complex(value, 0.0)",
-        f"near = {call('reach')} - {call('(-reach)')}",
-        f"far = {call('(2.0 * reach)')} - {call('(-2.0 * reach)')}",
-        "return complex(value, (8.0 * near - far) / (12.0 * reach))",
+        f"value = {call('x[{n}].real')} + _nivel_unit(0, 0.0)",
+        f"for k in range({LANES}):",
+        "    reach = _nivel_numpy.inf",
+        f"    for n in range({count}):",
+        "        along = abs(_nivel_slope(x[n], k))",
+        "        if along != 0.0:",
+        f"            reach = min(reach, {SHARE} * max(abs(x[n].real), {SHARE}) / along)",
+        "    if reach < _nivel_numpy.inf:",
+        f"        near = {beside('1.0')} - {beside('-1.0')}",
+        f"        far = {beside('2.0')} - {beside('-2.0')}",
+        "        value += _nivel_unit(k, (8.0 * near - far) / (12.0 * reach))",
+        "return value",
     ]
-    by_differences = module(law.source, lines)
-    text = analytic_text(law.source, law.function)
-    if text is None:
-        return (by_differences,)
-    exact = f"return {law.function}({', '.join(f'x[{n}]' for n in range(count))})"
-    return module(text, [exact]), by_differences
+    return module([f"return {call('x[{n}]')}"]), module(lines)
 
 
 def false_derivative(law: PythonLaw, end: float) -> str:
@@ -162,7 +165,7 @@ def _telling(problem: CompilationError) -> str:
     return f"{problem.kind}: {' '.join(told)[:400]}" if told else problem.kind
 
 
-# texts of the code on complex numbers for the addresses handed out
+# texts of the code on dual numbers for the addresses handed out
 _twins: dict[int, tuple[str, ...]] = {}
 
 

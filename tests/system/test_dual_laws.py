@@ -1,38 +1,48 @@
-"""Expressions and Python laws on complex numbers: imaginary parts are derivatives, of the branch that the real parts are on."""
+"""Expressions and Python laws on dual numbers: slopes are derivatives, of the branch that the values are on."""
+
+import ctypes
 
 import numpy as np
 import pytest
 
 from nivel.kernels.record import program
-from nivel.kernels.record.function import call_law
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.units.expression import Expression
-from nivel.native.function import leaf
-from nivel.system.laws.analytic_text import analytic_text
-from nivel.system.laws.laws import complex_address, law_address
+from nivel.native.duals import duals
+from nivel.system.laws.laws import dual_address, law_address
 from nivel.system.laws.program import expression_program, motion_program
 
-STEP = 1e-30
 TIMES = (-2.3, -1.0, -0.4, 0.0, 0.3, 1.0, 2.7)
 
 
-@leaf
-def called(address, arguments):
-    return call_law(address, arguments)
+def on_duals(address, row):
+    """Value and slopes of the function at an address, for a row of dual numbers."""
+    out = duals([0.0])
+    ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)(address)(
+        out.ctypes.data, row.ctypes.data, row.size
+    )
+    return out["value"][0], out["slopes"][0]
 
 
-def on_complex(address, *arguments, behind=0):
-    """Value and derivative along `arguments` (value, direction), and the arguments as the function left them."""
-    given = np.array([value + 1j * STEP * direction for value, direction in arguments] + [0j] * behind)
-    result = called(np.uint64(complex_address(address)), given)
-    return result.real, result.imag / STEP, given
+def row_of(*arguments, before=(), behind=0):
+    """A row of dual numbers: (value, slopes along the first directions) of arguments, with plain numbers before and zeros behind them."""
+    out = duals([*before, *(value for value, *_ in arguments), *[0.0] * behind])
+    for k, (_, *slopes) in enumerate(arguments):
+        out["slopes"][len(before) + k, : len(slopes)] = slopes
+    return out
 
 
-def expression_on_complex(row, *arguments, behind=0):
-    """The same for the program of an expression."""
-    given = np.array([*row, *(value + 1j * STEP * direction for value, direction in arguments), *[0j] * behind])
-    result = called(np.uint64(program.run.complex_address), given)
-    return result.real, result.imag / STEP, given[len(row) :]
+def of_law(address, *arguments):
+    """Value and slope along the first direction of a law."""
+    value, slopes = on_duals(dual_address(address), row_of(*arguments))
+    return value, slopes
+
+
+def of_expression(program_row, *arguments, behind=0):
+    """Value and slope along the first direction of a program, and its arguments as it left them."""
+    row = row_of(*arguments, before=program_row, behind=behind)
+    value, slopes = on_duals(program.run.dual_address, row)
+    return value, slopes[0], row[len(program_row) :]
 
 
 # on all of TIMES but at poles and corners
@@ -45,12 +55,12 @@ SMOOTH = (
 
 
 @pytest.mark.parametrize("text", SMOOTH)
-def test_expressions_on_complex_numbers_give_their_derivatives(text):
+def test_expressions_on_dual_numbers_give_their_derivatives(text):
     """Against the derivative of the expression that drivers use, which is symbolic."""
     expression = Expression(text)
     row = expression_program(expression, ["time"])
     for time in TIMES:
-        value, slope, _ = expression_on_complex(row, (time, 1.0))
+        value, slope, _ = of_expression(row, (time, 1.0))
         assert value == pytest.approx(expression(time), rel=1e-14, abs=1e-15)
         assert slope == pytest.approx(expression.derivative(time), rel=1e-13, abs=1e-14)
 
@@ -74,18 +84,18 @@ def test_expressions_with_corners_give_the_derivative_of_the_branch_they_are_on(
     row = expression_program(Expression(text), ["time"])
     for time in TIMES:
         if time not in (0.0, 1.0, -1.0):
-            value, slope, _ = expression_on_complex(row, (time, 1.0))
+            value, slope, _ = of_expression(row, (time, 1.0))
             assert value == pytest.approx(Expression(text)(time), abs=1e-15)
             assert slope == pytest.approx(CORNERS[text](time), abs=1e-14)
 
 
 def test_motions_leave_rate_and_acceleration_with_their_derivatives():
     row = motion_program(Expression("0.3*sin(4*time)"))
-    value, slope, given = expression_on_complex(row, (0.7, 1.0), behind=2)
+    value, slope, given = of_expression(row, (0.7, 1.0), behind=2)
     assert value == pytest.approx(0.3 * np.sin(2.8))
     assert slope == pytest.approx(1.2 * np.cos(2.8))
-    np.testing.assert_allclose(given[1:].real, [1.2 * np.cos(2.8), -4.8 * np.sin(2.8)])
-    np.testing.assert_allclose(given[1:].imag / STEP, [-4.8 * np.sin(2.8), -19.2 * np.cos(2.8)])
+    np.testing.assert_allclose(given["value"][1:], [1.2 * np.cos(2.8), -4.8 * np.sin(2.8)])
+    np.testing.assert_allclose(given["slopes"][1:, 0], [-4.8 * np.sin(2.8), -19.2 * np.cos(2.8)])
 
 
 TEXT = '''
@@ -144,8 +154,13 @@ def steady(x, size):
 
 
 def interpolated(x, size):
-    """What complex numbers cannot do."""
-    return size*np.interp(x, GRID, VALUES)
+    """A table read by NumPy, with a default, a comprehension of truth, and an `or`."""
+    return size*np.interp(x, GRID, VALUES) + (x or 1.0) + (0.0 if not size else min(x, 2.0, size))
+
+
+def told_apart(x, size):
+    """What dual numbers have no slope for."""
+    return size*math.gamma(2.0 + x*x)
 '''
 PLACES = (-2.3, -1.1, -0.4, 0.3, 0.6, 1.3, 2.7)
 
@@ -164,44 +179,37 @@ def slope_of(function, x, size):
     return found[k + 1]
 
 
-COMPILED_LONG = pytest.param("interpolated", marks=pytest.mark.compiles)
+COMPILED_LONG = [pytest.param(name, marks=pytest.mark.compiles) for name in ("interpolated", "told_apart")]
 
 
-@pytest.mark.parametrize("name", ["signed_square", "looped", "table", "periodic", "steady", COMPILED_LONG])
+@pytest.mark.parametrize("name", ["signed_square", "looped", "table", "periodic", "steady", *COMPILED_LONG])
 def test_python_laws_give_the_derivative_of_the_branch_they_are_on(name):
+    """Along several directions at once."""
     namespace = {}
     exec(TEXT, namespace)
     address = law_address(PythonLaw(TEXT, name, ("a.angle", "b.angle")), motion=False)
     for x in PLACES:
-        value, slope, _ = on_complex(address, (x, 1.0), (0.7, 2.0))
+        value, slopes = of_law(address, (x, 1.0, 0.0, -0.5), (0.7, 2.0, 0.0, -1.0))
         assert value == pytest.approx(namespace[name](x, 0.7), rel=1e-14, abs=1e-15)
-        assert slope == pytest.approx(slope_of(namespace[name], x, 0.7), rel=3e-11, abs=1e-11)
-
-
-COMPILED_LONG = pytest.param("interpolated", marks=pytest.mark.compiles)
+        expected = slope_of(namespace[name], x, 0.7)
+        assert slopes[[0, 2]] == pytest.approx([expected, -0.5 * expected], rel=3e-11, abs=1e-11)
+        assert not slopes[[1, *range(3, 7)]].any()
 
 
 @pytest.mark.parametrize("name", ["signed_square", "looped", "periodic"])
 def test_python_laws_are_exact_where_an_argument_is_next_to_nothing(name):
     """Steps of differences could only be guessed there."""
     address = law_address(PythonLaw(TEXT, name, ("a.angle", "b.angle")), motion=False)
-    near, far = (on_complex(address, (x, 1.0), (0.7, 0.0))[1] for x in (1e-13, 1e-5))
+    near, far = (of_law(address, (x, 1.0), (0.7, 0.0))[1][0] for x in (1e-13, 1e-5))
     assert near == pytest.approx(far, abs=1e-3)
-    assert near == on_complex(address, (1e-13, 2.0), (0.7, 0.0))[1] / 2
+    assert near == of_law(address, (1e-13, 2.0), (0.7, 0.0))[1][0] / 2
 
 
-REFUSED = (
-    "def f(x):\n    return x.real\n",
-    "import numpy as np\n\ndef f(x):\n    return np.linalg.norm(x)\n",
-    "import numpy as np\n\ndef f(x):\n    return np.interp(x, A, B)\n",
-    "def f(x):\n    return x or 1.0\n",
-    "def f(x):\n    return [k*x for k in (1, 2)][0]\n",
-    "def f(x):\n    return (lambda y: y)(x)\n",
-    "def abs(x):\n    return x\n\ndef f(x):\n    return abs(x)\n",
-    "def f(x):\n    return x if x else 1.0\n",
-)
-
-
-@pytest.mark.parametrize("text", REFUSED)
-def test_texts_of_which_it_is_not_known_what_they_do_with_complex_numbers_are_left_alone(text):
-    assert analytic_text(text, "f") is None
+def test_motions_of_python_have_the_slopes_that_they_return():
+    text = "import math\n\ndef swing(t):\n    return math.sin(4*t), 4*math.cos(4*t), -16*math.sin(4*t)\n"
+    address = dual_address(law_address(PythonLaw(text, "swing", ("time",)), motion=True))
+    row = row_of((0.3, 0.0, 1.0), behind=2)
+    value, slopes = on_duals(address, row)
+    assert (value, slopes[1]) == pytest.approx((np.sin(1.2), 4 * np.cos(1.2)))
+    assert row["slopes"][1, 1] == pytest.approx(-16 * np.sin(1.2))
+    assert not np.delete(slopes, 1).any()

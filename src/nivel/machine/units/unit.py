@@ -70,6 +70,7 @@ UNITS: dict[str, Unit] = {
     "kJ": Unit(1e3, _ENERGY),
     "W": Unit(1.0, _POWER),
     "kW": Unit(1e3, _POWER),
+    "MW": Unit(1e6, _POWER),
     "Pa": Unit(1.0, _PRESSURE),
     "kPa": Unit(1e3, _PRESSURE),
     "MPa": Unit(1e6, _PRESSURE),

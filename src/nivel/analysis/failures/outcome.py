@@ -413,8 +413,8 @@ def _worst(motion: MotionEquations) -> str:
 # what is not a number spoils pivots as well, so it is looked for first
 _FIRST: Final = (_broken, _fast_beam)
 FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
-    Status.CRAWLS: (_crawling,),
     Status.OUT_OF_REACH: (_out_of_reach,),
+    Status.CRAWLS: (_crawling,),
     Status.SINGULAR: (*_FIRST, _met, _no_step, _singular),
     Status.NOT_FINITE: (*_FIRST, _no_step, _not_a_number),
     Status.FRICTION_DIVERGES: (

@@ -10,8 +10,8 @@ from nivel.kernels.core import status as of_kernels
 class Status(IntEnum):
     """How a call of kernels, or a run, ended."""
 
-    CRAWLS = -1  # steps have shrunk to nothing where a function jumps
     OUT_OF_REACH = -2  # steps are so short that there are too many to the end
+    CRAWLS = -1  # steps have shrunk to nothing where a function jumps
     OK = of_kernels.OK
     SINGULAR = of_kernels.SINGULAR
     NOT_FINITE = of_kernels.NOT_FINITE

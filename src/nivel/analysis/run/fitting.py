@@ -135,7 +135,11 @@ def _implicit(plan: Plan, found: Rate) -> str:
 def fastest_rate(plan: Plan, prepared: Prepared, y: Array, t: float) -> Rate | None:
     """That which needs the shortest steps, in the state y at time t [s] or, of what may touch, ever; None where nothing is known."""
     rates = [*_of_contacts(plan.machine), *_of_beams(plan.machine)]
+    feedback = prepared.motion.system.record.control.stabilise
+    kept = feedback.copy()
+    feedback[:2] = 0.0  # of the constraints: it is as fast as the step
     now = fastest(prepared.motion, t, y)
+    feedback[:] = kept
     if now is not None:
         rates.append(Rate(now.rate, FOLLOWED / now.rate, now.part or "the motion"))
     return min(rates, key=lambda each: each.followed, default=None)

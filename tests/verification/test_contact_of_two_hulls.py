@@ -203,7 +203,9 @@ def test_boxes_that_bounce_off_centre_keep_energy_and_momentum(settings):
 
 
 @pytest.mark.parametrize(
-    "settings", [{"integrator": "rk4", "step": 1e-5}, {"integrator": "dopri5", "tolerance": 1e-9}], ids=["rk4", "dopri5"]
+    "settings",
+    [{"integrator": "rk4", "step": 1e-5}, {"integrator": "dopri5", "tolerance": 1e-9}],
+    ids=["rk4", "dopri5"],
 )
 @pytest.mark.parametrize("shape", ["corner", "face", "edges"])
 def test_a_central_impact_leaves_with_the_given_share_of_its_speed(shape, settings):
@@ -342,7 +344,11 @@ def test_a_brick_that_steps_carry_through_a_plate_is_told(step):
     """40 cm a step through 2 cm of plate, red in place of green; shorter steps throw it back."""
     brick = box(BRICK, position=[0, 0, 0.25], velocity=[1.0, 0, -400.0], angular_velocity=[0, 3, 0])
     sections = touching(box(PLATE), brick, foundation_modulus=1e12)
-    trust = machine({**sections, "simulation": {"duration": 2e-3, "step": step, "integrator": "rk4"}}).simulate(verify=True).trust
+    trust = (
+        machine({**sections, "simulation": {"duration": 2e-3, "step": step, "integrator": "rk4"}})
+        .simulate(verify=True)
+        .trust
+    )
     told = [each for each in trust.items if each.name == "contact"]
     if step == 1e-3:
         assert trust.verdict == "red"

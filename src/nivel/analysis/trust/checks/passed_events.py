@@ -95,4 +95,4 @@ def say(found: Passed) -> Item:
     return Item("events", "amber", text, row=found.event, time=found.time)
 
 
-CHECKS = (Check("events", (Run,), look, say, 205, (STEPS,), "Events", blind="both pass {row} unseen", quiet=True),)
+CHECKS = (Check("events", (Run,), look, say, 205, (STEPS,), "Events", blind="both pass {row} unseen"),)

@@ -43,6 +43,18 @@ def pixels(path):
     return np.asarray(image.open(path).convert("RGB")).astype(int)
 
 
+def assert_in_the_middle(changed):
+    """Pixels (h, w) that a motion changes, which is in the plane of the picture: they fill it, on both sides of its middle."""
+    rows, columns = np.nonzero(changed)
+    assert len(rows) > 50
+    height, width = changed.shape
+    assert 0 < rows.min() < rows.max() < height - 1
+    assert 0 < columns.min() < columns.max() < width - 1
+    assert max(np.ptp(rows) / height, np.ptp(columns) / width) > 0.5
+    assert abs(rows.min() + rows.max() - height) < 0.3 * height
+    assert abs(columns.min() + columns.max() - width) < 0.3 * width
+
+
 @with_browser
 def test_a_still_has_its_size_and_shows_its_moment(stored, tmp_path):
     still(source(stored), tmp_path / "a.png", SMALL)
@@ -50,7 +62,7 @@ def test_a_still_has_its_size_and_shows_its_moment(stored, tmp_path):
     still(source(stored), tmp_path / "c.png", Look(width=320, height=240, dark=True, side="top"), 0.7)
     first, later, dark = (pixels(tmp_path / f"{name}.png") for name in "abc")
     assert first.shape == (240, 320, 3)
-    assert np.sum(np.abs(first - later).max(axis=2) > 25) > 50
+    assert_in_the_middle(np.abs(first - later).max(axis=2) > 25)
     assert dark.mean() < 90 < first.mean()
     with pytest.raises(ModelError, match="no moment 5 s"):
         still(source(stored), tmp_path / "d.png", SMALL, 5.0)
@@ -71,6 +83,9 @@ def test_a_gif_has_all_frames_and_they_differ(stored, tmp_path):
         assert made.n_frames == 11
         assert made.info["duration"] == 100
         assert made.size == (160, 120)
+        first = np.asarray(made.convert("RGB")).astype(int)
+        made.seek(7)
+        assert_in_the_middle(np.abs(np.asarray(made.convert("RGB")) - first).max(axis=2) > 25)
     assert heard[-1] == (11, 11)
 
 

@@ -122,7 +122,8 @@ export class Panels {
     // notes of several lines under the title stand above the list of parts, not over it
     this.panels.structure.style.setProperty("--top", `${Math.max(TOP, this.bar.offsetHeight)}px`);
     document.body.style.setProperty("--foot", `${this.timeline?.offsetHeight ?? 0}px`);
-    const free = { left: 0, top: this.bar.offsetHeight, right: 0, bottom: this.timeline ? innerHeight - this.timeline.getBoundingClientRect().top : 0 };
+    // in a picture without controls the bars have no height, and cover nothing wherever they are
+    const free = { left: 0, top: this.bar.offsetHeight, right: 0, bottom: this.timeline?.offsetHeight ? innerHeight - this.timeline.getBoundingClientRect().top : 0 };
     for (const name of this.open()) {
       const box = this.panels[name].getBoundingClientRect();
       if (innerWidth < NARROW) free.bottom += box.height;

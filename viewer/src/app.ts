@@ -198,6 +198,7 @@ export class App {
     this.actor.time = player.time;
     for (const ghost of this.ghosts) {
       ghost.motion.sample(player.time, ghost.actor.frame);
+      ghost.actor.time = player.time;
       ghost.actor.apply();
     }
     this.world.running = player.playing;

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from nivel.looks.poses import Array, Pose, ends_in_space
+from nivel.looks.ropes import rope_line
 from nivel.report.drawing import Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
@@ -28,6 +29,9 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
     """Draw a force between two points with its name; contacts are drawn as planes."""
     if force["type"] == "contact":
         return
+    if "wheels" in force:
+        _draw_wound(drawing, frame, force, poses)
+        return
     if len(force["bodies"]) > 2:
         for k in range(len(force["bodies"]) - 1):
             part = {name: force[name][k : k + 2] for name in ("bodies", "points")}
@@ -44,7 +48,7 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
             barrel, rod, long = (float(each) * frame.scale for each in force["sizes"])
             sign = cylinder_sign((x1, y1), (x2, y2), long, 2.0 * barrel, 2.0 * rod)
         case "rope":
-            sign = rope_sign((x1, y1), (x2, y2))
+            sign = rope_sign(ends)
         case _:
             sign = dashed_sign((x1, y1), (x2, y2))
     title = f"{force['name']}: {force['type']}, {force['bodies'][0]} – {force['bodies'][1]}"
@@ -59,6 +63,21 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
         return
     middle = 0.5 * (ends[0] + ends[1]) if force["type"] != "torsional-spring-damper" else ends[0]
     drawing.labels.append(Label(force["name"], float(middle[0]), float(middle[1]), "force-name"))
+
+
+def _draw_wound(drawing: Drawing, frame: Frame, rope: dict[str, Any], poses: dict[str, Pose]) -> None:
+    """Draw a rope around wheels with its name at its longest part."""
+    line = frame.pixels(rope_line(rope, poses))
+    title = f"{rope['name']}: {rope['type']}, {' – '.join(rope['bodies'])}"
+    drawing.links.append(f"<g><title>{escape(title)}</title>{rope_sign(line)}</g>")
+    parts = np.stack([line[:-1], line[1:]], axis=1)
+    drawing.lines.extend(parts)
+    for body, end in zip(rope["bodies"], frame.pixels(ends_in_space(rope, poses)), strict=True):
+        if body == "ground":
+            drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
+            drawing.points.append(end + np.array([0.0, 14.0]))
+    x, y = parts[np.argmax(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1))].mean(axis=0)
+    drawing.labels.append(Label(rope["name"], float(x), float(y), "force-name"))
 
 
 Plane = tuple[Array, Array]  # normal (3,) and what touches it: feet (n, 3) of the perpendiculars onto it [m], global

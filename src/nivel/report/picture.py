@@ -41,7 +41,7 @@ STYLE = """
 .machine .spring path{fill:none;stroke:var(--ink);stroke-width:1.5;stroke-linejoin:round;stroke-linecap:round}
 .machine .spring .halo{stroke:var(--paper);stroke-width:4.2}
 .machine .pair-force{fill:none;stroke:var(--ink);stroke-width:1.2;stroke-dasharray:5 4}
-.machine .rope{fill:none;stroke:var(--ink);stroke-width:1.6;stroke-linecap:round}
+.machine .rope{fill:none;stroke:var(--ink);stroke-width:1.6;stroke-linecap:round;stroke-linejoin:round}
 .machine .rod{stroke:var(--ink);stroke-linecap:round}.machine .rod.core{stroke:var(--rod)}
 .machine .leader{stroke:var(--soft);stroke-width:.8;fill:none}
 .machine .aid{fill:var(--soft);font-size:11px;font-weight:500}

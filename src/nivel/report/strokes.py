@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 Point = tuple[float, float]  # right and down
 
@@ -74,10 +75,10 @@ def dashed_sign(first: Point, second: Point) -> str:
     return f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="pair-force"/>'
 
 
-def rope_sign(first: Point, second: Point) -> str:
+def rope_sign(points: Iterable[Iterable[float]]) -> str:
     """A line from point to point."""
-    (x1, y1), (x2, y2) = first, second
-    return f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="rope"/>'
+    path = "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
+    return f'<path d="M{path}" class="rope"/>'
 
 
 def cylinder_sign(first: Point, second: Point, barrel: float, wide: float, thin: float) -> str:

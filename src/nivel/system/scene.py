@@ -14,7 +14,7 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
                    second; a pin in a slot has ``slot`` too, its direction in the second body
 ``markers``        named markers: list of ``name``, ``body``, ``position``, ``x_axis``, ``axis`` (x and z of the marker)
 ``forces``         what acts between two bodies at two points: list of ``name``, ``type``, ``bodies``, ``points``;
-                   ``axis`` too where it has one, see below
+                   ``axis`` too where it has one, and ``wheels``, see below
 ``sweeps``         of machines with beams; one solid drawn through the frames of bodies in a row: list of ``name``,
                    ``bodies`` (names, two or more), ``section`` (corners (y, z), counter-clockwise), and if they are not these:
                    ``hollow`` (corners of a hole; none), ``points`` (of the line, in each body; their origins), ``axes`` (of the line;
@@ -24,9 +24,12 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
 
 Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, contacts, and ropes, which
 have a point for every marker; hydraulic cylinders too, as ``cylinder``, with ``sizes``: radii of barrel and rod, length of the barrel.
-A torsional
-spring acts about ``axis``, in the first body. A contact is between the centres of two spheres, or between the centre of a
+A torsional spring acts about ``axis``, in the first body. A contact is between the centres of two spheres, or between the centre of a
 shape and a point of a plane; then ``axis`` is the plane's normal, in the second body, outwards.
+
+Ropes around wheels have ``wheels``: ``axis``, in the frame of the body at the point of number ``carrier``; of each point the signed
+``radii`` and, as the bodies are placed, the ``arcs`` [rad]; ``fixed``: directions in the frames of the first and the last body in
+which the rope is fixed on a drum.
 """
 
 from __future__ import annotations
@@ -51,6 +54,7 @@ from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
+from nivel.system.forces.ropes import first_wheel, way_as_placed
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import slot_frame
 from nivel.system.section_outline import outline
@@ -174,6 +178,8 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         match force:
             case TorsionalSpringDamper():
                 out["axis"] = markers.frame[first][:, 2].tolist()
+            case Rope() if force.radii is not None:
+                out["wheels"] = _wheels(machine, force, force.radii)
             case Contact() if force.plane is not None:
                 out["axis"] = markers.frame[second][:, 2].tolist()
         yield out
@@ -194,6 +200,21 @@ def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
     diameters = cylinder.stages if isinstance(cylinder, TelescopicCylinder) else (cylinder.piston, cylinder.rod)
     thin = diameters[-1] if 0.0 < diameters[-1] < diameters[0] else 0.5 * diameters[0]
     return [0.5 * (1.0 + WALL) * diameters[0], 0.5 * thin, BARREL * cylinder.retracted_length]
+
+
+def _wheels(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> dict[str, Any]:
+    """How a rope runs around wheels."""
+    way = way_as_placed(machine, rope, radii)
+    turns = [np.eye(3) if body == "ground" else machine.placed[body][1] for body, _ in way.places]
+    carrier = first_wheel(radii)
+    fixed = [turns[k].T @ way.axes @ [np.cos(way.fixed[k]), np.sin(way.fixed[k]), 0.0] for k in (0, -1)]
+    return {
+        "axis": (turns[carrier].T @ way.axes[:, 2]).tolist(),
+        "carrier": carrier,
+        "radii": list(radii),
+        "arcs": list(way.arcs),
+        "fixed": [each.tolist() for each in fixed],
+    }
 
 
 def _ends(builder: SystemBuilder, force: Force) -> tuple[int, ...] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from nivel.view.coordinate_places import coordinate_place
-from nivel.view.records import Body, Force, ForceLook, Joint, Triple
+from nivel.view.records import Body, Force, ForceLook, Joint, Triple, Winding
 from nivel.view.triples import triple
 
 # what is drawn at the joint of an angle, and of a length
@@ -66,7 +66,15 @@ def _between(force: dict[str, Any], known: dict[str, Any], places: dict[str, int
     axis = triple(force["axis"]) if "axis" in force else None
     points = [triple(point) for point in force["points"]]
     sizes = [float(each) for each in force.get("sizes", ())]
-    return Force(force["name"], kind, [places[body] for body in ends], points, axis, _look(force, known), facts, sizes)
+    look, winding = _look(force, known), _winding(force["wheels"]) if "wheels" in force else None
+    return Force(force["name"], kind, [places[body] for body in ends], points, axis, look, facts, sizes, winding)
+
+
+def _winding(wheels: dict[str, Any]) -> Winding:
+    """How a rope runs around wheels."""
+    first, last = wheels["fixed"]
+    radii, arcs = ([float(each) for each in wheels[key]] for key in ("radii", "arcs"))
+    return Winding(triple(wheels["axis"]), int(wheels["carrier"]), radii, arcs, (triple(first), triple(last)))
 
 
 def _elsewhere(

@@ -153,13 +153,30 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Winding:
+    """How a rope runs around wheels at its points. carrier : number of the point whose body carries their `axis`, in its frame.
+
+    radii : of each point, positive where the rope runs right-handed about the axis, 0 without a wheel. arcs : angles [rad] on the
+    wheels as the bodies are placed. fixed : directions in which the rope is fixed on a drum at its first and last point, in the
+    frames of their bodies.
+    """
+
+    axis: Triple
+    carrier: int
+    radii: list[float]
+    arcs: list[float]
+    fixed: tuple[Triple, Triple]
+
+
+@dataclass(frozen=True)
 class Force:
     """A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where
     that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal
     in the second's.
 
     look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring`
-    holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two.
+    holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two,
+    or around wheels as `winding` says.
 
     sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m].
     """
@@ -172,6 +189,7 @@ class Force:
     look: ForceLook = "nothing"
     facts: list[tuple[str, str]] = field(default_factory=list)
     sizes: list[float] = field(default_factory=list)
+    winding: Winding | None = None
 
 
 @dataclass(frozen=True)

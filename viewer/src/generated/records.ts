@@ -82,7 +82,16 @@ export interface Joint {
   facts: [string, string][];
 }
 
-/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two. sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m]. */
+/** How a rope runs around wheels at its points. carrier : number of the point whose body carries their `axis`, in its frame. radii : of each point, positive where the rope runs right-handed about the axis, 0 without a wheel. arcs : angles [rad] on the wheels as the bodies are placed. fixed : directions in which the rope is fixed on a drum at its first and last point, in the frames of their bodies. */
+export interface Winding {
+  axis: [number, number, number];
+  carrier: number;
+  radii: number[];
+  arcs: number[];
+  fixed: [[number, number, number], [number, number, number]];
+}
+
+/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two, or around wheels as `winding` says. sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m]. */
 export interface Force {
   name: string;
   kind: string;
@@ -92,6 +101,7 @@ export interface Force {
   look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot" | "rope";
   facts: [string, string][];
   sizes: number[];
+  winding: Winding | null;
 }
 
 /** A pitch circle on a body, in its frame. */

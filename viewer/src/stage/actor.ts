@@ -81,7 +81,7 @@ export class Actor {
     }
     motion?.sample(motion.start, this.frame); // springs are as long as at the start
     this.pose();
-    const { moving, pieces } = stretching(this);
+    const { moving, pieces } = stretching(this, motion);
     const couplings = isGhost ? { moving: [], pieces: noPieces() } : coupled(this);
     this.stretching = [...moving, ...couplings.moving];
     for (const each of this.stretching) this.root.add(each.object);
@@ -120,10 +120,19 @@ export class Actor {
 
   /** The same in another frame than the one that is shown. */
   placeIn(frame: Float32Array, body: number, point: readonly [number, number, number], out: THREE.Vector3): THREE.Vector3 {
+    if (body < 0) return out.set(...point).add(this.ground.position);
     const [x, y, z, e0, e1, e2, e3] = frame.subarray(7 * body, 7 * body + 7) as unknown as [number, number, number, number, number, number, number];
     this.bent(body, point, frame, out, this.bending.get(body)?.exaggeration);
     out.applyQuaternion(TURN.set(e1, e2, e3, e0).normalize());
     return out.set(out.x + x, out.y + y, out.z + z);
+  }
+
+  /** A direction of a body in space, in a frame. */
+  turnIn(frame: Float32Array, body: number, direction: readonly [number, number, number], out: THREE.Vector3): THREE.Vector3 {
+    out.set(...direction);
+    if (body < 0) return out;
+    const [e0, e1, e2, e3] = frame.subarray(7 * body + 3, 7 * body + 7) as unknown as [number, number, number, number];
+    return out.applyQuaternion(TURN.set(e1, e2, e3, e0).normalize());
   }
 
   /** A point of a body in its frame, carried by the modes of that in a frame, into `out`. */

@@ -1,10 +1,12 @@
 // What stretches between two bodies: springs, dampers, cylinders, rods of massless links; and planes of contacts.
 import * as THREE from "three";
-import type { Force, Joint } from "../generated/records";
+import type { Force, Joint, Winding } from "../generated/records";
+import type { Motion } from "../motion";
 import { standing } from "./acting";
 import type { Actor, Picked } from "./actor";
 import { noPieces, type Piece } from "./batch";
 import type { Tone } from "./look";
+import { Wound } from "./wound";
 
 const WIRE = 0.0042; // radii, of the size near the element
 const COIL = 0.021;
@@ -30,11 +32,13 @@ export interface Stretched {
 type Point = readonly [number, number, number];
 const Z = new THREE.Vector3(0, 0, 1);
 
-export function stretching(actor: Actor): Stretched {
+/** motion : the whole of it where that is known. */
+export function stretching(actor: Actor, motion: Motion | null): Stretched {
   const out: Stretched = { moving: [], pieces: noPieces() };
   for (const joint of actor.stage.joints) if (joint.rod) rod(actor, joint, out);
   for (const force of actor.stage.forces) {
     if (force.look === "plane") out.moving.push(plane(actor, force));
+    else if (force.winding) wound(actor, force, force.winding, motion, out);
     else if (force.look === "rope") rope(actor, force, out);
     else if (BETWEEN.includes(force.look)) between(actor, force, out);
     else standing(actor, force, "force", out.pieces);
@@ -72,7 +76,7 @@ function part(group: THREE.Group, tone: Tone, geometry: THREE.BufferGeometry, sa
 }
 
 /** A cylinder from z = 0 to 1. */
-const unit = (radius: number) => new THREE.CylinderGeometry(radius, radius, 1, 18).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+const unit = (radius: number, facets = 18) => new THREE.CylinderGeometry(radius, radius, 1, facets).rotateX(Math.PI / 2).translate(0, 0, 0.5);
 
 function rod(actor: Actor, joint: Joint, out: Stretched): void {
   const size = actor.nearness.atMost(distance(actor, joint.bodies, joint.points));
@@ -123,6 +127,33 @@ function rope(actor: Actor, force: Force, out: Stretched): void {
     const line = part(group, "signDark", unit(ROPE * actor.stage.size), said, out);
     out.moving.push(laid(actor, bodies, points, group, (length) => (line.scale.z = length)));
   }
+}
+
+/** A rope around wheels: thin round bars along its free parts and, short ones, along its arcs. */
+function wound(actor: Actor, force: Force, winding: Winding, motion: Motion | null, out: Stretched): void {
+  const said: Picked = { kind: "force", name: force.name };
+  const group = new THREE.Group();
+  const way = new Wound(actor, force, winding, motion);
+  const bars = Array.from({ length: way.most }, () => part(group, "signDark", unit(ROPE * actor.stage.size, 8), said, out));
+  const along = new THREE.Vector3();
+  feet(actor, force.bodies, force.points, said, out);
+  out.moving.push({
+    object: group,
+    update() {
+      group.visible = !force.bodies.some((body) => actor.isBad[body]);
+      if (!group.visible) return;
+      const points = way.points();
+      bars.forEach((bar, k) => {
+        const [from, to] = [points[k], points[k + 1]];
+        bar.visible = !!from && !!to;
+        if (!from || !to) return;
+        const length = along.copy(to).sub(from).length();
+        bar.position.copy(from);
+        bar.scale.z = Math.max(length, 1e-9 * actor.stage.size);
+        if (length > 0) bar.quaternion.setFromUnitVectors(Z, along.divideScalar(length));
+      });
+    },
+  });
 }
 
 /** A helix about z from 0 to 1 with straight ends; its length scales, its wire keeps about its thickness. */

@@ -32,6 +32,7 @@ SHAPE: Final = Either(
     )
 )
 BETWEEN: Final = {"name": str, "type": str, "bodies": [str], "points": [VECTOR]}
+WHEELS: Final = {"axis": VECTOR, "carrier": int, "radii": [float], "arcs": [float], "fixed": (VECTOR, VECTOR)}
 SCENE: Final = {
     "bodies": [
         {
@@ -57,7 +58,7 @@ SCENE: Final = {
         }
     ],
     "markers?": [{"name": str, "body": str, "position": VECTOR, "x_axis": VECTOR, "axis": VECTOR}],
-    "forces?": [{**BETWEEN, "axis?": VECTOR, "sizes?": (float, float, float)}],
+    "forces?": [{**BETWEEN, "axis?": VECTOR, "sizes?": (float, float, float), "wheels?": WHEELS}],
     "sweeps?": [{"name": str, "bodies": [str], "section": [(float, float)]}],
 }
 NAMED: Final = [{"name": str}]
@@ -128,7 +129,15 @@ def strangers(scene: dict[str, Any]) -> str:
     few = [each["name"] for each in scene.get("forces", ()) if not 2 <= len(each["bodies"]) == len(each["points"])]
     if few:
         return f"the force {few[0]} has not as many points as bodies"
+    if other := [each["name"] for each in scene.get("forces", ()) if "wheels" in each and not _fit(each)]:
+        return f"the wheels of the rope {other[0]} are not those of its points"
     return next((f"there is no body {name!r}" for name in used if name not in known), "")
+
+
+def _fit(rope: dict[str, Any]) -> bool:
+    """Whether every point of a rope around wheels has its radius and arc."""
+    wheels, count = rope["wheels"], len(rope["points"])
+    return len(wheels["radii"]) == len(wheels["arcs"]) == count and 0 <= wheels["carrier"] < count
 
 
 def _of_mapping(form: dict[str, Any], value: Any, place: str) -> str:

@@ -55,7 +55,7 @@ def _add_wound(builder: SystemBuilder, rope: Rope, radii: tuple[float, ...]) -> 
     way = way_as_placed(machine, rope, radii)
     # all markers have the axes of the wheels as placed
     markers = [builder.place(seen_from(machine, body, centre, way.axes)) for body, centre in way.places]
-    carrier = markers[next(k for k, radius in enumerate(radii) if radius)]
+    carrier = markers[first_wheel(radii)]
     unstressed = way.length if rope.length is None else rope.length
     numbers = [rope.stiffness, rope.damping, unstressed]
     for radius, arc, fixed in zip(radii, way.arcs, way.fixed, strict=True):
@@ -82,7 +82,7 @@ class Way:
 def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> Way:
     """The way of a rope. Raises ModelError where wheels lie in each other, or axes of markers differ from those of the wheels."""
     placed = [_global(machine, rope, k) for k in range(len(radii))]
-    axis = np.array(rope.axis, dtype=float) if rope.axis is not None else placed[_first_wheel(radii)][2][:, 2]
+    axis = np.array(rope.axis, dtype=float) if rope.axis is not None else placed[first_wheel(radii)][2][:, 2]
     axis = axis / np.linalg.norm(axis)
     axes = _with_z(axis)
     centres = [axes.T @ centre for _, centre, _ in placed]
@@ -108,7 +108,8 @@ def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) 
     return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length)
 
 
-def _first_wheel(radii: tuple[float, ...]) -> int:
+def first_wheel(radii: tuple[float, ...]) -> int:
+    """Number of the first place with a wheel, whose body carries the axis."""
     return next(k for k, radius in enumerate(radii) if radius)
 
 

@@ -84,7 +84,8 @@ COVER = {
     ),
     "integrate/loop/": (
         "integrate/test_loop.py", "integrate/test_chosen_steps.py",
-        *_verification("events", "contact_location", "driver_corners", "force_corners", "switches", "geometric", "states", "tolerance"),
+        *_verification("events", "contact_location", "driver_corners", "force_corners", "jumps_in_time", "switches", "geometric", "states"),
+        *_verification("tolerance"),
         "live/test_budget.py",
     ),
     "integrate/multistep/": (

@@ -222,8 +222,8 @@ def _watched(builder: SystemBuilder) -> Watched:
     for event in builder.machine.events:
         ends = ENDS_RUN if event.stop else ENDS_STEP if event.name in taking else NOTED
         with located(f"events.{event.name}.when"):
-            events.append((builder.function(event.when, switching=False), DIRECTIONS[event.direction], ends))
-            marked += [(builder.function(mark, switching=False), BOTH, MARK) for mark in _marks_of(event.when)]
+            events.append((builder.function(event.when, sampled=True), DIRECTIONS[event.direction], ends))
+            marked += [(builder.function(mark, sampled=True), BOTH, MARK) for mark in _marks_of(event.when)]
     events += marked
     surfaces, switches = builder.elements.surfaces(), builder.functions.switches
     count = len(events) + len(surfaces) + len(switches)

@@ -197,17 +197,20 @@ class SystemBuilder:
         *,
         motion: bool = False,
         switching: bool = True,
+        sampled: bool = False,
     ) -> int:
         """Index of a new function; `local` are the symbols that only this one knows.
 
-        switching : every evaluation finds its value, and once.
+        switching : every evaluation finds its value, and once. sampled : only samples and events ask for it, at instants that count.
         """
 
         def find(path: str) -> Signal:
             return local[path] if local is not None and path in local else self.signal(path)
 
         end = self.machine.simulation.duration
-        return self.functions.add(value, find, motion=motion, end=end, switching=switching)
+        return self.functions.add(
+            value, find, motion=motion, end=end, switching=switching and not sampled, beyond=not sampled
+        )
 
     def spline(self, table: Table, order: int) -> int:
         """Index of the derivative of this order (0: the value) of a cubic table of a signal, which goes on straight beyond its ends."""

@@ -15,17 +15,22 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.sides import sides
+from nivel.machine.units.sides import is_of_time_alone, jumps, sides
 from nivel.machine.units.tree import TIME, ExpressionError, Node, signals
 
 # Sides of an expression are looked at so many times in a run.
 SAMPLES = 2000
 # Slopes of a table that differ by less, as a share of the largest, make no corner.
 STRAIGHT = 1e-9
+# [s] What jumps at the time 0 begins with what is written for it: a first part of a step ends here, and the method begins anew.
+BEGUN = 1e-12
+# Corners are found to less than NEAR of their time, as functions pass them within that. The first is no limit [s].
+LEAST, CLOSE, MOST = 1e-300, 0.25 * NEAR, 2000
 
 
-def corners(machine: MachineRecord, *, with_values: bool = False) -> tuple[float, ...]:
-    """Corners within the run [s], ascending. with_values : only those at which the function has a value, so that a step can end there."""
+def corners(machine: MachineRecord, *, with_values: bool = False, at_begin: bool = False) -> tuple[float, ...]:
+    """Corners within the run [s], ascending. with_values : only those at which the function has a value, so that a step can end there.
+    at_begin : with BEGUN where a function jumps at the begin of the run."""
     end = machine.simulation.duration
     found: set[float] = set()
     for each in machine.functions:
@@ -36,7 +41,22 @@ def corners(machine: MachineRecord, *, with_values: bool = False) -> tuple[float
                 for time in corners_of(function, end)
                 if not with_values or isinstance(function, Table) or _holds(function, time)
             }
+            if at_begin and isinstance(function, Expression) and _jumps_at_begin(function, end):
+                found.add(BEGUN)
     return tuple(sorted(found))
+
+
+def _jumps_at_begin(expression: Expression, end: float) -> bool:
+    """Whether an expression jumps behind the time 0, as by `time > 0`; one of signals, too, whose comparison of time changes there."""
+    if not jumps(expression.tree, is_of_time_alone) or 0.0 not in _of_expression(expression, end):
+        return False
+    if expression.signals:
+        return True
+    try:
+        first, second = evaluate(expression.tree, 0.0), evaluate(expression.tree, BEGUN)
+    except ExpressionError:
+        return False
+    return abs(second - first) > STRAIGHT * max(abs(first), abs(second))
 
 
 def corners_of(function: Table | Expression, end: float) -> list[float]:
@@ -82,7 +102,7 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
         except ExpressionError:
             continue
         roots = [
-            root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
+            root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=LEAST, rtol=CLOSE, maxiter=MOST).root
             for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
         ]
         # where it is zero all along, as between two equal functions, only the ends are corners

@@ -276,7 +276,7 @@ def _wanted(motion: MotionEquations, methods: Methods) -> ResidualOptions:
         refuse_unsettled_multipliers(machine, len(saddle.row))
     return ResidualOptions(
         whole=integrator.over_step(machine.is_flexible),
-        corners=corners(machine),
+        corners=corners(machine, at_begin=integrator.ends == "jumps"),
         shifted=integrator.needs == "complex shifts",
         balance=methods.solves_residual,
         along=integrator.needs == "directions",

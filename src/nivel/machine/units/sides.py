@@ -7,7 +7,19 @@ from collections.abc import Callable, Iterator
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import FUNCTIONS, inner_parts, is_truth
-from nivel.machine.units.tree import COMPARISONS, TIME, Call, Lookup, Node, Number, Operation, Signal, Time
+from nivel.machine.units.tree import (
+    COMPARISONS,
+    TIME,
+    Call,
+    Lookup,
+    Node,
+    Number,
+    Operation,
+    Signal,
+    Time,
+    signals,
+    varies,
+)
 
 PI = 3.141592653589793
 
@@ -26,6 +38,22 @@ def sides(node: Node, counts: Callable[..., bool], *, curves: bool) -> Iterator[
             own = FUNCTIONS[function].sides
             pairs = own(counts, *arguments) if own is not None else ()
             yield from ((first, second) for first, second in pairs if second is not None or not is_truth(first))
+
+
+def jumps(node: Node, counts: Callable[[Node], bool]) -> bool:
+    """Whether an expression may jump where one of its parts passes a value: a condition, a comparison, a remainder, of those of which
+    `counts` says so."""
+    match node:
+        case Operation(symbol) if symbol in COMPARISONS and counts(node):
+            return True
+        case Call(function, (first, *_)) if FUNCTIONS[function].jumps and counts(first):
+            return True
+    return any(jumps(part, counts) for part in inner_parts(node))
+
+
+def is_of_time_alone(node: Node) -> bool:
+    """Whether a value depends on time, and on nothing else."""
+    return varies(node) and not signals(node)
 
 
 def marks(function: Table | Expression) -> Iterator[Node]:

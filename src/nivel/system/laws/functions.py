@@ -66,9 +66,11 @@ class FunctionTable:
         motion: bool = False,
         end: float = math.inf,
         switching: bool = False,
+        beyond: bool = True,
     ) -> int:
         """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
         switching : every evaluation of the machine finds its value once, so that its corners with signals can be switches.
+        beyond : where it jumps at an instant it has the value beyond it (`nivel.system.laws.program`).
 
         Raises ModelError where a law cannot be compiled.
         """
@@ -95,7 +97,7 @@ class FunctionTable:
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
                 if switching:
                     return self._append_switching(switching_program(function, signals), signals, find)
-                program = expression_program(function, signals)
+                program = expression_program(function, signals, beyond=beyond)
                 return self._append(CODE, signals, find, address=run.address, program=program)
             case FmuOutput():
                 from nivel.system.signals.fmus import FmuInstance

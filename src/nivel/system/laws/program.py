@@ -1,4 +1,11 @@
-"""Expressions as programs of `nivel.kernels.record.program`."""
+"""Expressions as programs of `nivel.kernels.record.program`.
+
+What jumps at an instant, by a comparison of time, has two values there: `time > a` and `time >= a` differ at that instant alone, on which
+no motion depends. Methods whose steps end there ask for the value before it a little earlier, and for the value beyond it at the instant
+(`nivel.integrate.loop.corners`). So a program of what acts in motion takes the time for later by its round-off. Then it has the value
+beyond, whichever comparison is written, and wherever the round-off of a step leaves the instant. Tables pass their points in the same way.
+At the time 0 nothing is later: a machine is in equilibrium, and starts, with what is written.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.kernels.record import program as kernel
+from nivel.kernels.record.function import NEAR
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.functions import FUNCTIONS, is_truth
 from nivel.machine.units.interpolation import differentiated, pieces
+from nivel.machine.units.sides import is_of_time_alone, jumps
 from nivel.machine.units.tree import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time, signals
 
 OPERATIONS = {
@@ -26,9 +35,14 @@ OPERATIONS = {
 TWO, ZERO = Number(2.0), Number(0.0)
 
 
-def expression_program(expression: Expression | Formula, signals: Sequence[str]) -> list[float]:
-    """The program of an expression of `signals`, of which the first is the time. The arguments are expected behind it."""
-    program = _Program(signals)
+def expression_program(
+    expression: Expression | Formula, signals: Sequence[str], *, beyond: bool = False
+) -> list[float]:
+    """The program of an expression of `signals`, of which the first is the time. The arguments are expected behind it.
+
+    beyond : where it jumps at an instant it has the value beyond it
+    """
+    program = _Program(signals, beyond=beyond and jumps(expression.tree, is_of_time_alone))
     program.end(program.place_of(expression.tree))
     return program.row()
 
@@ -45,8 +59,9 @@ class Switching:
 
 
 def switching_program(expression: Expression | Formula, paths: Sequence[str]) -> Switching:
-    """The program of an expression of signals, of which the first is the time, whose corners and jumps with other signals are switches."""
-    program = _Program(paths, switching=True)
+    """The program of an expression of signals, of which the first is the time, whose corners and jumps with other signals are switches.
+    Where it jumps at an instant it has the value beyond it."""
+    program = _Program(paths, switching=True, beyond=jumps(expression.tree, is_of_time_alone))
     program.end(program.place_of(expression.tree))
     return Switching(program.row(), program.switches())
 
@@ -83,7 +98,7 @@ class _Program:
     """Instructions, and numbers that stand behind them. Places are known when all is there: until then they count from the arguments
     back, from the last number with -1."""
 
-    def __init__(self, paths: Sequence[str], *, switching: bool = False) -> None:
+    def __init__(self, paths: Sequence[str], *, switching: bool = False, beyond: bool = False) -> None:
         self._instructions: list[tuple[int, int, int, int]] = []
         self._numbers: list[float] = []
         self._arguments, self._switching = len(paths), switching
@@ -91,6 +106,8 @@ class _Program:
         self._places: dict[Node, int] = {
             Time() if path == TIME else Signal(path): place for place, path in enumerate(paths)
         }
+        if beyond:
+            self._places[Time()] = self._operation(kernel.MULTIPLY, self._cell(1.0 + NEAR), self._places[Time()])
 
     def place_of(self, node: Node) -> int:
         """Place of the value of `node`, which is found once however often it stands there."""

@@ -76,7 +76,7 @@ def add_samples(builder: SystemBuilder, table: SampleTable) -> None:
             elif each.part.begins is not None:
                 table.add(
                     index,
-                    builder.function(each.present, switching=False),
+                    builder.function(each.present, sampled=True),
                     period=ONCE,
                     offset=each.block.offset,
                     at_once=True,
@@ -99,7 +99,7 @@ def _function(builder: SystemBuilder, each: PartOf) -> int:
     """Index of the function of a part; one that nothing has asked for before reads what forces report."""
     if each.path not in builder.functions_of:
         with located(_place(each)):
-            builder.functions_of[each.path] = builder.function(each.part.function, switching=False)
+            builder.functions_of[each.path] = builder.function(each.part.function, sampled=True)
     return builder.functions_of[each.path]
 
 
@@ -117,7 +117,7 @@ def _noted(builder: SystemBuilder, each: PartOf) -> int:
         if each.part.role != "signal":
             builder.signal_at(each.path)
         in_motion = each.part.role in ("signal", "state") and not each.block.is_sampled
-        function = builder.function(each.part.function, switching=in_motion)
+        function = builder.function(each.part.function, sampled=not in_motion)
     if each.part.role == "signal":
         builder.behind_signals[each.path] = builder.noted[-1]
     builder.functions_of[each.path] = function

@@ -22,7 +22,7 @@ def add_states(builder: SystemBuilder) -> None:
             own = builder.own_state(_fact(state))
             key = "rate" if state.rate is not None else "update"
             with located(f"states.{state.name}.{key}"):
-                function = builder.function(getattr(state, key), switching=state.rate is not None)
+                function = builder.function(getattr(state, key), sampled=state.rate is None)
             if state.rate is not None or state.every is not None:
                 builder.elements.add(state_rate, [own, function, int(state.rate is None)])
 
@@ -46,11 +46,11 @@ def sampled_states(builder: SystemBuilder) -> Sampled:
         if state.update is None:
             continue
         with located(f"states.{state.name}.update"):
-            function = builder.function(state.update, switching=False)
+            function = builder.function(state.update, sampled=True)
         event = NONE if state.event is None else events.index(state.event)
         table.add(builder.state(state.name), function, period=state.every or 0.0, event=event)
     for state, begins in builder.begins:
-        table.add(state, builder.function(begins, switching=False), period=ONCE)
+        table.add(state, builder.function(begins, sampled=True), period=ONCE)
     add_samples(builder, table)
     count = len(table.rows)
     state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7

@@ -177,6 +177,13 @@ def test_the_joint_of_the_page_moves_on_what_moves_as_its_constraints_say(seat, 
         ("joint_force", 1e-5),
     ):
         np.testing.assert_allclose(ours.array(name), theirs.array(name), atol=error, err_msg=name)
+    # the zero of the angle is that of the result, also where the position of the tree is half a turn apart
+    arm = machine.mechanics(coordinates="relative")
+    assert arm.names[-1] == "cranks.angle"
+    np.testing.assert_allclose(arm.start, [theirs.array(name)[0] for name in arm.names], atol=1e-12)
+    np.testing.assert_allclose(arm.pose("seat")[0], theirs.array("seat.position")[0], atol=1e-12)
+    rates = np.array([theirs.array(f"{name}.rate")[0] for name in arm.names])
+    np.testing.assert_allclose(arm.jacobian("seat")[:3] @ rates, theirs.array("seat.velocity")[0], atol=1e-11)
 
 
 def test_the_joint_of_the_page_has_its_sign_and_convention(seat, tmp_path):

@@ -26,6 +26,21 @@ def test_every_unknown_has_its_name():
     assert names("absolute", forces=(way,)) == [*absolute, "the effort of way"]
 
 
+@pytest.mark.parametrize(
+    ("kind", "wanted"),
+    [
+        ("universal", ["the joint j, coordinate j.angle_2", "the joint j, coordinate j.angle_1"]),
+        # x and y of the first point along axes of the second marker are no coordinates of the result
+        ("planar", ["the joint j", "the joint j", "the joint j, coordinate j.angle"]),
+        ("screw", ["the joint j, coordinate j.angle"]),
+    ],
+)
+def test_unknowns_of_a_joint_that_carries_its_first_body_have_their_names(kind, wanted, rng):
+    record = machines.pair(kind, rng, ground=True).replace(simulation={"integrator": "generalised-alpha"})
+    system = prepare(record, "newton-euler", "relative").motion.system
+    assert [unknown_name(system, k) for k in range(len(system.record.residual.vdot))] == wanted
+
+
 @pytest.mark.parametrize(("rotations", "last"), [("euler-parameters", 4), ("euler-angles", 3), ("rotation-vector", 3)])
 def test_rotation_coordinates_have_their_names(rotations, last):
     found = names("absolute", "lagrange", rotations)

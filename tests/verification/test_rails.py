@@ -231,6 +231,24 @@ def test_energy_is_kept_where_nodes_are_passed(coordinates):
     assert errors[1] < 0.12 * errors[0]
 
 
+@pytest.mark.parametrize(
+    ("kind", "turns"),
+    [
+        ("point-on-beam", ["turn_x", "turn_y", "turn_z"]),
+        ("keyed-on-beam", ["turn_1", "turn_2"]),
+        ("cylindrical-on-beam", ["turn"]),
+    ],
+)
+def test_states_of_a_linear_model_are_the_place_along_the_beam_and_turns(kind, turns):
+    """The output of the displacement is the state of that name, and nothing else; so is its rate."""
+    shown = ["pad.displacement", "pad.displacement.rate"]
+    model = machine(bead(kind)).linearise(coordinates="relative", outputs=shown)
+    states = [name.removeprefix("pad.") for name in model.states if name.startswith("pad.")]
+    assert states[: len(states) // 2] == ["displacement", *turns]
+    wanted = [[float(state == output) for state in model.states] for output in shown]
+    assert_allclose(model.C, wanted, atol=1e-9)
+
+
 def test_eliminated_and_kept_joints_have_the_same_accelerations():
     loads = {
         "push": {"type": "force", "body": "bead", "vector": [3, -5, 20]},

@@ -54,6 +54,7 @@ class System:
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
+    tree_names : what each velocity of a tree is the rate of, e.g. `hinge.angle`; empty in absolute coordinates.
     """
 
     record: Record
@@ -79,6 +80,7 @@ class System:
     size: float
     start: Array
     state_map: StateMap | None = None
+    tree_names: tuple[str, ...] = ()
     modes: tuple[str, ...] = ()
     gradient_sizes: Array = field(default_factory=lambda: np.zeros(0))
     fmus: tuple[FmuInstance, ...] = ()

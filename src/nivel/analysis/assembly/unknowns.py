@@ -29,7 +29,7 @@ def unknown_name(system: System, number: int) -> str:
         return f"{system.bodies[number // width]}, {directions[number % width]}"
     nodes = record.tree.node.tolist()
     of_node = next(node for node in nodes if node[4] <= number < node[5])
-    child, _, kind, joint, first, last = of_node
+    child, _, kind, joint, first, _ = of_node
     if kind == MODAL:
         flexible = record.flexible.body.tolist().index(child)
         return f"the mode {system.modes[int(record.flexible.mode[flexible, 0]) + number - first]}"
@@ -37,9 +37,7 @@ def unknown_name(system: System, number: int) -> str:
         # an interface that carries its body stands for it
         body = next((node[0] for node in nodes if node[2] == MODAL and node[1] == child), child)
         return f"{system.bodies[body]}, free in space"
-    names = [
-        name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{system.joints[joint]}.")
-    ]
-    if len(names) == last - first:
-        return f"the joint {system.joints[joint]}, coordinate {names[number - first]}"
+    name = system.tree_names[number]
+    if name in system.layout.coordinates["joint_coordinate"]:
+        return f"the joint {system.joints[joint]}, coordinate {name}"
     return f"the joint {system.joints[joint]}"

@@ -17,6 +17,7 @@ from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_a
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction
+from nivel.analysis.linearise.validity import coordinate_signs
 from nivel.analysis.run.prepared_state import Moment
 from nivel.analysis.statics.equations import turned
 from nivel.errors import ModelError
@@ -34,8 +35,10 @@ LAST_AXIS = 2
 class Mechanics:
     """Mass matrix, bias and Jacobians of one machine.
 
-    names : of the independent velocities v (f,). position_names : of the positions q, all of the spanning tree; turns that are no joint
-    coordinates are four Euler parameters. start : q at the start.
+    names : of the independent velocities v (f,), units : of their coordinates. position_names : of the positions q, all of the spanning
+    tree; turns that are no joint coordinates are four Euler parameters. start : q at the start. What has the name of a joint coordinate of
+    the results is that coordinate; `JOINT.x_from_second` is of a planar joint whose first body the tree carries on the second: x of the
+    first marker's point along the axes of the second marker.
     """
 
     def __init__(self, machine: MachineRecord, moment: Moment) -> None:
@@ -45,33 +48,25 @@ class Mechanics:
         self._selected = reduction.selected
         named = velocity_names(self._instant.system)
         own = self._instant
-        self.names = tuple(named[own.free[k]][0] for k in self._selected)
+        self.names, self.units = (tuple(named[own.free[k]][part] for k in self._selected) for part in (0, 1))
         self.position_names = _position_names(own, [name for name, _ in named])
-        self.start: Array = moment.y[: own.positions].copy()
         catalogue = Catalogue(machine, own)
-        self._signs = self._directions(catalogue)
-        # angles of the spanning tree count whole turns, as results do
-        units = own.system.coordinate_units
+        # joint coordinates of the results are signs times positions of the tree, and offsets: whole turns, or other zeros
+        self._signs, self._offsets = np.ones(own.n), np.zeros(own.positions)
+        self._signs[own.free] = coordinate_signs(catalogue, own)
+        known = [name for name in self.position_names if name in catalogue.coordinates]
+        places = [self.position_names.index(name) for name in known]
+        values = own.read(catalogue.reader([catalogue.outputs[name] for name in known]))
+        self._offsets[places] = values - self._shown(moment.y[: own.positions])[places]
+        self.start: Array = self._shown(moment.y[: own.positions])
         counted = [
             (self.position_names.index(name), k)
-            for name, k, unit in zip(catalogue.coordinates, catalogue.index.tolist(), units, strict=True)
+            for name, k, unit in zip(
+                catalogue.coordinates, catalogue.index.tolist(), own.system.coordinate_units, strict=True
+            )
             if unit == "rad" and name in self.position_names
         ]
         self._angles, self._counted = np.array(counted, dtype=np.intp).reshape(-1, 2).T
-        self.start *= self._position_signs()
-        self.start[self._angles] = own.record.coordinates.reference[self._counted]
-
-    def _directions(self, catalogue: Catalogue) -> Array:
-        """(n,) -1 where a joint coordinate of the results grows against the velocity of the same name, else 1."""
-        own, out = self._instant, np.ones(self._instant.n)
-        known = catalogue.coordinates
-        if known:
-            slopes = own.along("v", catalogue.reader([catalogue.outputs[f"{name}.rate"] for name in known])).seen
-            for k, j in enumerate(own.free):
-                name = velocity_names(own.system)[j][0]
-                if name in known and slopes[known.index(name), k] < 0.0:
-                    out[j] = -1.0
-        return out
 
     def _reduction(self) -> Reduction:
         own = self._instant
@@ -85,7 +80,7 @@ class Mechanics:
         """Positions with all loops closed: those of the independent velocities stay. Raises ModelError where that is not possible."""
         own = self._instant
         y = self._moment.y.copy()
-        y[: own.positions] = self._checked(q, own.positions, "q") * self._position_signs()
+        y[: own.positions] = self._in_tree(self._checked(q, own.positions, "q"))
         y[own.positions : own.first_state] = 0.0
         self._count_turns(q)
         dependent = np.setdiff1d(np.arange(len(own.free)), self._selected)
@@ -95,7 +90,7 @@ class Mechanics:
             first = own.n + own.state_count
             C = own.value()[first : first + own.rows]
             if np.max(np.abs(C) / own.row_scale, initial=0.0) <= CLOSED:
-                return y[: own.positions] * self._position_signs()
+                return self._shown(y[: own.positions])
             length = own.length[own.free][dependent]
             found = np.linalg.lstsq(
                 own.J[:, dependent] * length / own.row_scale[:, None], -C / own.row_scale, rcond=1e-12
@@ -107,7 +102,7 @@ class Mechanics:
 
     def displaced(self, q: Array, change: Array) -> Array:
         """Positions after a change (f,) of the independent coordinates, turns about axes of their bodies; loops closed again."""
-        own, out = self._instant, q * self._position_signs()
+        own, out = self._instant, self._in_tree(q)
         psi = np.zeros(own.n)
         psi[own.free[self._selected]] = self._chosen_signs * change
         plain = own.place[:, 1] > LAST_AXIS
@@ -116,13 +111,13 @@ class Mechanics:
         if len(first):
             at = own.place[first, 0][:, None] + np.arange(4)
             out[at] = turned(out[at], psi[first[:, None] + np.arange(3)])
-        return self.close(out * self._position_signs())
+        return self.close(self._shown(out))
 
     def _at(self, q: Array | None, v: Array | None) -> Reduction:
         """The equations at positions q (closed first) and velocities v, with accelerations for a = 0."""
         own = self._instant
         y, closed = self._moment.y.copy(), self.close(self.start if q is None else q)
-        y[: own.positions] = closed * self._position_signs()
+        y[: own.positions] = self._in_tree(closed)
         self._count_turns(closed)
         y[own.positions : own.first_state] = 0.0
         own.move_to(0.0, y, np.zeros(own.n))
@@ -185,7 +180,7 @@ class Mechanics:
         b, position = self._point(point)
         own = self._instant
         y = self._moment.y.copy()
-        y[: own.positions] = (self.start if q is None else q) * self._position_signs()
+        y[: own.positions] = self._in_tree(self.start if q is None else q)
         own.move_to(0.0, y, np.zeros(own.n))
         own.value()
         axes = frame_axes(own, b)[..., 0]
@@ -207,6 +202,14 @@ class Mechanics:
     def _count_turns(self, q: Array) -> None:
         """The turn in which each angle of the tree is, for the forces that depend on it."""
         self._instant.record.coordinates.reference[self._counted] = np.asarray(q, dtype=float).ravel()[self._angles]
+
+    def _shown(self, positions: Array) -> Array:
+        """q for positions of the tree."""
+        return self._position_signs() * positions + self._offsets
+
+    def _in_tree(self, q: Array) -> Array:
+        """Positions of the tree for q."""
+        return self._position_signs() * (q - self._offsets)
 
     def _position_signs(self) -> Array:
         own, out = self._instant, np.ones(self._instant.positions)

@@ -22,7 +22,7 @@ from nivel.analysis.inverse.mechanics import Mechanics
 from nivel.errors import Fault, ModelError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
-from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, unknown_name
+from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.frames.joint_path import JointPath
 from nivel.results.frames.rotations import rotation_matrices
 from nivel.system.system import Array
@@ -32,8 +32,6 @@ REACHED = 1e-9
 # iterations, and restarts from random postures, at most; a search stops where steps are this small
 MOST, STARTS, SMALL = 60, 6, 1e-13
 DAMPING = 1e-10
-# coordinates that are lengths, of which random postures differ by less
-LENGTHS = ("displacement", "distance", "x", "y", "z")
 # share of the way towards the preferred posture in an iteration
 TOWARDS = 0.3
 # on the way there the point may be aside by this share of the machine's length
@@ -67,8 +65,8 @@ class PathFollower:
         self.place = np.array([known.index(name) for name in mechanics.names if name in known], dtype=np.intp)
         span = np.where(np.isfinite(task.high - task.low), task.high - task.low, 2.0 * np.pi)
         self.range = np.where(span > 0.0, span, 1.0)
-        lengths = [name.rpartition(".")[2] in LENGTHS for name in mechanics.names]
-        self.reach = np.where(lengths, 0.1 * self.size, 1.0)
+        # of lengths, random postures differ by less
+        self.reach = np.where([unit == "m" for unit in mechanics.units], 0.1 * self.size, 1.0)
         self.rng = np.random.default_rng(0)
 
     def follow(self, time: Array) -> JointPath:
@@ -229,7 +227,7 @@ def task_for(
         if k is None:
             continue
         listed = isinstance(pair, Sequence) and not isinstance(pair, str)
-        ends = [_quantity("limits", mechanics.names[k], each, faults) for each in pair] if listed else []
+        ends = [_quantity("limits", mechanics.units[k], each, faults) for each in pair] if listed else []
         if len(ends) != 2:
             faults.append(_fault("limits", f"two values, low and high, were expected for {name}, got {shown(pair)}"))
         elif not ends[0] < ends[1]:
@@ -239,7 +237,7 @@ def task_for(
     for name, value in (posture or {}).items():
         k = _place("posture", name, mechanics.names, faults)
         if k is not None:
-            wished[k] = _quantity("posture", mechanics.names[k], value, faults)
+            wished[k] = _quantity("posture", mechanics.units[k], value, faults)
     if faults:
         raise ModelError(faults)
     mechanics.pose(point)  # whether there is such a point
@@ -276,8 +274,8 @@ def _place(field: str, name: str, names: Sequence[str], faults: list[Fault]) -> 
     return None
 
 
-def _quantity(field: str, name: str, value: Any, faults: list[Fault]) -> float:
-    kind = COORDINATE_KINDS.get(name.partition(".")[2], "angle")
+def _quantity(field: str, unit: str, value: Any, faults: list[Fault]) -> float:
+    kind = "length" if unit == "m" else "angle"
     try:
         return float(value) if isinstance(value, int | float) else read_quantity(value, kind, {})
     except ExpressionError as problem:

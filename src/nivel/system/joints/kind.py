@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from nivel.kernels.record.hook import Family
 from nivel.machine.joints.joint import Joint
 from nivel.system.joints.composition import POINT, Composition
 from nivel.system.tables import Array
+
+TURNS: Final = ("turn_x", "turn_y", "turn_z")
 
 
 class Seen(NamedTuple):
@@ -38,6 +40,8 @@ class TreeJoint:
     Euler parameters, and its last three velocities are ω̄. start(seen, joint) : positions and velocities of the joint, None of one that
     slides along a beam. turn(positions, numbers) : Euler parameters of the child seen from the parent's marker, as in the kernels; None
     where these find them from the axes. angles : the position that a measured angle is, by its number in `nivel.kernels.bodies.coordinate`.
+    coordinates : names of its positions, without those of a turn in space; that of a joint coordinate of the results only where its rate
+    is the velocity, or minus that, in every position. backwards : the same where it carries its first body, if they differ.
     """
 
     motion: int | Family
@@ -46,6 +50,14 @@ class TreeJoint:
     turn: Callable[[list[float], Array], Array] | None = None
     angles: Mapping[int, int] = field(default_factory=dict)
     turning: bool = False
+    coordinates: tuple[str, ...] = ()
+    backwards: tuple[str, ...] = ()
+
+    def names(self, *, backwards: bool) -> tuple[str, ...]:
+        """What each of its velocities is the rate of; backwards : it carries its first body."""
+        turns = TURNS if self.turning else ()
+        numbered = tuple(f"position_{k + 1}" for k in range(self.velocities - len(turns)))
+        return (*((backwards and self.backwards) or self.coordinates or numbered), *turns)
 
     @property
     def velocities(self) -> int:

@@ -37,6 +37,7 @@ from nivel.system.states.tree_nodes import (
     tree_joint,
     units_of,
     velocities_in,
+    velocity_names,
     width_of,
 )
 from nivel.system.states.turns import turns
@@ -147,7 +148,8 @@ def in_tree(
     for node in (node for node in nodes if node.kind not in BETWEEN_FRAMES and tree_joint(node.kind).turn is None):
         record.bodies.theta[node.child] = start.turned[node.child]
     x = absolute.start_of_states
-    system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)))
+    names = velocity_names(absolute, nodes)
+    system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)), tree_names=names)
     return system.known_rank(rank), np.concatenate([start.q, start.v, x])
 
 

@@ -20,6 +20,7 @@ from nivel.system.joints.joints import JOINTS
 from nivel.system.joints.kind import TreeJoint
 from nivel.system.joints.kinds.in_trees import FREE_BODY
 from nivel.system.states.joint_start import Node
+from nivel.system.system import System
 
 BETWEEN_FRAMES: Final = {"outward": kernels.OUTWARD, "modal": kernels.MODAL}  # of a flexible body
 
@@ -39,6 +40,24 @@ def units_of(node: Node) -> tuple[str, ...]:
 def width_of(node: Node) -> int:
     """Velocities of a node."""
     return node.modes if node.kind in BETWEEN_FRAMES else tree_joint(node.kind).velocities
+
+
+def velocity_names(absolute: System, nodes: Sequence[Node]) -> tuple[str, ...]:
+    """What the velocities of all nodes are rates of: `JOINT.angle`, `BODY.x` of a body that no joint holds, modal coordinates."""
+    record, out = absolute.record, []
+    # an interface that carries its body stands for it
+    bodies = {node.parent: node.child for node in nodes if node.kind == "modal"}
+    for node in nodes:
+        if node.kind in BETWEEN_FRAMES:
+            if node.modes:
+                first = int(record.flexible.mode[record.flexible.body.tolist().index(node.child), 0])
+                out += absolute.modes[first : first + node.modes]
+            continue
+        free = node.joint == FREE
+        owner = absolute.bodies[bodies.get(node.child, node.child)] if free else absolute.joints[node.joint]
+        backwards = node.near != NONE and node.near != record.joints.first_marker[node.joint]
+        out += [f"{owner}.{name}" for name in tree_joint(node.kind).names(backwards=backwards)]
+    return tuple(out)
 
 
 def is_turning(node: Node) -> bool:

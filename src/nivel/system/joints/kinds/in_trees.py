@@ -44,10 +44,12 @@ from nivel.system.joints.kind import JointKind, Looks, Seen, Start, TreeJoint
 from nivel.system.tables import Array
 
 
-def _by_coordinates(motion: int, *names: str, numbers: Numbers | None = None) -> TreeJoint:
+def _by_coordinates(
+    motion: int, *names: str, numbers: Numbers | None = None, backwards: tuple[str, ...] = ()
+) -> TreeJoint:
     """Of a joint that turns by an `angle` about z and moves by x, y and a displacement along z, in this order of its positions.
 
-    numbers(joint, its angle, its displacement) : the first two of it.
+    numbers(joint, its angle, its displacement) : the first two of it. backwards : as of `TreeJoint`.
     """
     at = [("x", "y", "displacement", "angle").index(name) for name in names]
     turned = "angle" in names
@@ -64,7 +66,8 @@ def _by_coordinates(motion: int, *names: str, numbers: Numbers | None = None) ->
         return _about_z(q[names.index("angle")]) if turned else HALF if number[2] < 0.0 else NONE
 
     units = tuple("1" if name == "angle" else "m" for name in names)
-    return TreeJoint(motion, units, start, turn, {ROTATION: names.index("angle")} if turned else {})
+    angles = {ROTATION: names.index("angle")} if turned else {}
+    return TreeJoint(motion, units, start, turn, angles, coordinates=names, backwards=backwards)
 
 
 def _start_universal(seen: Seen, joint: Joint | None) -> Start:
@@ -93,7 +96,14 @@ def _turn_of_cross(q: list[float], number: Array) -> Array:
 
 Numbers = Callable[[Joint, float, float], tuple[float, float]]
 NONE, HALF = np.array([1.0, 0.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, 1.0])  # turns about z
-FREE_BODY = TreeJoint(kernels.FREE, ("m",) * 3 + ("1",) * 4, _start_free, lambda q, _: np.array(q[3:]), turning=True)
+FREE_BODY = TreeJoint(
+    kernels.FREE,
+    ("m",) * 3 + ("1",) * 4,
+    _start_free,
+    lambda q, _: np.array(q[3:]),
+    turning=True,
+    coordinates=("x", "y", "z"),
+)
 OF_POINT = ("s.x", "s.y", "s.z")
 
 
@@ -140,6 +150,12 @@ PLACE_ON_BEAM = JointCoordinate(
 )
 
 
+def _slider(motion: int, *turns: str, turning: bool = False) -> TreeJoint:
+    """Of a body that a beam carries: its place along the beam, and angles in the axes of the beam there."""
+    units = ("m", *("1",) * (4 if turning else len(turns)))
+    return TreeJoint(motion, units, turning=turning, coordinates=("displacement", *turns))
+
+
 def _on_beam(word: str, rows: tuple[Combination, ...], tree: TreeJoint, slider: str) -> JointKind:
     """Of a body that a beam carries; its start is in `nivel.system.states.slider_start`."""
     return JointKind(word, Composition((*ON_LINE, *rows), (PLACE_ON_BEAM,)), tree, symbols.on_beam(slider))
@@ -183,7 +199,15 @@ KINDS = (
     JointKind(
         "universal",
         Composition((POINT, PerpendicularAxes("z", "z")), ARMS),
-        TreeJoint(kernels.UNIVERSAL, ("1", "1"), _start_universal, _turn_of_cross, {CROSS_FIRST: 0, CROSS_SECOND: 1}),
+        TreeJoint(
+            kernels.UNIVERSAL,
+            ("1", "1"),
+            _start_universal,
+            _turn_of_cross,
+            {CROSS_FIRST: 0, CROSS_SECOND: 1},
+            coordinates=("angle_1", "angle_2"),
+            backwards=("angle_2", "angle_1"),
+        ),
         symbols.universal,
         Looks(icon=END_ON),
         {"spherical": OF_POINT},
@@ -199,7 +223,8 @@ KINDS = (
     JointKind(
         "planar",
         Composition((*PARALLEL, PerpendicularDistance("z")), (X, Y, ANGLE)),
-        _by_coordinates(kernels.PLANAR, "x", "y", "angle"),
+        # along the axes of the second marker, which turn against those of the first
+        _by_coordinates(kernels.PLANAR, "x", "y", "angle", backwards=("x_from_second", "y_from_second", "angle")),
         symbols.planar,
         Looks("second", ground="plane", turns=("first",), icon=(0.0, -1.0)),
         {"point-on-plane": ("d2.z",)},
@@ -212,15 +237,13 @@ KINDS = (
         Looks(icon=END_ON),
         {"spherical": OF_POINT, "revolute": (*OF_POINT, "d1.xz", "d1.yz")},
     ),
-    _on_beam("point-on-beam", (), TreeJoint(kernels.POINT_ON_BEAM, ("m", *("1",) * 4), turning=True), DOT),
-    _on_beam("keyed-on-beam", (KEY,), TreeJoint(kernels.KEYED_ON_BEAM, ("m", "1", "1")), f"{DOT}{LINE}"),
-    _on_beam(
-        "cylindrical-on-beam", WITH_LINE, TreeJoint(kernels.CYLINDRICAL_ON_BEAM, ("m", "1")), f'{BLOCK} rx="2.5"/>'
-    ),
+    _on_beam("point-on-beam", (), _slider(kernels.POINT_ON_BEAM, turning=True), DOT),
+    _on_beam("keyed-on-beam", (KEY,), _slider(kernels.KEYED_ON_BEAM, "turn_1", "turn_2"), f"{DOT}{LINE}"),
+    _on_beam("cylindrical-on-beam", WITH_LINE, _slider(kernels.CYLINDRICAL_ON_BEAM, "turn"), f'{BLOCK} rx="2.5"/>'),
     _on_beam(
         "translational-on-beam",
         (*WITH_LINE, KEY),
-        TreeJoint(kernels.TRANSLATIONAL_ON_BEAM, ("m",)),
+        _slider(kernels.TRANSLATIONAL_ON_BEAM),
         f'{BLOCK} class="solid"/>',
     ),
 )

@@ -132,3 +132,26 @@ def test_states_of_a_linear_model_are_the_coordinates_that_it_names(chain):
     wanted = np.array([[state == output for state in model.states] for output in outputs], dtype=float)
     assert wanted.sum() == len(outputs)
     np.testing.assert_allclose(model.C, wanted, atol=1e-11)
+
+
+def test_efforts_on_a_cross_are_those_of_inverse_dynamics_in_absolute_coordinates(backwards):
+    """`inverse` knows no tree: its efforts at the motions of two drivers are τ at the same q, v and a."""
+    cross = {"type": "universal", "point": (0, 0, 0), "axes": ((1, 0, 0), (0, 1, 0))}
+    joint = nivel.Joint(name="cross", bodies=("b", "ground") if backwards else ("ground", "b"), **cross)
+    parts = {
+        "bodies": [nivel.Body(name="b", mass=2.0, inertia=(1.0, 1.2, 1.4), position=(0.3, 0.1, -0.2))],
+        "joints": [joint],
+        "gravity": (1.0, 2.0, -9.81),
+    }
+    laws = {"cross.angle_1": "0.4*sin(2*time)", "cross.angle_2": "0.3*time^2"}
+    drivers = [nivel.Driver(name=f"d{k}", coordinate=name, value=law) for k, (name, law) in enumerate(laws.items())]
+    wanted = nivel.Machine("driven", drivers=drivers, simulation={"duration": 1}, **parts).inverse(positions=3)
+    t = wanted.time[1]
+    state = {
+        "cross.angle_1": (0.4 * np.sin(2 * t), 0.8 * np.cos(2 * t), -1.6 * np.sin(2 * t)),
+        "cross.angle_2": (0.3 * t**2, 0.6 * t, 0.6),
+    }
+    own = nivel.Machine("free", **parts).mechanics(coordinates="relative")
+    tau = own.inverse_dynamics(*np.array([state[name] for name in own.names]).T)
+    efforts = dict(zip(wanted.coordinates, wanted.effort[1], strict=True))
+    np.testing.assert_allclose(tau, [efforts[name] for name in own.names], rtol=1e-10)

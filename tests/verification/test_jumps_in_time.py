@@ -65,6 +65,13 @@ def test_impulse_of_many_jumps_is_that_of_their_share_of_time(integrator, condit
 
 
 @pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha"])
+def test_a_jump_at_the_end_which_round_off_puts_behind_it_has_not_acted(integrator):
+    """3 · 0.3 is less than 0.9."""
+    found = pushed(f"if(3*time > 0.9, {HIGH}, 0)", integrator=integrator, step=STEP, duration=0.3)
+    assert found["velocity"].values[-1, 0, 0] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha"])
 def test_a_load_behind_the_begin_is_not_in_the_equilibrium(integrator):
     """k x = F (1 - cos ω t): the start is the equilibrium without the load. Order 2: (ω h)² ω t/12 of F/k, or twice that."""
     stiffness, omega = 200.0, 10.0

@@ -4,6 +4,7 @@ minimum or a maximum of expressions of time alone changes sides."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import lru_cache
 from typing import TypeGuard
 
@@ -108,6 +109,10 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
         # where it is zero all along, as between two equal functions, only the ends are corners
         zero = np.concatenate([[False], values == 0.0, [False]])
         yield from (*roots, *map(float, times[zero[1:-1] & ~(zero[:-2] & zero[2:])]))
+        # round-off may put a corner at the end behind it
+        with suppress(ExpressionError):
+            if values[-1] * difference(end * (1.0 + NEAR)) < 0.0:
+                yield end
 
 
 def _holds(expression: Expression, time: float) -> bool:

@@ -50,6 +50,18 @@ def test_steps_make_the_motion_of_a_run_to_the_last_bit():
     np.testing.assert_array_equal(sim.result().array("position"), run.array("position")[:201])
 
 
+@pytest.mark.parametrize("integrator", ["am4", "generalised-alpha", "ros2"])
+def test_steps_take_no_notice_of_how_many_follow(integrator):
+    """What is iterated stops at the same digit in a simulation without an end, in a short run and in a long one."""
+    machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")
+    given = {"integrator": integrator, "output_interval": "1 ms"}
+    sim = machine.start(record=True, **given)
+    sim.advance(0.2)
+    short, long = (machine.simulate(duration=each, verify=False, **given).array("position") for each in (0.2, 0.3))
+    np.testing.assert_array_equal(short[:200], long[:200])
+    np.testing.assert_array_equal(sim.result().array("position")[:200], short[:200])
+
+
 @pytest.mark.parametrize("integrator", ["rk4", "am4", "generalised-alpha"])
 def test_a_state_that_is_restored_goes_on_as_before(integrator, tmp_path):
     machine = nivel.load(EXAMPLES / "mechanisms" / "four-bar.yaml")

@@ -94,7 +94,7 @@ NAMED = [
     Spoilt("geometric stabilisation: the factor", "integrate/loop/energy.py", "np.sqrt(1.0 + missing / kinetic)",
              "1.0 + missing / kinetic",
              _verification("geometric")),
-    Spoilt("events: sides are kept", "integrate/loop/events.py", "values[SIDE, k] = -values[SIDE, k]",
-             "values[SIDE, k] = values[SIDE, k]",
+    Spoilt("events: sides are kept", "integrate/loop/events.py", "now != 0.0 else -values[SIDE, k]",
+             "now != 0.0 else values[SIDE, k]",
              _verification("events")),
 ]  # fmt: skip

@@ -51,7 +51,13 @@ def test_all_that_tests_import_is_in_the_extra_for_tests():
     """What is asked for by `needs` is in `dev`: that of the site, of notebooks and of films is no part of `test`."""
     files = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")]
     own = {name for path in files for name in (path.stem, path.parent.name)}
-    known = {*installed_by("test"), *(re.match(r"[\w-]+", each)[0] for each in DEPENDENCIES), "numba", "nivel"}
+    known = {
+        *installed_by("test"),
+        *(re.match(r"[\w-]+", each)[0] for each in DEPENDENCIES),
+        "numba",
+        "llvmlite",
+        "nivel",
+    }
     for path in sorted((ROOT / "tests").rglob("*.py")):
         for name in set(imported(path)) - sys.stdlib_module_names - own:
             assert INSTALLED_AS.get(name, name) in known, f"{path.relative_to(ROOT)} imports {name}"

@@ -69,7 +69,13 @@ class Errors:
 
 def four_bar_run(step: float, **methods: Any) -> nivel.Result:
     """The four-bar of report 44 for DURATION with these methods; raises SolveError."""
-    given = {"coordinates": "absolute", "step": step, "output_interval": INTERVAL, "duration": DURATION} | methods
+    given = {
+        "integrator": "rk4",
+        "coordinates": "absolute",
+        "step": step,
+        "output_interval": INTERVAL,
+        "duration": DURATION,
+    } | methods
     return (
         nivel.load(MECHANISMS / "four-bar.yaml")
         .with_settings(given)
@@ -169,7 +175,13 @@ class Passage:
 
 def passage(speed: float, step: float, torque: float = 0.0, **methods: Any) -> Passage:
     """A run of the parallelogram for 3 s; raises SolveError."""
-    given = {"coordinates": "absolute", "step": step, "output_interval": step, "duration": 3.0} | methods
+    given = {
+        "integrator": "rk4",
+        "coordinates": "absolute",
+        "step": step,
+        "output_interval": step,
+        "duration": 3.0,
+    } | methods
     result = (
         parallelogram(speed, torque)
         .with_settings(given)

@@ -160,7 +160,7 @@ class InverseSettingsDict(TypedDict, total=False):
 class LineariseSettingsDict(TypedDict, total=False):
     """Settings of a linear model."""
 
-    about: Annotated[float | str | None, "--about STATE", "State to linearise about: start, equilibrium, or a time up to which the machine is simulated, e.g. '2 s'; default: the start of the machine."]
+    about: Annotated[float | str | None, "--about STATE", "State to linearise about: start, equilibrium, rotation (steady, strained by it), or a time up to which the machine is simulated, e.g. '2 s'; default: the start of the machine."]
     inputs: Annotated[Sequence[str] | str | None, "--inputs NAMES", "Inputs, e.g. hinge.angle; default: motors and drivers."]
     outputs: Annotated[Sequence[str] | str | None, "--outputs NAMES", "Outputs; default: sensors, or all joint coordinates."]
     coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]

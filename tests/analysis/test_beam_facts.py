@@ -98,7 +98,7 @@ def test_a_beam_is_said_in_a_few_lines():
     ):
         assert words in text
     assert "rod.7" not in text
-    assert len(text.splitlines()) < 20
+    assert len(text.splitlines()) < 21
     assert (
         json.loads(json.dumps(dataclasses.asdict(facts) | {"settings": facts.settings.as_dict()}))["beams"][0]["name"]
         == "rod"

@@ -422,7 +422,7 @@ def test_the_command_says_what_it_wrote_and_what_is_wrong(tmp_path, monkeypatch)
     assert again.exit_code == 2
     assert "exists already; use --force" in again.output
     for words, said in (
-        (["--fmu", "--csv"], "one of --csv, --c and --fmu"),
+        (["--fmu", "--csv"], "is written at a time"),
         (["--csv", "--fmi", "3"], "belong to --fmu"),
         (["--fmu", "a.fmu", "--set", "simulation.integrator=dopri5"], "an FMU takes steps of one length"),
         (["--fmu", "a.fmu", "--select", "sensor.hight"], "sensor.height"),

@@ -84,7 +84,7 @@ def test_what_was_missed_is_named_with_its_time_scale():
 
 def test_turns_that_cannot_be_counted_are_red_without_a_second_run():
     kind = next(each for each in KINDS if each.name == "flywheel-5000")
-    trust = Machine.from_record(kind.machine(False)).simulate(coordinates="absolute").trust
+    trust = Machine.from_record(kind.machine(False)).simulate(coordinates="absolute", integrator="rk4").trust
     line = next(item for item in trust.items if item.name == "turn")
     assert (line.verdict, line.row) == ("red", "wheel")
     assert line.fraction == pytest.approx(5.0, rel=1e-3)

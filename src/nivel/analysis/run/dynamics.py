@@ -82,7 +82,7 @@ class RunOutcome:
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
     steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end, of a
-    run that failed in the last state that was accepted.
+    run that failed in the last state that was accepted. status : of the compiled loop.
     ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses : of `NarrowFeatures`.
     """
 
@@ -94,6 +94,7 @@ class RunOutcome:
     failure: tuple[str, str, float] | None = None
     pace: Array | None = None
     last: tuple[float, Array] | None = None
+    status: int = DONE
     ends: Array | None = None
     impulses: dict[str, float] = field(default_factory=dict)
 
@@ -157,7 +158,7 @@ def march(
         if status != CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
     failed = finished.outcome == "failed"
-    finished.pace = run.pace
+    finished.pace, finished.status = run.pace, int(status)
     finished.last = float(run.clock[ACCEPTED if failed else TIME]), (run.previous if failed else run.y).copy()
     if narrow is not None:
         finished.ends, finished.impulses = narrow.ends, narrow.impulses

@@ -14,15 +14,17 @@ from math import sqrt
 
 import numpy as np
 
-from nivel.analysis.failures.fastest import fastest
+from nivel.analysis.failures.fastest import Fastest, fastest
 from nivel.analysis.plan.beam_facts import fastest_frequency
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import ModelError
 from nivel.integrate.catalogue import INTEGRATORS
+from nivel.kernels.core.status import NOT_FINITE
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.forces import Contact, Stop
 from nivel.machine.machine_record import MachineRecord
@@ -60,11 +62,18 @@ class FasterError(Exception):
         self.found = found
 
 
-def refuse_faster(plan: Plan, prepared: Prepared, time: float, y: Array) -> None:
-    """Raise FasterError where steps of the plan do not follow the rates in the state y that a run has come to."""
-    found = fastest_rate(plan, prepared, y, time)
-    if found is not None and plan.settings.step > found.followed:
-        raise FasterError(replace(found, what=f"{found.what} (at t = {time:.4g} s)"))
+def refuse_faster(plan: Plan, prepared: Prepared, finished: RunOutcome) -> None:
+    """Raise FasterError where steps of the plan do not follow the rates in the state that a run has come to: of a part, or of the motion
+    where it has grown beyond all numbers. A motion alone may be fast at a singular position, where no method helps."""
+    if finished.last is None or finished.asked_to_stop:
+        return
+    time, y = finished.last
+    found = _at(prepared, y, time)
+    if found is None or not plan.settings.step > FOLLOWED / found.rate:
+        return
+    if found.part or finished.status == NOT_FINITE:
+        what = f"{found.part or 'the motion'} (at t = {time:.4g} s)"
+        raise FasterError(Rate(found.rate, FOLLOWED / found.rate, what))
 
 
 def fitted(
@@ -135,14 +144,20 @@ def _implicit(plan: Plan, found: Rate) -> str:
 def fastest_rate(plan: Plan, prepared: Prepared, y: Array, t: float) -> Rate | None:
     """That which needs the shortest steps, in the state y at time t [s] or, of what may touch, ever; None where nothing is known."""
     rates = [*_of_contacts(plan.machine), *_of_beams(plan.machine)]
-    feedback = prepared.motion.system.record.control.stabilise
-    kept = feedback.copy()
-    feedback[:2] = 0.0  # of the constraints: it is as fast as the step
-    now = fastest(prepared.motion, t, y)
-    feedback[:] = kept
+    now = _at(prepared, y, t)
     if now is not None:
         rates.append(Rate(now.rate, FOLLOWED / now.rate, now.part or "the motion"))
     return min(rates, key=lambda each: each.followed, default=None)
+
+
+def _at(prepared: Prepared, y: Array, t: float) -> Fastest | None:
+    """The fastest rate in a state, without the feedback of constraints, which is as fast as the step."""
+    feedback = prepared.motion.system.record.control.stabilise
+    kept = feedback.copy()
+    feedback[:2] = 0.0
+    found = fastest(prepared.motion, t, y)
+    feedback[:] = kept
+    return found
 
 
 def _touching(machine: MachineRecord) -> list[Contact | Stop]:

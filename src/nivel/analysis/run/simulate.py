@@ -93,8 +93,8 @@ def _run(
     finished = march(
         prepared, settings, [sink], progress=listener.progress, pacing=second.leader if second is not None else None
     )
-    if plan.is_open and not finished.asked_to_stop and finished.last is not None:
-        refuse_faster(plan, prepared, *finished.last)
+    if plan.is_open:
+        refuse_faster(plan, prepared, finished)
     verified = None
     if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
         verified = second.wait(listener)

@@ -100,7 +100,7 @@ class Record(BaseModel, metaclass=RecordClass):
         own = {name for each in type(self).__mro__ if issubclass(each, Record) for name in vars(each)}
         return [
             *type(self).model_fields,
-            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "always", "model_config"}),
+            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "always", "model_config", "usual"}),
         ]
 
     def __str__(self) -> str:

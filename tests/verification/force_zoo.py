@@ -93,6 +93,8 @@ CONTACT = {
     "friction_model": "coulomb",
     "friction_transition_speed": 0.8,
 }
+STICKING = {"type": "contact", "stiffness": 3e3, "restitution": 0.6, "friction": 0.3}
+ON_FLOOR_STICKING = {**STICKING, "body": "c", "plane": "floor"}
 PRISM = [[-0.3, -0.35], [0.3, -0.35], [0.35, 0.3], [-0.2, 0.35]]
 ON = ("c", "", [-0.5, 0.9, 0.4])
 ON_FLOOR = {**CONTACT, "body": "c", "plane": "floor"}
@@ -161,6 +163,18 @@ CASES = {
                   {"bodies": {**shape("c", "extrusion", outline=PRISM, length=0.5)["bodies"],
                               "block": {"shape": {"type": "box", "size": [0.6, 0.5, 0.4]}, "mass": 0.5,
                                         "position": [-0.4, 0.6, 1.9]}}}),
+    "sphere, sticks": Case(ON_FLOOR_STICKING, ON, True, shape("c", "sphere", radius=0.4)),
+    "sphere that sticks, apart": Case(ON_FLOOR_STICKING, None, False, shape("c", "sphere", radius=0.4)),
+    "box, sticks": Case(ON_FLOOR_STICKING, ("c", "", [-0.5, 0.9, 0.25]), True, shape("c", "box", size=[0.5, 0.6, 0.7])),
+    "cylinder, sticks": Case(ON_FLOOR_STICKING, ("c", "", [-0.5, 0.9, 0.3]), True, shape("c", "cylinder", radius=0.3, length=0.8)),
+    "spheres, stick": Case({**STICKING, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
+                           {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
+                                       "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
+    "hulls, stick": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3,
+                          "bodies": ["c", "block"]}, ("c", "block", [-0.38, -0.25, 0.1]), True,
+                         {"bodies": {**shape("c", "extrusion", outline=PRISM, length=0.5)["bodies"],
+                                     "block": {"shape": {"type": "box", "size": [0.6, 0.5, 0.4]}, "mass": 0.5,
+                                               "position": [-0.4, 0.6, 1.9]}}}),
     "follower": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [3, -2, 5], "axes": "body"}),
     "global force": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [3, "-2*cos(5*time)", 5]}),
     "torque": Case({"type": "torque", "body": "a", "vector": [1, 2, -1], "axes": "body"}),

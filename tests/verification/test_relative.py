@@ -11,6 +11,7 @@ import nivel
 from assembled import TIME, mass_matrix, random_states
 from example_files import RIGID
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.kernels.bodies.patch_coordinate import PATCH
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
 from nivel.motion import relative as equations_in_relative
@@ -102,7 +103,10 @@ def unique_columns(prepared):
 
 
 def forget(motion):
-    """Make everything that an evaluation has to write useless; entries of rows that are always zero are written once only."""
+    """Make everything that an evaluation has to write useless; entries of rows that are always zero are written once only.
+
+    The load of a patch says whether its rows have to be cleared: it is one of surfaces that touched.
+    """
     record = motion.system.record
     constraints, coordinates, bodies, markers, frames = (
         record.constraints, record.coordinates, record.bodies, record.markers, record.frames
@@ -111,6 +115,7 @@ def forget(motion):
         array[:] = np.nan
     for array in (coordinates.value, coordinates.rate, coordinates.bias, record.outputs.value):
         array[:] = np.nan
+    coordinates.value[coordinates.what[:, 0] == PATCH] = 1.0
     for array in (bodies.R, bodies.theta, bodies.A, bodies.Rdot, bodies.omega, bodies.omega_b, bodies.c, bodies.wrench):
         array[:-1] = np.nan
     for array in (bodies.Rddot, bodies.alpha_b, frames.R, frames.theta, frames.Rdot, frames.Rddot):

@@ -13,6 +13,8 @@ from force_zoo import CASES
 from lanes import FULL
 from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
 from nivel.integrate.newmark.newton_state import set_state
+from nivel.kernels.elements.friction import COORDINATE, FIRST, JOINT, MODEL, PATCH
+from nivel.kernels.record.record import NONE
 from tangent_zoo import FORMULATED, residual_of, state_of, tangent_rests
 from unknowns import ROTATIONS, SHARES, TIME, Unknowns, value_at
 
@@ -23,20 +25,23 @@ DIFFERENCES = 5e-11
 
 
 def residual_vanishes(here, rng):
-    """M v̇ + C_qᵀ λ = Q, C = 0, Ċ = 0, C̈ = 0 and the rates of states; each as a share of the largest term in it."""
-    none, nothing = np.zeros(here.n), np.zeros(here.rows)
-    r, rates, C, Cdot, Cddot = value_at(here, here.y, here.vdot, here.lam)
+    """M v̇ + C_qᵀ λ = Q, C = 0, Ċ = 0, C̈ = 0, the laws of efforts with stiction and the rates of states; each as a share of the largest
+    term in it."""
+    none, nothing, rows = np.zeros(here.n), np.zeros(len(here.lam)), here.rows
+    r, rates, C, Cdot, second = value_at(here, here.y, here.vdot, here.lam)
     forces, _, _, _, gamma = value_at(here, here.y, none, nothing)
     inertia = value_at(here, here.y, here.vdot, nothing)[0] - forces
     constraint = value_at(here, here.y, none, here.lam)[0] - forces
     largest = max(np.abs(term).max(initial=1e-300) for term in (forces, inertia, constraint))
     assert np.abs(r).max(initial=0.0) < ROUND_OFF * largest
-    C_q = find_tangent(here.motion, TIME, 1.0, 1.0, 1.0)[1][here.n + here.states :, : here.n]
+    C_q = find_tangent(here.motion, TIME, 1.0, 1.0, 1.0)[1][here.n + here.states :, : here.n][:rows]
     speed = np.abs(here.y[here.positions : here.positions + here.n]).max(initial=0.0)
     across, most = np.abs(C_q).sum(axis=1), np.abs(here.vdot).max(initial=0.0)
-    assert np.all(np.abs(Cddot) <= ROUND_OFF * (across * most + np.abs(gamma).max(initial=0.0) + 1.0 + speed**2))
-    assert np.all(np.abs(Cdot) <= ROUND_OFF * (1.0 + across * speed))
-    assert np.all(np.abs(C) < 1e-8 * max(here.size, 1.0))
+    bias = np.abs(gamma[:rows]).max(initial=0.0)
+    assert np.all(np.abs(second[:rows]) <= ROUND_OFF * (across * most + bias + 1.0 + speed**2))
+    assert np.all(np.abs(Cdot[:rows]) <= ROUND_OFF * (1.0 + across * speed))
+    assert np.all(np.abs(C[:rows]) < 1e-8 * max(here.size, 1.0))
+    assert np.all(np.abs(second[rows:]) <= ROUND_OFF * largest)
     np.testing.assert_allclose(rates, here.xdot, rtol=1e-13)
 
 
@@ -76,11 +81,16 @@ def columns_found_together_are_those_found_one_by_one(here, rng):
 
 
 def mass_matrix_is_symmetric_and_positive(here, rng):
-    """With unknowns that move next to nothing the matrix is [M C_qᵀ; C_q 0]; friction that its joint's reaction loads bends C_qᵀ."""
+    """With unknowns that move next to nothing the matrix is [M C_qᵀ; C_q 0]; friction that its joint's reaction loads bends C_qᵀ.
+
+    The rows of efforts, behind those of constraints, are these efforts where surfaces are apart; the derivative of those that touch is
+    another claim.
+    """
     record = residual_of(here)
     status, matrix = find_tangent(here.motion, TIME, 1e-20, 1e-20, 1e-20)
     assert status == 0
     n, first = here.n, here.n + here.states
+    last = first + here.rows
     M = matrix[:n, :n]
     if n:
         np.testing.assert_allclose(M, M.T, atol=1e-14 * np.abs(M).max())
@@ -89,9 +99,22 @@ def mass_matrix_is_symmetric_and_positive(here, rng):
     if here.coordinates == "absolute":
         np.testing.assert_allclose(M, mass_matrix(here.motion.system), atol=1e-13 * np.abs(M).max())
     np.testing.assert_allclose(matrix[n:first, n:first], np.eye(here.states), atol=1e-15)
-    np.testing.assert_array_equal(matrix[first:, first:], 0.0)
-    if not len(record.friction.columns):
-        np.testing.assert_array_equal(matrix[:n, first:], matrix[first:, :n].T)
+    np.testing.assert_array_equal(matrix[first:last, first:], 0.0)
+    frictions = record.friction.columns
+    # without frictions one half is found as the mirror of the other
+    if all(columns[JOINT] == NONE for columns in frictions):
+        round_off = 1e-15 * np.abs(matrix[first:last, :n]).max(initial=0.0) if len(frictions) else 0.0
+        np.testing.assert_allclose(matrix[:n, first:last], matrix[first:last, :n].T, rtol=0.0, atol=round_off)
+    for effort in apart(record, last):
+        np.testing.assert_array_equal(matrix[effort], np.arange(len(matrix)) == effort)
+
+
+def apart(record, first):
+    """Rows of the efforts of patches whose surfaces do not touch; `first` is that of the first effort."""
+    columns, coordinates = record.friction.columns, record.coordinates
+    for number, k in enumerate(record.residual.stiction):
+        if columns[k, MODEL] == PATCH and coordinates.value[columns[columns[k, FIRST], COORDINATE]] == 0.0:
+            yield first + number
 
 
 def coupled(record):
@@ -105,7 +128,7 @@ def coupled(record):
 def not_a_number_in_one_body_stays_within_what_is_coupled_to_it(here, rng):
     """NaN in the position, rotation or velocities of one body reaches only rows that the plan has for its unknowns."""
     record = residual_of(here)
-    known, n, states, rows = coupled(record), here.n, here.states, here.rows
+    known, n, states, rows = coupled(record), here.n, here.states, len(here.lam)
     for body in range(here.motion.system.body_count):
         for first, count in ((7 * body, 3), (7 * body + 3, 4), (here.positions + 6 * body, 6)):
             residual_of(here)

@@ -106,20 +106,25 @@ def transformation(rotations, phi):
 
 
 def explicit(motion, y, positions, states):
-    """Accelerations, rates and multipliers as explicit methods have them; of redundant machines the multipliers that the rows kept need."""
+    """Accelerations, rates and multipliers as explicit methods have them; of redundant machines the multipliers that the rows kept need.
+
+    The state is an accepted one: what holds stays near its efforts.
+    """
     status, rate = motion.evaluate(TIME, y)
     assert status == OK
     residual = motion.system.record.residual
     n = len(y) - positions - states - 2
     vdot, xdot = rate[positions : positions + n], rate[positions + n : positions + n + states]
     record = motion.system.record
+    record.friction.anchor[:] = record.friction.force
     lam = np.append(record.constraints.lam[residual.row], record.friction.force[residual.stiction])
-    if len(residual.row) < len(motion.system.record.saddle.row):
-        residual.y[:], residual.vdot[:], residual.lam[:] = y, vdot, 0.0
+    kept = len(residual.row)
+    if kept < len(record.saddle.row):
+        residual.y[:], residual.vdot[:], residual.lam[:kept], residual.lam[kept:] = y, vdot, 0.0, lam[kept:]
         assert evaluate_residual(motion, TIME) == OK
         value = residual.value[:n].copy()
         _, matrix = find_tangent(motion, TIME, *SHARES)
-        lam = -np.linalg.lstsq(matrix[:n, n + states :], value, rcond=None)[0]
+        lam[:kept] = -np.linalg.lstsq(matrix[:n, n + states : n + states + kept], value, rcond=None)[0]
     return {"vdot": vdot, "xdot": xdot, "lam": lam}
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import force_zoo
 import linked
 import machines
 import nivel
@@ -130,23 +131,42 @@ def test_frames_are_those_of_absolute_coordinates(name, rng):
     machine = MACHINES[name]()
     prepared = prepare(machine, "newton-euler", "relative")
     for y in random_states(prepared, rng):
-        motion, own = in_relative(machine, prepared, y)
-        expected = frame(prepared.absolute, y)
-        frame(prepared.absolute, prepared.assembly.y)
-        forget(motion)
-        got = frame(motion, own)
-        chosen = unique_columns(prepared)
-        largest = {
-            each.name: np.abs(expected[each.columns]).max(initial=0.0) for each in motion.system.layout.variables
-        }
-        # where no body can turn, angular accelerations are round-off of what the same forces accelerate
-        if largest["angular_acceleration"] < 1e-12 * largest["acceleration"]:
-            largest["angular_acceleration"] = largest["acceleration"]
-        for variable in motion.system.layout.variables:
-            columns = np.arange(variable.columns.start, variable.columns.stop)
-            columns = columns[chosen[columns]]
-            scale = 1.0 + largest[variable.name]
-            np.testing.assert_allclose(got[columns], expected[columns], atol=1e-9 * scale, err_msg=variable.name)
+        assert_frames_agree(machine, prepared, y)
+
+
+@pytest.mark.parametrize("name", [name for name, case in force_zoo.CASES.items() if "stick" in name and case.touches])
+def test_frames_of_surfaces_that_rub_are_those_of_absolute_coordinates(name, rng):
+    """The body is put where it touches; a state counts where friction has an effort."""
+    case = force_zoo.CASES[name]
+    machine = force_zoo.bed(case)
+    prepared = prepare(machine, "newton-euler", "relative")
+    body, other, offset = case.place
+    first, origin = (7 * prepared.absolute.system.bodies.index(each) if each else None for each in (body, other))
+    for y in random_states(prepared, rng, 10):
+        y[first : first + 3] = np.array(offset) + (0.0 if origin is None else y[origin : origin + 3])
+        if assert_frames_agree(machine, prepared, y).record.friction.force.any():
+            return
+    raise AssertionError(f"no state of {name} has an effort of friction")
+
+
+def assert_frames_agree(machine, prepared, y):
+    """The system in relative coordinates, whose frame in the state y is that of absolute ones."""
+    motion, own = in_relative(machine, prepared, y)
+    expected = frame(prepared.absolute, y)
+    frame(prepared.absolute, prepared.assembly.y)
+    forget(motion)
+    got = frame(motion, own)
+    chosen = unique_columns(prepared)
+    largest = {each.name: np.abs(expected[each.columns]).max(initial=0.0) for each in motion.system.layout.variables}
+    # where no body can turn, angular accelerations are round-off of what the same forces accelerate
+    if largest["angular_acceleration"] < 1e-12 * largest["acceleration"]:
+        largest["angular_acceleration"] = largest["acceleration"]
+    for variable in motion.system.layout.variables:
+        columns = np.arange(variable.columns.start, variable.columns.stop)
+        columns = columns[chosen[columns]]
+        scale = 1.0 + largest[variable.name]
+        np.testing.assert_allclose(got[columns], expected[columns], atol=1e-9 * scale, err_msg=variable.name)
+    return motion.system
 
 
 def test_zoo_has_every_carrier_both_ways_on_the_ground_and_between_bodies():

@@ -81,6 +81,9 @@ def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float |
     if plan.settings.steps == 0:
         message = f"`{plan.settings.integrator}` chooses its steps; live operation needs fixed ones, for instance of rk4 or ros2"
         raise ModelError(Fault("", 0, 0, "simulation.integrator", message))
+    if plan.is_open:
+        # the machine of the plan names what is chosen, so that a recording is replayed with it
+        plan, _ = fitted(plan, prepare(plan.methods), fixed=True)
     return plan, pace
 
 
@@ -136,5 +139,5 @@ def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
         if block.type == "fmu":
             message = "a machine with an FMU cannot be operated; `nivel run` and `machine.start()` in Python run it"
             raise ModelError(Fault("", 0, 0, f"control.{block.name}.file", message))
-    plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
+    prepared = prepare(plan.methods)
     return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

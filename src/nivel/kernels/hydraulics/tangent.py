@@ -13,11 +13,14 @@ from __future__ import annotations
 from nivel.kernels.hydraulics import load_signal, pipe, piston, restriction, rotary, spool
 from nivel.kernels.hydraulics.fluid import DENSITY
 from nivel.kernels.hydraulics.volume import GIVE, MASS, RATE, VALUE
+from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
-# numbers of families in `CircuitTangent.family`; a component states those of its families in `slopes` of its `ComponentKind`
+# Numbers of families in `CircuitTangent.family`; a component states those of its families in `slopes` of its `ComponentKind`. Families from
+# OTHERS on have a family of their own that adds their slopes; the addresses of these are the last ones of the hooks, in the same order.
 DISPLACE, GUIDE, PRESS, MOVE, LIFT, SIGNAL, SETTING, TURN, RESTRICT, PIPE = range(10)
+OTHERS = 10
 
 
 @leaf
@@ -76,3 +79,7 @@ def find_slopes(machine, t):
         restriction.add_slopes(machine, family[RESTRICT], t)
     if family[PIPE] != NONE:
         pipe.add_slopes(machine, family[PIPE])
+    address = record_at(machine).hooks.address
+    behind = address.shape[0] - family.shape[0]
+    for k in range(OTHERS, family.shape[0]):
+        call_family(address[behind + k], machine, family[k], t)

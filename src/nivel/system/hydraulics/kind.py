@@ -20,9 +20,9 @@ class ComponentKind:
 
     words : its record. add(builder, record) : gives the tables of a machine its numbers; None where its node is all there is of it.
     families : kernels that it may need, each with a phase (`nivel.kernels.hydraulics.phase`). symbol(data) : what is drawn of it, from its
-    record as JSON; None: a box with its type. slopes : its families with derivatives by hand, and their numbers in
-    `nivel.kernels.hydraulics.tangent`; None where some of its families have none, so that special integrators of circuits do not take
-    machines with it. nodes(builder, record, swept) : its nodes, those that its words name.
+    record as JSON; None: a box with its type. slopes : its families with derivatives by hand, and what adds these: a number in
+    `nivel.kernels.hydraulics.tangent`, or a family; None where some of its families have none, so that special integrators of circuits do
+    not take machines with it. nodes(builder, record, swept) : its nodes, those that its words name.
 
     Raises ValueError where a family states no phase, and where words name nodes that nothing makes.
     """
@@ -31,7 +31,7 @@ class ComponentKind:
     add: Callable[[SystemBuilder, Any], None] | None
     families: tuple[Family, ...]
     symbol: Callable[[Mapping[str, Any]], Symbol] | None = None
-    slopes: Mapping[Family, int] | None = None
+    slopes: Mapping[Family, int | Family] | None = None
     nodes: NodeMaker | None = None
 
     def __post_init__(self) -> None:

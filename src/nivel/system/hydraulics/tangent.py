@@ -10,32 +10,51 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.hydraulics import piston, rotary, spool, volume
+from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
-from nivel.kernels.record.record import NONE, Record
+from nivel.kernels.record.record import NONE, Hooks, Record
 from nivel.system.elimination.factor_plan import minimum_degree
 from nivel.system.hydraulics.circuit import tangent_tables
 from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.system import System
 
 Index = NDArray[np.uint32]
-NUMBERS: dict[Family, int] = {
-    family: number for kind in COMPONENTS.values() for family, number in (kind.slopes or {}).items()
-}
-DERIVED = tuple(sorted(NUMBERS, key=NUMBERS.__getitem__))  # the families with derivatives by hand
+# columns with the states that outputs of families are, at their first column
+STATES: dict[Family, int] = {spool.move: spool.STATE, spool.lift: spool.STATE, rotary.set_displacement: rotary.STATE}
+# and with the coordinates on which families act
+COORDINATES: dict[Family, int] = {piston.guide: piston.COORDINATE, rotary.turn: rotary.COORDINATE}
+
+
+def slopes_by_family() -> dict[Family, int | Family]:
+    """What adds the slopes of each family with derivatives by hand."""
+    return {family: adding for kind in COMPONENTS.values() for family, adding in (kind.slopes or {}).items()}
 
 
 def with_circuit_tangent(system: System) -> System:
     """The system with room for the derivatives of its circuits, in relative coordinates."""
-    circuit = system.record.circuit._replace(tangent=_tables(system))
-    return replace(system, record=system.record._replace(circuit=circuit))
-
-
-def _tables(system: System) -> CircuitTangent:
     record = system.record
-    family = _families(record)
+    adding = slopes_by_family()
+    own = [FAMILIES[int(address)] for address in record.elements.address]
+    numbered = np.full(OTHERS, NONE, dtype=np.uint32)
+    others: list[tuple[int, int]] = []
+    for number, family in enumerate(own):
+        slopes = adding.get(family)
+        if isinstance(slopes, Family):
+            others.append((number, slopes.address))
+        elif slopes is not None:
+            numbered[slopes] = number
+    numbers = np.array([*numbered, *(number for number, _ in others)], dtype=np.uint32)
+    address = np.array([*record.hooks.address, *(address for _, address in others)], dtype=np.uint64)
+    circuit = record.circuit._replace(tangent=_tables(system, numbers))
+    return replace(system, record=record._replace(circuit=circuit, hooks=Hooks(address)))
+
+
+def _tables(system: System, family: Index) -> CircuitTangent:
+    """family : as in `CircuitTangent`."""
+    record = system.record
     state = _in_order(system)
-    coordinate = np.unique([q for q in _coordinates(record, family) if q != NONE]).astype(np.uint32)
+    coordinate = np.unique([q for q in _coordinates(record) if q != NONE]).astype(np.uint32)
     unknown = _numbers(state, len(record.elements.state))
     return tangent_tables(
         family,
@@ -44,15 +63,9 @@ def _tables(system: System) -> CircuitTangent:
         coordinate,
         _numbers(coordinate, len(record.coordinates.what)),
         _signals(record, unknown),
-        _sources(record, family, unknown),
+        _sources(record, unknown),
         len(record.tree.column),
     )
-
-
-def _families(record: Record) -> Index:
-    """Number of each of DERIVED among those of the machine, or NONE."""
-    own = [FAMILIES[int(address)] for address in record.elements.address]
-    return np.array([own.index(each) if each in own else NONE for each in DERIVED], dtype=np.uint32)
 
 
 def _in_order(system: System) -> Index:
@@ -69,17 +82,18 @@ def _in_order(system: System) -> Index:
     return np.array([own[k] for k in order], dtype=np.uint32)
 
 
-def _rows(record: Record, number: int) -> Iterator[tuple[int, list[int]]]:
-    """Number and columns of each element of a family; none where that is NONE."""
-    if number != NONE:
-        for k in range(*record.elements.span[number].tolist()):
+def _rows(record: Record, family: Family) -> Iterator[tuple[int, list[int]]]:
+    """Number and columns of each element of a family; none where the machine does not have it."""
+    own = [FAMILIES[int(address)] for address in record.elements.address]
+    if family in own:
+        for k in range(*record.elements.span[own.index(family)].tolist()):
             yield k, record.elements.columns[k].tolist()
 
 
-def _coordinates(record: Record, family: Index) -> Iterator[int]:
+def _coordinates(record: Record) -> Iterator[int]:
     """Those on which pistons and motors act."""
-    for each, column in ((piston.guide, piston.COORDINATE), (rotary.turn, rotary.COORDINATE)):
-        for _, columns in _rows(record, family[DERIVED.index(each)]):
+    for each, column in COORDINATES.items():
+        for _, columns in _rows(record, each):
             yield columns[column]
 
 
@@ -93,19 +107,17 @@ def _numbers(chosen: Index, count: int) -> Index:
 def _signals(record: Record, unknown: Index) -> Index:
     """Of each node that is a signal the number of its state."""
     out = np.full(len(record.circuit.node), NONE, dtype=np.uint32)
-    own = [FAMILIES[int(address)] for address in record.elements.address].index(volume.apply)
-    for _, columns in _rows(record, own):
+    for _, columns in _rows(record, volume.apply):
         if columns[volume.KIND] == volume.SIGNAL:
             out[columns[volume.NODE]] = unknown[columns[volume.STATE]]
     return out
 
 
-def _sources(record: Record, family: Index, unknown: Index) -> Index:
+def _sources(record: Record, unknown: Index) -> Index:
     """Of each output that is a position or a setting its state, or the poppet whose pressures give it."""
     out = np.full((len(record.outputs.value), 2), NONE, dtype=np.uint32)
-    states = ((spool.move, spool.STATE), (spool.lift, spool.STATE), (rotary.set_displacement, rotary.STATE))
-    for each, column in states:
-        for k, columns in _rows(record, family[DERIVED.index(each)]):
+    for each, column in STATES.items():
+        for k, columns in _rows(record, each):
             if columns[column] != NONE:
                 out[columns[0], 0] = unknown[columns[column]]
             elif each is spool.lift:

@@ -64,6 +64,19 @@ def read_csv_tables(tree: Tree, sources: Sources) -> None:
                     tree.broken.add(path)
 
 
+def column_values(content: str | bytes, file: str, column: object, units: object) -> list[Any]:
+    """The numbers of one column, as of a table. Raises CsvError."""
+    given = _Rows(content, least=1) if isinstance(content, str) else _Measured(content, file)
+    name = given.names[0] if column is None and len(given.names) == 1 else column
+    if name is None:
+        listing = ", ".join(f"`{each}`" for each in given.names)
+        raise CsvError(f"`column` is missing: `{file}` has {listing}")
+    if name not in given.names:
+        raise CsvError(f"in `{file}`, {unknown_word(str(name), given.names, 'column')}", "column")
+    (found,) = given.columns(str(name))
+    return _with_units(found, units, "units")
+
+
 def _tables(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
     """Every mapping under `value` that names a CSV file."""
     if isinstance(value, dict):
@@ -120,13 +133,14 @@ def _fill(table: dict[str, Any], content: str | bytes, file: str) -> None:
 class _Rows:
     """The rows of a CSV file. Raises CsvError."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, least: int = 2) -> None:
         heading = next((line for line in text.splitlines() if line.strip()), "")
         self.text, self.delimiter = text, max(",;\t", key=heading.count)
         rows = self._rows()
         self.line, head = next(rows, (0, []))
-        if len(head) < 2 or next(rows, None) is None:
-            raise CsvError("a heading with two columns or more, separated by commas, and rows of numbers were expected")
+        if len(head) < least or next(rows, None) is None:
+            columns = "two columns or more, separated by commas," if least > 1 else "names of columns"
+            raise CsvError(f"a heading with {columns} and rows of numbers were expected")
         self.names: list[str] = []
         self.units: list[str] = []
         for each in head:

@@ -19,6 +19,12 @@ def read_python_laws(tree: Tree, sources: Sources) -> None:
             _read(tree, sources, path, law)
 
 
+def read_python_code(tree: Tree, sources: Sources, section: str, what: str) -> None:
+    """The same for all mappings of one section of another file; `what` they are is said where code is not allowed."""
+    for path, given in list(_laws(tree.data.get(section), (section,))):
+        _read(tree, sources, path, given, what)
+
+
 def _laws(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
     """Every mapping under `value` that holds Python code or names a file of it."""
     if isinstance(value, dict):
@@ -31,16 +37,16 @@ def _laws(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
             yield from _laws(entry, (*path, at))
 
 
-def _read(tree: Tree, sources: Sources, path: Path, law: dict[str, Any]) -> None:
+def _read(tree: Tree, sources: Sources, path: Path, law: dict[str, Any], what: str = "law") -> None:
     if "source" in law:
         if "python" in law:
             tree.report((*path, "python"), "give `python` (a file) or `source` (its text), not both", at_key=True)
         elif not sources.allow_code:
-            _refuse(tree, (*path, "source"), "its `source`")
+            _refuse(tree, (*path, "source"), what, "its `source`")
         return
     given = law["python"]
     if not sources.allow_code:
-        _refuse(tree, (*path, "python"), str(given) if isinstance(given, str) else "a file")
+        _refuse(tree, (*path, "python"), what, str(given) if isinstance(given, str) else "a file")
         return
     found = sources.text(tree, (*path, "python"), given)
     if found is None:
@@ -52,8 +58,8 @@ def _read(tree: Tree, sources: Sources, path: Path, law: dict[str, Any]) -> None
         _move(tree, (*path, "python"), (*path, place))
 
 
-def _refuse(tree: Tree, path: Path, where: str) -> None:
-    tree.report(path, f"this law runs Python code from {where}; say --allow-code if you trust it")
+def _refuse(tree: Tree, path: Path, what: str, where: str) -> None:
+    tree.report(path, f"this {what} runs Python code from {where}; say --allow-code if you trust it")
     tree.broken.add(path[:-1])
 
 

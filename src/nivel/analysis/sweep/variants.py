@@ -1,22 +1,27 @@
-"""The variants of a sweep: which values each has, and how they are laid out along the dimensions of the results."""
+"""The variants of a study: which values each has, and how they are laid out along the dimensions of the results."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
+from nivel.analysis.sweep.quantiles import Distribution, quantiles
 from nivel.errors import Fault, ModelError
-from nivel.machine.units.quantity import ANY, read_quantity
-from nivel.machine.units.tree import ExpressionError
+from nivel.machine.settings.values import settings_of
+from nivel.machine.study import DRAWN, SOBOL_INDICES
+from nivel.machine.study.any_quantity import si_or_text
+from nivel.machine.study.parameter import Range, Uniform, Values
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
-ROW = "variant"
-MOST = 1_000_000
+ROW: Final = "variant"
+MOST: Final = 1_000_000
+
+Parameters = Mapping[str, Distribution]
 
 
 @dataclass(frozen=True)
@@ -32,72 +37,122 @@ class Variants:
     coordinates: Mapping[str, tuple[str, tuple[Any, ...]]]
 
 
-def lay_out(values: Mapping[str, Any], combine: str, samples: int | None, seed: int) -> Variants:
-    """The variants of `machine.sweep`. Raises ModelError with everything that is wrong with the values."""
-    if not values:
+def draw(parameters: Parameters, design: str, samples: int | None, seed: int) -> Variants:
+    """The variants of a design. parameters : by path, nominal values put in; of a grid and of rows those with values one by one.
+
+    Raises ModelError where nothing varies, or there are more than MOST variants.
+    """
+    if not parameters:
         raise ModelError(
-            Fault("", 0, 0, "values", "nothing varies: give values by path, {'bodies.rod.mass': [1, 2, 3]}")
+            Fault("", 0, 0, "parameters", "nothing varies: give values by path, {'bodies.rod.mass': [1, 2, 3]}")
         )
-    if samples is not None:
-        return _rows(_sampled(values, samples, seed))
-    lists = _lists(values)
-    if combine == "rows":
-        return _rows(lists)
-    count = int(np.prod([len(each) for each in lists.values()]))
+    count = _count(parameters, design, samples)
     if count > MOST:
-        raise ModelError(Fault("", 0, 0, "values", f"this grid has {count} variants; at most {MOST} are run"))
+        message = f"this design has {count} variants; at most {MOST} are run"
+        raise ModelError(Fault("", 0, 0, "parameters", message))
+    if design in DRAWN:
+        shares = _shares(design, samples or 1, len(parameters), seed)
+        return _rows({path: quantiles(each, shares[:, k]) for k, (path, each) in enumerate(parameters.items())})
+    lists = {path: _listed(each) for path, each in parameters.items()}
+    if design == "rows":
+        return _rows(lists)
     rows = tuple(dict(zip(lists, each, strict=True)) for each in product(*lists.values()))
     shape = tuple(len(each) for each in lists.values())
     return Variants(rows, tuple(lists), shape, {path: (path, _si(each)) for path, each in lists.items()})
 
 
-def _lists(values: Mapping[str, Any]) -> dict[str, list[Any]]:
-    lists, faults = {}, []
+def _count(parameters: Parameters, design: str, samples: int | None) -> int:
+    if design == SOBOL_INDICES:
+        return (samples or 1) * (len(parameters) + 2)
+    if design in DRAWN:
+        return samples or 1
+    lengths = [len(_listed(each)) for each in parameters.values()]
+    return lengths[0] if design == "rows" else int(np.prod(np.array(lengths, dtype=float)))
+
+
+def _listed(parameter: Distribution) -> list[Any]:
+    if isinstance(parameter, Values):
+        return list(parameter.values)
+    assert isinstance(parameter, Range)  # others are refused by the record
+    return quantiles(parameter, np.linspace(0.0, 1.0, parameter.count or 1))
+
+
+def _shares(design: str, samples: int, count: int, seed: int) -> np.ndarray[Any, Any]:
+    """(variants, count) between 0 and 1.
+
+    For Sobol indices the samples A, then B, then for each parameter A with the column of B (Saltelli et al. 2010).
+    """
+    if design == "random":
+        return np.random.default_rng(seed).random((samples, count))
+    from scipy.stats import qmc
+
+    if design == "latin-hypercube":
+        return qmc.LatinHypercube(count, rng=np.random.default_rng(seed)).random(samples)
+    if design == "sobol":
+        return qmc.Sobol(count, rng=np.random.default_rng(seed)).random(samples)
+    both = qmc.Sobol(2 * count, rng=np.random.default_rng(seed)).random(samples)
+    first, second = both[:, :count], both[:, count:]
+    mixed = [np.where(np.arange(count) == k, second, first) for k in range(count)]
+    return np.concatenate([first, second, *mixed])
+
+
+def lay_out(values: Mapping[str, Any], combine: str, samples: int | None, seed: int) -> Variants:
+    """The variants of `machine.sweep`. Raises ModelError with everything that is wrong with the values."""
+    if samples is None:
+        return draw(_lists(values, combine), combine, None, seed)
+    return draw(_distributions(values), "latin-hypercube", samples, seed)
+
+
+def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
+    lists: dict[str, Distribution] = {}
+    faults: list[Fault] = []
     for path, given in values.items():
         each = given.tolist() if getattr(given, "ndim", 0) == 1 else given
         if isinstance(each, str) or not isinstance(each, Sequence) or not len(each):
             got = "an empty list" if isinstance(each, Sequence) and not len(each) else shown(given)
             faults.append(Fault("", 0, 0, path, f"a list of values was expected, got {got}"))
         else:
-            lists[path] = [plain(value) for value in each]
+            lists[path] = Values.model_construct(values=tuple(plain(value) for value in each))
     if faults:
         raise ModelError(faults)
+    lengths = {path: len(_listed(each)) for path, each in lists.items()}
+    if combine == "rows" and len(set(lengths.values())) > 1:
+        listed = ", ".join(f"{count} of `{path}`" for path, count in lengths.items())
+        raise ModelError(Fault("", 0, 0, "values", f"combine='rows' needs lists of one length; there are {listed}"))
     return lists
 
 
-def _rows(lists: Mapping[str, list[Any]]) -> Variants:
+def _distributions(values: Mapping[str, Any]) -> Parameters:
+    """Two bounds, or a distribution of SciPy."""
+    found: dict[str, Distribution] = {}
+    faults: list[Fault] = []
+    for path, given in values.items():
+        if callable(getattr(given, "ppf", None)):
+            found[path] = given
+            continue
+        try:
+            low, high = given
+        except (TypeError, ValueError):
+            message = f"with `samples`, two bounds (1, 3) or a distribution of SciPy were expected, got {shown(given)}"
+            faults.append(Fault("", 0, 0, path, message))
+            continue
+        try:
+            found[path] = settings_of(Uniform, path, {"type": "uniform", "low": low, "high": high})
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+    return found
+
+
+def _rows(lists: Mapping[str, Sequence[Any]]) -> Variants:
     """Variants that take the first of all lists, the second of all, and so on."""
-    lengths = {path: len(each) for path, each in lists.items()}
-    if len(set(lengths.values())) > 1:
-        listed = ", ".join(f"{count} of `{path}`" for path, count in lengths.items())
-        raise ModelError(Fault("", 0, 0, "values", f"combine='rows' needs lists of one length; there are {listed}"))
-    (count,) = set(lengths.values())
+    count = len(next(iter(lists.values())))
     rows = tuple({path: each[k] for path, each in lists.items()} for k in range(count))
     return Variants(rows, (ROW,), (count,), {path: (ROW, _si(each)) for path, each in lists.items()})
 
 
 def _si(values: Sequence[Any]) -> tuple[Any, ...]:
     """Values as coordinates: numbers in SI units where all of them can be read as such, else texts."""
-    try:
-        return tuple(read_quantity(value, ANY, {}) for value in values)
-    except (ExpressionError, TypeError):
-        return tuple(str(value) for value in values)
-
-
-def _sampled(values: Mapping[str, Any], samples: int, seed: int) -> dict[str, list[Any]]:
-    """A Latin hypercube (McKay, Beckman & Conover 1979) between two bounds, or over distributions that have `ppf`, as those of SciPy."""
-    from scipy.stats import qmc
-
-    shares = qmc.LatinHypercube(len(values), rng=np.random.default_rng(seed)).random(samples)
-    return {path: _at(path, given, shares[:, k]) for k, (path, given) in enumerate(values.items())}
-
-
-def _at(path: str, given: Any, shares: Any) -> list[float]:
-    if callable(getattr(given, "ppf", None)):
-        return [float(value) for value in given.ppf(shares)]
-    try:
-        low, high = (read_quantity(value, ANY, {}) for value in given)
-    except (ExpressionError, TypeError, ValueError):
-        message = f"with `samples`, two bounds (1, 3) or a distribution of SciPy were expected, got {shown(given)}"
-        raise ModelError(Fault("", 0, 0, path, message)) from None
-    return [float(value) for value in low + (high - low) * shares]
+    found = tuple(si_or_text(value) for value in values)
+    return found if not any(isinstance(each, str) for each in found) else tuple(str(value) for value in values)

@@ -1,0 +1,150 @@
+"""A study held against its machine: nominal values put in, and everything that does not fit told at its place in the study file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from nivel.analysis.sweep.quantiles import Distribution
+from nivel.errors import Fault, ModelError
+from nivel.files.origin import OUTSIDE
+from nivel.files.sources import beside
+from nivel.files.study_file import StudyFile
+from nivel.machine.settings.values import settings_of
+from nivel.machine.study import StudyParameter
+from nivel.machine.study.analyses import SETTINGS
+from nivel.machine.study.any_quantity import dimension_of, si
+from nivel.machine.study.parameter import Values
+from nivel.machine.units.dimension import symbol
+from nivel.model import Model
+from nivel.words.wording import shown
+
+OF_FILES = ("motion", "trajectory")  # settings that name files, seen from the folder of the study
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """A study with its machine.
+
+    machine : with the values of `set`, and of a run with its settings. parameters : by path, nominal values put in. settings : of the
+    analysis; of a run none, as the machine has them.
+    """
+
+    study: StudyFile
+    machine: Model
+    parameters: Mapping[str, Distribution]
+    settings: Mapping[str, Any]
+
+
+def resolve(study: StudyFile, machine: Model) -> Resolved:
+    """The study of this `machine`, as its file has it. Raises ModelError with everything that does not fit."""
+    faults: list[Fault] = []
+    record = study.record
+    machine = _with_fixed(study, machine, faults)
+    parameters: dict[str, Distribution] = {}
+    for path, parameter in record.parameters.items():
+        try:
+            known = _with_nominal(study, machine, path, parameter)
+            _check(study, machine, path, known)
+            parameters[path] = known
+        except ModelError as error:
+            faults += error.faults
+    settings = {name: _file(study, value) if name in OF_FILES else value for name, value in record.settings.items()}
+    try:
+        if record.analysis == "run":
+            machine, settings = machine.with_settings(settings), {}
+        else:
+            _check_settings(machine, record.analysis, settings)
+    except ModelError as error:
+        faults += _of_settings(study, error)
+    if faults:
+        raise ModelError(faults)
+    return Resolved(study, machine, parameters, settings)
+
+
+def _with_fixed(study: StudyFile, machine: Model, faults: list[Fault]) -> Model:
+    """The machine with the values of `set`."""
+    values = study.record.values
+    if not values:
+        return machine
+    try:
+        return machine.with_values(values)
+    except ModelError as error:
+        for fault in error.faults:
+            near = next((path for path in values if fault.path.endswith(path) or path.endswith(fault.path)), None)
+            faults.append(study.fault(("set",) if near is None else ("set", near), _said(fault)))
+    return machine
+
+
+def _with_nominal(study: StudyFile, machine: Model, path: str, parameter: StudyParameter) -> StudyParameter:
+    if isinstance(parameter, Values) or not parameter.needs_nominal:
+        return parameter
+    place = ("parameters", path)
+    try:
+        value = machine[path]
+    except ModelError as error:
+        raise ModelError([study.fault(place, each.message, at_key=True) for each in error.faults]) from None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        key = "mean" if "mean" in type(parameter).model_fields else "nominal"
+        message = f"the machine file has no number there, but {shown(value)}; write `{key}`"
+        raise ModelError(study.fault(place, message))
+    return parameter.with_nominal(float(value))
+
+
+def _check(study: StudyFile, machine: Model, path: str, parameter: StudyParameter) -> None:
+    """Raise ModelError where the machine has no such path, or it measures something else."""
+    place = ("parameters", path)
+    probe = Probe("values", parameter.values[0]) if isinstance(parameter, Values) else _probe(parameter)
+    try:
+        machine.with_values({path: probe.value})
+    except ModelError as error:
+        at = (*place, probe.key) if (*place, probe.key) in study.tree.places else place
+        said = (_said(each).replace(f"`{probe.value}`", f"`{probe.written}`") for each in error.faults)
+        raise ModelError([study.fault(at, each) for each in said]) from None
+
+
+class Probe(NamedTuple):
+    """A value inside the bounds, in the unit that a quantity is written with, and that quantity with its key."""
+
+    key: str
+    value: Any
+    written: Any = ""
+
+
+def _probe(parameter: Any) -> Probe:
+    value = _inside(parameter)
+    for name, given in parameter.given.items():
+        if (its := dimension_of(given)) is not None:
+            field = type(parameter).model_fields.get(name)
+            key = "tolerance" if field is None else field.alias or name
+            return Probe(key, given if si(given) == value else f"{value!r} {symbol(its)}", given)
+    return Probe("type", value)
+
+
+def _inside(parameter: Any) -> float:
+    for name in ("nominal", "mean", "low"):
+        if getattr(parameter, name, None) is not None:
+            return si(getattr(parameter, name))
+    return parameter.bounds[0]
+
+
+def _check_settings(machine: Model, analysis: str, settings: Mapping[str, Any]) -> None:
+    """Raise ModelError where the analysis has no such settings."""
+    own = {"duration": machine.simulation.duration} if analysis == "statics" else {}
+    settings_of(SETTINGS[analysis], "settings", {**own, **settings})
+
+
+def _of_settings(study: StudyFile, error: ModelError) -> Iterator[Fault]:
+    for fault in error.faults:
+        name = fault.path.removeprefix("settings.").removeprefix("simulation.").split(".")[0]
+        yield study.fault(("settings", name) if name in study.record.settings else ("settings",), _said(fault))
+
+
+def _file(study: StudyFile, value: Any) -> Any:
+    return beside(study.file, value) if isinstance(value, str) else value
+
+
+def _said(fault: Fault) -> str:
+    """The message without the remark that its value does not stand in the machine file."""
+    return fault.message.removesuffix(OUTSIDE)

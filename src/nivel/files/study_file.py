@@ -1,0 +1,137 @@
+"""Study files: from YAML to a StudyRecord, with every fault and its place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import Any, Final
+
+from pydantic import ValidationError
+
+from nivel.errors import Fault, ModelError
+from nivel.files.csv_tables import CsvError, column_values
+from nivel.files.measured_file import KINDS
+from nivel.files.outline import other_format
+from nivel.files.overrides import override
+from nivel.files.python_laws import read_python_code
+from nivel.files.sources import Sources, beside, read_text
+from nivel.files.tree import Path, Tree, read_tree
+from nivel.machine.core.record import field_words
+from nivel.machine.study import StudyRecord
+from nivel.machine.units.quantity import FAULT, shown
+
+FORMAT: Final = 1
+TOP_WORDS: Final = ("format", *field_words(StudyRecord))
+EXAMPLE: Final = "a mapping with `format: 1` and `machine: FILE.yaml` was expected"
+
+
+@dataclass(frozen=True)
+class StudyFile:
+    """A study as it was read, and where everything stands in its file.
+
+    file : its name. text : what stands in it. allow_code : whether its functions, and those of its machine, may be run.
+    """
+
+    record: StudyRecord
+    tree: Tree
+    file: str
+    text: str
+    allow_code: bool = False
+
+    @property
+    def machine_file(self) -> str:
+        """Name of the machine file."""
+        return beside(self.file, self.record.machine)
+
+    def fault(self, path: Path, message: str, *, at_key: bool = False) -> Fault:
+        """`message` with the place of `path`, such as ``("parameters", "bodies.rod.mass", "from")``, in the file."""
+        return self.tree.fault(path, message, at_key=at_key)
+
+    def placed(self, path: Path, faults: Iterable[Fault]) -> list[Fault]:
+        """Faults of the machine with what stands at `path`, told there, with what the machine's reader says of them."""
+        return [self.fault(path, each.message) for each in faults]
+
+
+def read_study(
+    path: str | FilePath, *, overrides: Mapping[str, object] | None = None, allow_code: bool = False
+) -> StudyFile:
+    """The study in the YAML file at `path`. `overrides`: values by path, e.g. ``{"samples": 256}``.
+
+    allow_code : outputs may be Python functions, which run with all your rights. Raises ModelError with everything that is wrong in the
+    file itself, each with file, line and column; its machine is not read.
+    """
+    return parse_study(read_text(path), str(path), overrides=overrides, allow_code=allow_code)
+
+
+def parse_study(
+    text: str,
+    file: str = "study.yaml",
+    *,
+    overrides: Mapping[str, object] | None = None,
+    allow_code: bool = False,
+) -> StudyFile:
+    """The study in the YAML `text`; files that it names are seen from the folder of `file`. Raises ModelError."""
+    tree = read_tree(text, file)
+    if not isinstance(tree.data, dict):
+        what = "the file is empty" if tree.data is None else f"got {shown(tree.data)}"
+        raise ModelError([*tree.faults, Fault(file, 1, 1, "", f"{EXAMPLE}; {what}")])
+    if "bodies" in tree.data or "joints" in tree.data:
+        message = (
+            f"this is a machine, not a study: `nivel run {file}` simulates it; a study names it, as `machine: {file}`"
+        )
+        raise ModelError([*tree.faults, tree.fault((), message)])
+    override(tree, overrides or {}, words=TOP_WORDS)
+    _check_format(tree)
+    sources = Sources(allow_code).inside(file)
+    read_python_code(tree, sources, "outputs", "output")
+    _read_columns(tree, sources)
+    data = {"name": FilePath(file).stem.removesuffix(".study") or "study", **tree.data}
+    try:
+        record = StudyRecord.model_validate(data)
+    except ValidationError as error:
+        for line in error.errors(include_url=False):
+            place = line["loc"]
+            if line["type"] == FAULT and not tree.is_broken(place):
+                tree.faults.append(tree.fault(place, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        raise ModelError(tree.faults) from None
+    if tree.faults:
+        raise ModelError(tree.faults)
+    return StudyFile(record, tree, file, text, allow_code)
+
+
+def _check_format(tree: Tree) -> None:
+    if "format" not in tree.data:
+        tree.faults.append(tree.fault((), f"`format: {FORMAT}` is missing"))
+        return
+    given = tree.data.pop("format")
+    if given != FORMAT or isinstance(given, bool):
+        raise ModelError([*tree.faults, tree.fault(("format",), other_format(given, FORMAT))])
+
+
+def _read_columns(tree: Tree, sources: Sources) -> None:
+    """Put the column of `csv: table.csv` into each parameter, as `values`. Faults go to `tree.faults`."""
+    parameters = tree.data.get("parameters")
+    for name, given in parameters.items() if isinstance(parameters, dict) else ():
+        path = ("parameters", name)
+        if not isinstance(given, dict) or "csv" not in given:
+            continue
+        if "values" in given:
+            tree.report((*path, "csv"), "give `values` or `csv`, not both", at_key=True)
+            continue
+        binary = str(given["csv"]).lower().endswith(KINDS)
+        found = (sources.content if binary else sources.text)(tree, (*path, "csv"), given["csv"])
+        if found is None:
+            tree.broken.add(path)
+            continue
+        try:
+            values: list[Any] = column_values(*found, given.get("column"), given.get("units"))
+        except CsvError as problem:
+            if problem.line:
+                tree.faults.append(Fault(found[1], problem.line, 1, ".".join(path), str(problem)))
+            else:
+                tree.report((*path, problem.key), str(problem))
+            tree.broken.add(path)
+            continue
+        given["values"] = values
+        tree.places[(*path, "values")] = tree.places[(*path, "csv")]

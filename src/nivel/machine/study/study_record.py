@@ -1,0 +1,107 @@
+"""A study: a machine, what varies, how variants are drawn, the analysis that each is, and what is kept of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Final, Literal
+
+from pydantic import BeforeValidator
+
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.record import NAME
+from nivel.machine.given import Field, Maybe
+from nivel.machine.settings.sweep import Count
+from nivel.machine.settings.values import Names
+from nivel.machine.study.output import Output
+from nivel.machine.study.parameter import Range, StudyParameter, Values
+from nivel.machine.units.quantity import Duration, Whole, fault
+from nivel.words.wording import shown
+
+Analysis = Literal["run", "statics", "kinematics", "linearise", "inverse"]
+Design = Literal["grid", "rows", "random", "latin-hypercube", "sobol", "sobol-indices"]
+ANALYSES: Final = ("run", "statics", "kinematics", "linearise", "inverse")
+DRAWN: Final = ("random", "latin-hypercube", "sobol", "sobol-indices")  # designs that take `samples`
+SOBOL_INDICES: Final = "sobol-indices"
+QUASI_RANDOM: Final = ("sobol", SOBOL_INDICES)  # of which samples are powers of two
+
+
+def _named(value: Any) -> Any:
+    """Names of outputs are names of variables in the dataset."""
+    for name in value if isinstance(value, Mapping) else ():
+        if not isinstance(name, str) or not NAME.fullmatch(name):
+            raise fault(
+                f"{shown(name)} is not a name: a name starts with a letter and has letters, digits, `-` and `_`"
+            )
+    return value
+
+
+class StudyRecord(Checked):
+    """A study of one machine."""
+
+    tagged: ClassVar[Mapping[str, int]] = {"parameters": 2, "outputs": 2}
+
+    name: str = Field(default="study", description="name of the study", absent="that of its file")
+    description: str = Field(default="", description="what the study is for")
+    machine: str = Field(description="machine file, beside the study file")
+    values: Mapping[str, Any] = Field(
+        default={}, key="set", description="values of the machine file by path that all variants have"
+    )
+    parameters: Mapping[str, StudyParameter] = Field(
+        default={}, description="what varies, by path in the machine file, such as bodies.crank.mass"
+    )
+    design: Design = Field(
+        default="grid",
+        description="grid: every value with every other; rows: the first of all lists, the second of all; or drawn at random, "
+        "from a Latin hypercube, from Sobol's sequence, or for Sobol indices",
+    )
+    samples: Count | None = Field(
+        default=None, description="number of variants that are drawn; for Sobol indices of base samples"
+    )
+    seed: Whole = Field(default=0, description="seed of what is drawn")
+    analysis: Analysis = Field(default="run", description="what is computed of each variant")
+    settings: Mapping[str, Any] = Field(
+        default={}, description="settings of the analysis, as the options of its command, with _ for -"
+    )
+    outputs: Annotated[Mapping[str, Output], BeforeValidator(_named)] = Field(
+        default={}, description="numbers of each variant, by name"
+    )
+    save: Names = Field(default=(), description="names of results of which the whole history is kept")
+    verify: bool = Field(default=False, description="a second run beside each variant, to estimate its error")
+    time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
+
+    def problems(self) -> Iterator[Problem]:
+        """Designs that do not go with what varies."""
+        drawn = self.design in DRAWN
+        if drawn and self.samples is None:
+            yield Problem(("design",), f"`design: {self.design}` needs the number of variants: write `samples: 128`")
+        if not drawn and self.samples is not None:
+            yield Problem(("samples",), f"`design: {self.design}` takes all values; write `design: latin-hypercube`")
+        if self.design in QUASI_RANDOM and self.samples is not None and self.samples & (self.samples - 1):
+            near = 1 << (self.samples - 1).bit_length()
+            yield Problem(
+                ("samples",), f"Sobol's sequence needs a power of two, got `{self.samples}`; write `samples: {near}`"
+            )
+        if not drawn:
+            yield from self._without_values()
+        if self.verify and self.analysis not in ("run", "statics"):
+            yield Problem(("verify",), f"`{self.analysis}` makes no second run; its trust report has other checks")
+
+    def _without_values(self) -> Iterator[Problem]:
+        counts: dict[str, int] = {}
+        for path, each in self.parameters.items():
+            if isinstance(each, Values):
+                counts[path] = len(each.values)
+            elif isinstance(each, Range) and each.count is not None:
+                counts[path] = each.count
+            elif isinstance(each, Range):
+                message = f"`design: {self.design}` needs the number of values: write `count: 5`"
+                yield Problem(("parameters", path), message)
+            else:
+                message = (
+                    f"`design: {self.design}` takes values one by one: write `{{type: range, from: …, to: …, count: 5}}`, "
+                    "or `design: latin-hypercube` with `samples`"
+                )
+                yield Problem(("parameters", path, "type"), message)
+        if self.design == "rows" and len(set(counts.values())) > 1:
+            told = ", ".join(f"{count} of `{path}`" for path, count in counts.items())
+            yield Problem(("design",), f"`design: rows` needs lists of one length; there are {told}")

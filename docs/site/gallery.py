@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+import runpy
 import shutil
+import subprocess
 import tempfile
+from contextlib import suppress
 from itertools import dropwhile, takewhile
 from pathlib import Path
 
@@ -45,6 +48,9 @@ def with_bodies(folder: Path) -> Path:
             write_body(reduce(path, overrides=changes).body, path.with_suffix(".nc"))
         except nivel.NivelError as error:
             print(f"gallery: no picture of machines with {model}: {error}")
+    with suppress(OSError, subprocess.CalledProcessError):  # where there is no C compiler, its machine has no picture
+        made = runpy.run_path(str(copy / "exchange" / "build_controller.py"))
+        made["build"](copy / "exchange" / "controller.fmu")
     return copy
 
 

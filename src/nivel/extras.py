@@ -20,6 +20,7 @@ class Library(NamedTuple):
 
 LIBRARIES: Final = {
     "control": Library("python-control", "control"),
+    "gymnasium": Library("gymnasium", "gym"),
     "gmsh": Library("gmsh", "flex"),
     "imageio_ffmpeg": Library("ffmpeg", "film"),
     "matplotlib": Library("matplotlib", "plot"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
@@ -47,6 +47,7 @@ from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.signals.fmu import output
 from nivel.machine.machine_record import MachineRecord
+from nivel.results.frames.csv_table import columns
 from nivel.results.frames.occurrence import Occurrence
 from nivel.results.memory import Memory, MemoryContents
 from nivel.results.result import Result
@@ -154,6 +155,11 @@ class Simulation:
     def time(self) -> float:
         """[s]"""
         return self._clock[TIME]
+
+    @property
+    def step_size(self) -> float:
+        """[s]"""
+        return self._step
 
     @property
     def steps(self) -> int:
@@ -280,6 +286,10 @@ class Simulation:
     def names(self) -> tuple[str, ...]:
         """Everything that can be asked for."""
         return self._now.names
+
+    def components(self, names: Sequence[str]) -> tuple[str, ...]:
+        """The names of the single numbers that these names stand for: `bob.position` for three. Raises ModelError."""
+        return tuple(columns(self._now, names))
 
     @property
     def scene(self) -> dict[str, Any]:

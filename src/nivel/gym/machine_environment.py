@@ -1,0 +1,202 @@
+"""A machine as an environment: actions set its inputs, observations are numbers of its results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+
+from nivel.analysis.run.stepping import Simulation, Snapshot
+from nivel.api import Machine
+from nivel.errors import Fault, ModelError, SolveError
+from nivel.gym.reward import reward_of
+from nivel.machine.units.quantity import expression_fault, read_quantity
+from nivel.machine.units.tree import ExpressionError
+from nivel.results.result import Result
+from nivel.words.wording import shown, unknown_word
+
+USUAL = ("joint_coordinate", "joint_rate")
+VALUES = "values"  # of the options of `reset`
+# share of a step by which a time between actions may miss whole steps
+ROUND_OFF = 1e-6
+
+Observation = NDArray[np.float64]
+
+
+class MachineEnvironment(gymnasium.Env[Any, Any]):
+    """A machine that a learner moves. observation_names, action_names : of the numbers of observations and actions.
+
+    `simulation` is the machine in motion, with all its results by name.
+    """
+
+    def __init__(
+        self,
+        machine: Machine,
+        *,
+        reward: str | Callable[..., float],
+        observe: Sequence[str] | Mapping[str, Sequence[float]] | None,
+        actions: Sequence[str] | None,
+        every: float | str | None,
+        duration: float | str | None,
+        vary: Mapping[str, Sequence[float | str]],
+        scaled: bool,
+        record: bool,
+        settings: Mapping[str, Any],
+    ) -> None:
+        self._machine, self._settings, self._record = machine, dict(settings), record
+        self._vary = _ranges(machine, vary)
+        self.simulation: Simulation = self._started({})
+        self._begin: Snapshot = self.simulation.state
+        self._reward = reward_of(reward, self.simulation)
+        self.observation_names, self.observation_space = _observed(self.simulation, observe)
+        self.action_names = _actions(machine, actions)
+        ranges = np.array([machine.inputs[name].range for name in self.action_names], dtype=float)
+        self._low, self._high, self._scaled = ranges[:, 0], ranges[:, 1], scaled
+        low, high = (np.full(len(ranges), -1.0), np.full(len(ranges), 1.0)) if scaled else (self._low, self._high)
+        self.action_space = Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)
+        step = self.simulation.step_size
+        self._steps = 1 if every is None else _whole_steps(every, step)
+        self._every = self._steps * step
+        self._duration = machine.simulation.duration if duration is None else _time("duration", duration)
+        self._nominal = True
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begin an episode, with new values of `vary`. options : `values`, of the machine by path for this episode.
+
+        seed : of the numbers drawn from then on. Raises ModelError.
+        """
+        super().reset(seed=seed)
+        drawn = {path: float(self.np_random.uniform(low, high)) for path, (low, high) in self._vary.items()}
+        values = drawn | dict((options or {}).get(VALUES, {}))
+        if values or not self._nominal:
+            self.simulation = self._started(values)
+        else:
+            self.simulation.restore(self._begin)
+        self._nominal = not values
+        return self._observation(), {"time": self.simulation.time, "values": values}
+
+    def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Set the inputs, and let the machine move until the next action.
+
+        Terminated by an event with `stop: true` or by a step that fails, truncated by the duration. Raises ModelError where the action is
+        not one of the space.
+        """
+        sim, information = self.simulation, {}
+        before = len(sim.events)
+        try:
+            sim.advance(self._every, self._inputs(action))
+        except SolveError as error:
+            information["failure"] = str(error)
+        information |= {"time": sim.time, "events": [each.name for each in sim.events[before:]]}
+        ended = bool(sim.stopped_by) or "failure" in information
+        over = sim.time > self._duration - ROUND_OFF * self._every
+        return self._observation(), float(self._reward(sim, action)), ended, over and not ended, information
+
+    def result(self) -> Result:
+        """The frames of the present episode, for plots and the viewer; of environments with `record=True`."""
+        return self.simulation.result()
+
+    def _started(self, values: Mapping[str, Any]) -> Simulation:
+        machine = self._machine.with_values(values) if values else self._machine
+        return machine.start(record=self._record, **self._settings)
+
+    def _inputs(self, action: Any) -> dict[str, float]:
+        given = np.asarray(action, dtype=float)
+        if given.shape != self._low.shape:
+            raise ModelError(
+                Fault("", 0, 0, "action", f"{len(self._low)} numbers were expected, got {shown(given.tolist())}")
+            )
+        if self._scaled:
+            given = self._low + 0.5 * (given + 1.0) * (self._high - self._low)
+        # numbers of half the digits may pass a limit by their round-off
+        slack = 1e-6 * (self._high - self._low)
+        inside = (given >= self._low - slack) & (given <= self._high + slack)
+        given = np.where(inside, np.clip(given, self._low, self._high), given)
+        return dict(zip(self.action_names, given.tolist(), strict=True))
+
+    def _observation(self) -> Observation:
+        sim = self.simulation
+        return np.array([sim[name] for name in self.observation_names], dtype=float)
+
+
+def _observed(
+    sim: Simulation, given: Sequence[str] | Mapping[str, Sequence[float]] | None
+) -> tuple[tuple[str, ...], Box]:
+    """Names of the numbers of an observation, and their space. Raises ModelError."""
+    if given is None:
+        given = [name for name in USUAL if name in sim]
+    names, low, high = [], [], []
+    for name in [given] if isinstance(given, str) else given:
+        if name not in sim:
+            raise ModelError(Fault("", 0, 0, "observe", unknown_word(str(name), sim.names, "name")))
+        bounds = given[name] if isinstance(given, Mapping) else (-np.inf, np.inf)
+        if not isinstance(bounds, list | tuple) or len(bounds) != 2 or not bounds[0] < bounds[1]:
+            raise ModelError(
+                Fault(
+                    "", 0, 0, f"observe.{name}", f"the least and the greatest value were expected, got {shown(bounds)}"
+                )
+            )
+        own = sim.components([name])
+        names += own
+        low += [bounds[0]] * len(own)
+        high += [bounds[1]] * len(own)
+    if not names:
+        raise ModelError(Fault("", 0, 0, "observe", "at least one name of a result was expected"))
+    return tuple(names), Box(np.array(low, dtype=float), np.array(high, dtype=float), dtype=np.float64)
+
+
+def _actions(machine: Machine, given: Sequence[str] | None) -> tuple[str, ...]:
+    """Names of the inputs that actions set. Raises ModelError."""
+    known = [*machine.inputs]
+    chosen = known if given is None else [given] if isinstance(given, str) else [*given]
+    for name in chosen:
+        if name not in known:
+            raise ModelError(Fault("", 0, 0, "actions", unknown_word(str(name), known, "input")))
+    if not chosen:
+        said = "the machine has no input that an action could set; write `inputs: {push: {range: [-10, 10], units: N}}`"
+        raise ModelError(Fault("", 0, 0, "inputs", said))
+    return tuple(chosen)
+
+
+def _ranges(machine: Machine, vary: Mapping[str, Sequence[float | str]]) -> dict[str, tuple[float, float]]:
+    """Least and greatest value by path, in SI units. Raises ModelError."""
+    out = {}
+    for path, given in vary.items():
+        if not isinstance(given, list | tuple) or len(given) != 2:
+            raise ModelError(
+                Fault("", 0, 0, f"vary.{path}", f"the least and the greatest value were expected, got {shown(given)}")
+            )
+        # with units as the machine reads them
+        low, high = (machine.with_values({path: each})[path] for each in given)
+        if isinstance(low, bool) or not isinstance(low, int | float) or not low <= high:
+            raise ModelError(
+                Fault("", 0, 0, f"vary.{path}", f"the least and the greatest number were expected, got {shown(given)}")
+            )
+        out[path] = (float(low), float(high))
+    return out
+
+
+def _time(name: str, given: float | str) -> float:
+    """A time [s] above zero. Raises ModelError."""
+    try:
+        value = read_quantity(given, "time", {})
+    except ExpressionError as problem:
+        raise ModelError(Fault("", 0, 0, name, expression_fault(problem, given).message())) from None
+    if not 0.0 < value < np.inf:
+        raise ModelError(Fault("", 0, 0, name, f"a time above zero was expected, got {shown(given)}"))
+    return value
+
+
+def _whole_steps(every: float | str, step: float) -> int:
+    """Steps between two actions. Raises ModelError."""
+    value = _time("every", every)
+    count = round(value / step)
+    if count < 1 or abs(count * step - value) > ROUND_OFF * step:
+        raise ModelError(Fault("", 0, 0, "every", f"{value:g} s is not a multiple of the step, {step:g} s"))
+    return count

@@ -81,12 +81,12 @@ def _ways(machine: MachineRecord, system: System, wishes: Wishes) -> tuple[Array
     reluctant = np.repeat(given, 3, axis=1) * (RELUCTANT / np.minimum(wishes.weight, MOST_WEIGHT)[:, None])
     ways: list[Array] = []
     for lightest in (0.0, LIGHTEST):
-        free = _whitened(system, ~np.repeat(given, 3, axis=1), lightest)
+        free = whitened(system, ~np.repeat(given, 3, axis=1), lightest)
         ways += [free, free + reluctant[:, :, None] * np.eye(6)] if given.any() else [free]
     return tuple(ways)
 
 
-def _whitened(system: System, free: NDArray[np.bool_], lightest: float) -> Array:
+def whitened(system: System, free: NDArray[np.bool_], lightest: float) -> Array:
     """(B, 6, 6) L⁻ᵀ of the mass matrix L Lᵀ of the velocities that are `free` (B, 6), lengths in units of the machine; zero for the others.
 
     The largest mass of the machine counts as one; lightest : share of it that every body has at least.

@@ -20,15 +20,19 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.bound_entry import BoundEntry
+from nivel.analysis.run.carried_state import Structure, carry_over, refuse_other_structure, structure_of
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted
+from nivel.analysis.run.placing import Placing
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.remembered import remembered
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.writer import write_machine
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
+    AFTER,
     ALL_STEPS,
+    BEFORE,
     BUDGET,
     DONE_STEPS,
     END,
@@ -36,6 +40,7 @@ from nivel.integrate.loop.run import (
     EVERY,
     FRAMES,
     RESTART,
+    SIDE,
     STOPPED,
     TIME,
     Run,
@@ -46,6 +51,7 @@ from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.signals.fmu import output
+from nivel.kernels.signals.watch import watch
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.csv_table import columns
 from nivel.results.frames.occurrence import Occurrence
@@ -58,6 +64,10 @@ if TYPE_CHECKING:
     from nivel.system.signals.fmus import FmuInstance
 
 ENDLESS: Final = 2**62  # steps
+# joints that other lengths open are closed to this share of their sizes, in so many corrections at most
+CLOSED: Final = 1e-10
+CORRECTIONS: Final = 20
+PLACED: Final = 1e-9  # share of the machine's size by which bodies may miss their places
 
 
 @dataclass(frozen=True)
@@ -65,20 +75,22 @@ class Snapshot:
     """The whole state of a simulation at one moment: what goes on from it repeats the motion to the last bit.
 
     time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers. fmus :
-    what its FMUs have saved.
+    what its FMUs have saved. structure : names of all that it is made of, by kind.
     """
 
     time: float
     machine: str = field(repr=False)
     arrays: tuple[NDArray[Any], ...] = field(repr=False)
     fmus: tuple[bytes, ...] = field(default=(), repr=False)
+    structure: Structure = field(default_factory=dict, repr=False)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write it to a file (NumPy's `.npz`); an existing file is replaced."""
         named = {f"a{k}": array for k, array in enumerate(self.arrays)}
         named |= {f"f{k}": np.frombuffer(content, dtype=np.uint8) for k, content in enumerate(self.fmus)}
         with Path(path).open("wb") as file:
-            np.savez(file, time=self.time, machine=self.machine, **named)  # type: ignore[arg-type]
+            facts = {"time": self.time, "machine": self.machine, "structure": json.dumps(dict(self.structure))}
+            np.savez(file, **facts, **named)  # type: ignore[arg-type]
 
     @classmethod
     def open(cls, path: str | PathLike[str]) -> Snapshot:
@@ -86,8 +98,9 @@ class Snapshot:
         try:
             with np.load(path, allow_pickle=False) as data:
                 fmus = tuple(data[name].tobytes() for name in data.files if name.startswith("f"))
-                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 2 - len(fmus)))
-                return cls(float(data["time"]), str(data["machine"]), arrays, fmus)
+                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 3 - len(fmus)))
+                structure = {kind: tuple(names) for kind, names in json.loads(str(data["structure"])).items()}
+                return cls(float(data["time"]), str(data["machine"]), arrays, fmus, structure)
         except (OSError, ValueError, KeyError, EOFError) as error:
             raise ModelError(f"{fspath(path)} is no saved state of a simulation: {error}") from error
 
@@ -110,6 +123,7 @@ class Simulation:
         loop, own = _endless(self._prepared, plan, whole=piece is not None)
         self._run: Run = loop.history.record
         self._advance = BoundEntry(advance, loop.addresses, keep=loop)
+        self._correct = loop.correct
         self._kept = (
             _remembered(self._prepared, self._run)
             if piece is None or own is None
@@ -196,7 +210,7 @@ class Simulation:
     def _go(self, steps: int) -> None:
         counter = self._counter
         if counter[STOPPED]:
-            raise ModelError(f"the simulation is over: the event `{self.stopped_by}` ended it at t = {self.time:.6g} s")
+            raise ModelError(self._over)
         target = counter[DONE_STEPS] + steps
         counter[BUDGET] = steps
         status = self._advance()
@@ -208,6 +222,10 @@ class Simulation:
             self._events += taken_events(self._run, self._prepared.motion.system.events)
         if status not in (BUDGET_SPENT, DONE):
             self._fail(status)
+
+    @property
+    def _over(self) -> str:
+        return f"the simulation is over: the event `{self.stopped_by}` ended it at t = {self.time:.6g} s"
 
     def _fail(self, status: int) -> None:
         jam = jam_of(self._prepared, self._settings, self._run) if status in BEFORE_A_JAM else None
@@ -238,6 +256,81 @@ class Simulation:
             status = self._evaluate()
             if status != OK:
                 self._fail(status)
+
+    def place(self, coordinates: Mapping[str, float], rates: Mapping[str, float] | None = None) -> None:
+        """Give joint coordinates [m, rad] and their rates [m/s, rad/s] other values, with all joints closed.
+
+        Coordinates that the joints leave free keep their values and rates. What no coordinate describes, as a body that nothing holds,
+        moves as little as it can. The time, states of elements and inputs stay.
+        Raises ModelError for an unknown name, for values that the joints do not allow (nothing is changed then), for machines with
+        flexible bodies, and where the simulation is over.
+        """
+        if self._counter[STOPPED]:
+            raise ModelError(self._over)
+        wanted = self._coordinates(coordinates, "coordinates"), self._coordinates(rates or {}, "rates")
+        if not (wanted[0] or wanted[1]):
+            return
+        if self._observed != self._clock[TIME]:
+            self._observe()
+        posture = {name: self._view(name) for name in ("position", "orientation", "velocity", "angular_velocity")}
+        system, y = self._prepared.motion.system, self._run.y
+        reference, states = system.record.coordinates.reference, y[len(y) - len(system.start_of_states) :]
+        reference = self._measured(reference)
+        placed = self._placing.placed(self.time, posture, reference, states.copy(), wanted)
+        kept = self.state
+        y[:] = self._run.previous[:] = placed.y
+        reference = system.record.coordinates.reference
+        reference[:] = placed.reference
+        self._counter[RESTART] = 1
+        self._begin_again()
+        if np.abs(self._view("position") - placed.position).max() > PLACED * system.size:
+            self.restore(kept)
+            message = "joint coordinates cannot be set in these coordinates: use coordinates='relative' or 'absolute'"
+            raise ModelError(Fault("", 0, 0, "coordinates", message))
+
+    def _measured(self, reference: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Reference of the measured coordinates; of joints those that the frame shows, with all their turns."""
+        out = reference.copy()
+        out[self._prepared.motion.system.record.joints.coordinate] = self._view("joint_coordinate")
+        return out
+
+    @cached_property
+    def _placing(self) -> Placing:
+        return Placing(self._plan.methods, self._prepared)
+
+    def _coordinates(self, values: Mapping[str, float], what: str) -> dict[str, float]:
+        """Numbers by joint coordinate. Raises ModelError."""
+        known = list(self.coordinates)
+        if not isinstance(values, Mapping):
+            said = f"numbers by joint coordinate were expected, {{'hinge.angle': 0.1}}, got {shown(values)}"
+            raise ModelError(Fault("", 0, 0, what, said))
+        faults, out = [], {}
+        for name, value in values.items():
+            number = plain(value)
+            if name not in known:
+                faults.append(Fault("", 0, 0, what, unknown_word(str(name), known, "joint coordinate")))
+            elif not isinstance(number, int | float) or isinstance(number, bool) or not isfinite(number):
+                faults.append(Fault("", 0, 0, f"{what}.{name}", f"a finite number was expected, got {shown(value)}"))
+            else:
+                out[name] = float(number)
+        if faults:
+            raise ModelError(faults)
+        return out
+
+    def _begin_again(self) -> None:
+        """Evaluate the state, which was not reached by steps, and take the sides of events there."""
+        self._observed = -np.inf
+        time = self._evaluate.number.value = self._clock[TIME]
+        status = self._evaluate()
+        if status != OK:
+            self._fail(status)
+        values = self._run.event_values
+        if values.shape[1]:
+            motion = self._prepared.motion
+            watch.code(motion.handle.address, 0, time)
+            values[[BEFORE, AFTER]] = motion.system.record.watched.value[: values.shape[1]]
+            values[SIDE] = np.sign(values[BEFORE])
+        self._observe()
 
     def _checked(self, name: str, value: float) -> float:
         """The value of an input or a state as a number. Raises ModelError."""
@@ -292,6 +385,11 @@ class Simulation:
         return tuple(columns(self._now, names))
 
     @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The joint coordinates, which `place` sets."""
+        return tuple(self._prepared.motion.system.layout.coordinates["joint_coordinate"])
+
+    @property
     def scene(self) -> dict[str, Any]:
         """Bodies and joints as the viewer and the report draw them."""
         return self._now.scene
@@ -340,14 +438,26 @@ class Simulation:
         """This moment, to be restored or saved."""
         self._take_frames()
         arrays = tuple(array.copy() for array in self._kept)
-        return Snapshot(self.time, self._digest, arrays, tuple(fmu.state() for fmu in self._fmus))
+        fmus = tuple(fmu.state() for fmu in self._fmus)
+        return Snapshot(self.time, self._digest, arrays, fmus, self._structure)
 
     def restore(self, state: Snapshot) -> None:
-        """Go back, or on, to a moment of this machine with these settings. Raises ModelError for a state of another one."""
-        mine, given = self._kept, getattr(state, "arrays", ())
+        """Go back, or on, to a moment of this machine with these settings: the motion repeats to the last bit.
+
+        A state of a machine with the same structure and other numbers gives its motion to this one: time, joint coordinates, velocities,
+        states, inputs and memories. Joints that other lengths open are closed again, and energies are referred to this moment.
+        Raises ModelError for a state of another structure, which it names, and where joints cannot be closed; nothing is changed then.
+        """
+        if not isinstance(state, Snapshot):
+            raise ModelError(f"a state of a simulation, `sim.state`, was expected, got {shown(state)}")
+        mine, given = self._kept, state.arrays
         fits = len(mine) == len(given) and all(a.shape == b.shape for a, b in zip(mine, given, strict=True))
-        if not isinstance(state, Snapshot) or state.machine != self._digest or not fits:
-            raise ModelError("the state is of another machine, or of other settings of the simulation")
+        if state.machine != self._digest or not fits:
+            refuse_other_structure(self._structure, state.structure)
+            if not fits:
+                raise ModelError("the state is of another machine, or of other settings of the simulation")
+            self._take_over(state)
+            return
         if self._recorded:
             self._take_frames()
             self._memory.forget_after(state.time)
@@ -362,6 +472,49 @@ class Simulation:
         if self._events:
             self._events = [event for event in self._events if event.time <= state.time]
         self._observed = -np.inf
+
+    def _take_over(self, state: Snapshot) -> None:
+        """Go on with the motion of a machine that has other numbers."""
+        before = self.state
+        if self._recorded:
+            self._memory.forget_after(state.time)
+        carry_over(self._kept, state.arrays, self._prepared, self._run)
+        for fmu, content in zip(self._fmus, state.fmus, strict=True):
+            fmu.restore(content)
+        self._events = [event for event in self._events if event.time <= state.time]
+        try:
+            self._close_again()
+            self._previous[:] = self._y[:]
+            self._counter[RESTART] = 1
+            self._begin_again()
+        except (ModelError, SolveError):
+            self.restore(before)
+            raise
+        energy = self._prepared.motion.system.record.control.energy
+        energy[2] += float(self._view("energy_error"))
+        self._observe()
+
+    def _close_again(self) -> None:
+        """Close the joints that other lengths have opened."""
+        constraints = self._prepared.motion.system.record.constraints
+        correct, address = self._correct, self._prepared.motion.handle.address
+        motion, time = self._prepared.motion, self._clock[TIME]
+        for _ in range(CORRECTIONS):
+            motion.evaluate(time, self._run.y)
+            rows = slice(0, len(constraints.C))
+            if np.max(np.abs(constraints.C[rows]) / constraints.scale[rows], initial=0.0) <= CLOSED:
+                return
+            correct(address, time, self._run.y)
+        opened = np.abs(constraints.C) / constraints.scale
+        worst = float(np.max(opened, initial=0.0))
+        message = (
+            f"the joints of this machine cannot be closed where the state is: one is open by {worst:.2g} of its size"
+        )
+        raise ModelError(f"{message}; give states to machines whose lengths differ less")
+
+    @cached_property
+    def _structure(self) -> Structure:
+        return structure_of(self._plan, self._prepared)
 
     def copy(self) -> Simulation:
         """Another one at this moment, which goes on by itself; what was recorded stays with this one."""

@@ -5,15 +5,22 @@
 M = Zᵀ M Z and h = Zᵀ r(v̇₀), v̇₀ the accelerations for a = 0, so that the equation is exact whatever closes the loops; h holds weight,
 springs and all other forces of the machine. Velocities v (f,) belong to `names`; of machines with loops these are chosen among the
 coordinates of the spanning tree, and positions of the others are closed by Newton's method.
+
+All that is asked for takes one state, or rows of states, of which there are as many results.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, Final
+
 import numpy as np
+from scipy.linalg import lapack
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
+from nivel.analysis.inverse.quick import Quick, UnsuitedError
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction
@@ -30,6 +37,8 @@ from nivel.system.system import Array
 CLOSED, MOST = 1e-13, 50
 # axes of turns are numbered up to this; plain positions have none
 LAST_AXIS = 2
+# rows of states have so many dimensions
+MANY: Final = 2
 
 
 class Mechanics:
@@ -54,6 +63,7 @@ class Mechanics:
         # joint coordinates of the results are signs times positions of the tree, and offsets: whole turns, or other zeros
         self._signs, self._offsets = np.ones(own.n), np.zeros(own.positions)
         self._signs[own.free] = coordinate_signs(catalogue, own)
+        self._place_signs = self._position_signs()
         known = [name for name in self.position_names if name in catalogue.coordinates]
         places = [self.position_names.index(name) for name in known]
         values = own.read(catalogue.reader([catalogue.outputs[name] for name in known]))
@@ -67,6 +77,11 @@ class Mechanics:
             if unit == "rad" and name in self.position_names
         ]
         self._angles, self._counted = np.array(counted, dtype=np.intp).reshape(-1, 2).T
+        self._velocity_signs = self._signs[own.free[self._selected]]
+        self._quick = None if len(own.velocity_rows) else Quick(own, self._selected, reduction.kept)
+        self._turns = bool((own.place[:, 1] <= LAST_AXIS).any())
+        self._still = moment.y.copy()
+        self._still[own.positions : own.first_state] = 0.0
 
     def _reduction(self) -> Reduction:
         own = self._instant
@@ -104,7 +119,7 @@ class Mechanics:
         """Positions after a change (f,) of the independent coordinates, turns about axes of their bodies; loops closed again."""
         own, out = self._instant, self._in_tree(q)
         psi = np.zeros(own.n)
-        psi[own.free[self._selected]] = self._chosen_signs * change
+        psi[own.free[self._selected]] = self._velocity_signs * change
         plain = own.place[:, 1] > LAST_AXIS
         out[own.place[plain, 0]] += psi[plain]
         first = np.flatnonzero(own.place[:, 1] == 0)
@@ -125,7 +140,9 @@ class Mechanics:
         rows = len(reduction.kept)
         first = own.n + own.state_count + own.rows
         drift = -reduction.inverse[:, :rows] @ own.value()[first : first + own.rows]
-        speed = np.zeros(len(self.names)) if v is None else self._checked(v, len(self.names), "v") * self._chosen_signs
+        speed = (
+            np.zeros(len(self.names)) if v is None else self._checked(v, len(self.names), "v") * self._velocity_signs
+        )
         y[own.positions + own.free] = reduction.Z @ speed + drift
         own.move_to(0.0, y, np.zeros(own.n))
         gamma = -own.value()[first + own.rows :]
@@ -138,36 +155,115 @@ class Mechanics:
 
     def mass_matrix(self, q: Array | None = None) -> Array:
         """(f, f) mass matrix at q, the start by default [kg, kg m, kg m²]."""
+        return self._for_each(self._mass_matrix, q)
+
+    def _mass_matrix(self, q: Array | None) -> Array:
+        if (quick := self._at_once(q)) is not None:
+            try:
+                M, J = quick.slopes()
+                Z, _ = quick.motions(J)
+                return self._signed(Z.T @ M @ Z if quick.has_loops else M)
+            except UnsuitedError:
+                pass
         reduction = self._at(q, None)
-        M = reduction.Z.T @ reduction.by_rate.r[self._instant.free] @ reduction.Z
-        return self._chosen_signs[:, None] * M * self._chosen_signs
+        return self._signed(reduction.Z.T @ reduction.by_rate.r[self._instant.free] @ reduction.Z)
+
+    def _signed(self, M: Array) -> Array:
+        """A symmetric matrix of the independent velocities with their signs."""
+        return self._velocity_signs[:, None] * M * self._velocity_signs
 
     def bias(self, q: Array | None = None, v: Array | None = None) -> Array:
         """(f,) efforts that a = 0 asks for at q and v: weight, centrifugal forces, springs, dampers [N, N m]."""
-        reduction = self._at(q, v)
-        own = self._instant
-        return self._chosen_signs * (reduction.Z.T @ own.value()[: own.n][own.free])
+        return self._for_each(self._efforts, q, v)
 
     def inverse_dynamics(self, q: Array, v: Array, a: Array) -> Array:
         """(f,) efforts on the independent coordinates that make the accelerations a (f,) at q and v."""
-        reduction = self._at(q, v)
-        own = self._instant
-        vdot = own.vdot.copy()
-        vdot[own.free] += reduction.Z @ (self._checked(a, len(self.names), "a") * self._chosen_signs)
-        own.move_to(0.0, own.y, vdot)
-        return self._chosen_signs * (reduction.Z.T @ own.value()[: own.n][own.free])
+        return self._for_each(self._efforts, q, v, a)
+
+    def _efforts(self, q: Array | None, v: Array | None, a: Array | None = None) -> Array:
+        speed = None if v is None else self._checked(v, len(self.names), "v") * self._velocity_signs
+        rate = None if a is None else self._checked(a, len(self.names), "a") * self._velocity_signs
+        if (quick := self._at_once(q)) is not None:
+            try:
+                Z, inverse = quick.motions_here()
+                quick.move(Z, inverse, speed, rate)
+                return self._velocity_signs * quick.efforts(Z)
+            except UnsuitedError:
+                pass
+        reduction, own = self._at(q, v), self._instant
+        if rate is not None:
+            vdot = own.vdot.copy()
+            vdot[own.free] += reduction.Z @ rate
+            own.move_to(0.0, own.y, vdot)
+        return self._velocity_signs * (reduction.Z.T @ own.value()[: own.n][own.free])
+
+    def _at_once(self, q: Array | None) -> Quick | None:
+        """The quick equations at rest at positions q, which are closed first; None where they do not suit the machine."""
+        quick, own, y = self._quick, self._instant, self._still
+        if quick is None:
+            return None
+        q = self.start if q is None else self._checked(q, own.positions, "q")
+        y[: own.positions] = self._place_signs * (q - self._offsets)
+        if self._turns:
+            y[: own.positions] = _normalised(own, y[: own.positions])
+        self._count_turns(q)
+        quick.be_at(y)
+        if quick.has_loops and not quick.is_closed():
+            y[: own.positions] = self._in_tree(self.close(q))
+            quick.be_at(y)
+        return quick
+
+    def _for_each(self, call: Callable[..., Array], *states: Array | None) -> Array:
+        """What is asked for at one state, or at rows of states."""
+        if all(each is None or np.ndim(each) < MANY for each in states):
+            return call(*states)
+        rows = max(len(each) for each in states if each is not None and np.ndim(each) == MANY)
+        given = [
+            [None] * rows
+            if each is None
+            else np.broadcast_to(np.asarray(each, dtype=float), (rows, np.shape(each)[-1]))
+            for each in states
+        ]
+        return np.array([call(*row) for row in zip(*given, strict=True)])
 
     def forward_dynamics(self, q: Array, v: Array, tau: Array) -> Array:
         """(f,) accelerations for efforts τ (f,) on the independent coordinates."""
-        right = self._checked(tau, len(self.names), "tau") - self.bias(q, v)
-        return np.asarray(np.linalg.solve(self.mass_matrix(q), right), dtype=np.float64)
+        return self._for_each(self._forward_dynamics, q, v, tau)
+
+    def _forward_dynamics(self, q: Array | None, v: Array | None, tau: Any) -> Array:
+        effort = self._checked(tau, len(self.names), "tau")
+        M, h = self._mass_and_bias(q, v)
+        right = effort - h
+        _, found, failed = lapack.dposv(M, right)  # type: ignore[attr-defined]
+        return np.asarray(np.linalg.solve(M, right) if failed else found, dtype=np.float64)
+
+    def _mass_and_bias(self, q: Array | None, v: Array | None) -> tuple[Array, Array]:
+        if (quick := self._at_once(q)) is not None:
+            try:
+                M, J = quick.slopes()
+                Z, inverse = quick.motions(J)
+                speed = None if v is None else self._checked(v, len(self.names), "v") * self._velocity_signs
+                quick.move(Z, inverse, speed, None)
+                return self._signed(Z.T @ M @ Z if quick.has_loops else M), self._velocity_signs * quick.efforts(Z)
+            except UnsuitedError:
+                pass
+        return self._mass_matrix(q), self._efforts(q, v)
 
     def jacobian(self, point: str, q: Array | None = None) -> Array:
         """(6, f) velocity and angular velocity (global axes) of a marker, or of the frame of a body, per velocity."""
         b, position = self._point(point)
-        reduction = self._at(q, None)
-        rates = self._instant.along("v", lambda own: point_velocity(_measured(own), b, position)).seen
-        return rates @ reduction.Z * self._chosen_signs
+
+        def at(q: Array | None) -> Array:
+            if (quick := self._at_once(q)) is not None:
+                try:
+                    return quick.jacobian(quick.motions_here()[0], b, position) * self._velocity_signs
+                except UnsuitedError:
+                    pass
+            reduction = self._at(q, None)
+            rates = self._instant.along("v", lambda own: point_velocity(_measured(own), b, position)).seen
+            return rates @ reduction.Z * self._velocity_signs
+
+        return self._for_each(at, q)
 
     def jacobian_bias(self, point: str, q: Array | None = None, v: Array | None = None) -> Array:
         """(6,) acceleration and angular acceleration (global axes) of a marker or body for a = 0."""
@@ -195,21 +291,17 @@ class Mechanics:
 
     # --- names and signs ---
 
-    @property
-    def _chosen_signs(self) -> Array:
-        return self._signs[self._instant.free[self._selected]]
-
     def _count_turns(self, q: Array) -> None:
         """The turn in which each angle of the tree is, for the forces that depend on it."""
         self._instant.record.coordinates.reference[self._counted] = np.asarray(q, dtype=float).ravel()[self._angles]
 
     def _shown(self, positions: Array) -> Array:
         """q for positions of the tree."""
-        return self._position_signs() * positions + self._offsets
+        return self._place_signs * positions + self._offsets
 
     def _in_tree(self, q: Array) -> Array:
         """Positions of the tree for q."""
-        return self._position_signs() * (q - self._offsets)
+        return self._place_signs * (q - self._offsets)
 
     def _position_signs(self) -> Array:
         own, out = self._instant, np.ones(self._instant.positions)

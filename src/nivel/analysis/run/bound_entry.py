@@ -17,11 +17,11 @@ from nivel.native.signature import BROKEN, IN_C, RESULT_IN_C
 class BoundEntry:
     """A function that calls an entry with the same addresses and arrays every time, and returns its status.
 
-    arguments : addresses, and arrays where the entry takes vectors. `number` is what it takes as a number; at first 0.
+    arguments : addresses, and arrays where the entry takes vectors, or a dual number. `number` is what it takes as a number; at first 0.
     keep : what the addresses are of, kept alive with it.
     """
 
-    def __init__(self, entry: Entry, arguments: Sequence[int | NDArray[np.float64]], keep: object = None) -> None:
+    def __init__(self, entry: Entry, arguments: Sequence[int | NDArray[Any]], keep: object = None) -> None:
         self._keep = keep, arguments
         self.number = ctypes.c_double(0.0)
         given, parts, kinds = iter(arguments), [], []
@@ -30,7 +30,7 @@ class BoundEntry:
             if word == "number":
                 parts.append(self.number)
             elif isinstance(value := next(given), np.ndarray):
-                parts += [ctypes.c_void_p(value.ctypes.data), ctypes.c_int64(value.size)]
+                parts += [ctypes.c_void_p(value.ctypes.data), ctypes.c_int64(value.size)][: len(IN_C[word])]
             else:
                 parts.append(IN_C[word][0](int(value)))
         function = ctypes.CFUNCTYPE(RESULT_IN_C[entry.signature.result], *kinds)(entry.address)

@@ -1,0 +1,60 @@
+"""Mechanics asked for rows of states, and its quick equations against those of the reduction."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.mark.parametrize(
+    "file",
+    ["control/robot-arm.yaml", "mechanisms/slider-crank.yaml", "mechanisms/andrews-squeezer.yaml", "robots/leg.yaml"],
+)
+def test_quick_equations_are_those_of_the_reduction(file):
+    machine = nivel.load(EXAMPLES / file)
+    quick, slow = machine.mechanics(), machine.mechanics()
+    assert quick._quick is not None
+    slow._quick = None
+    rng, body, count = np.random.default_rng(7), [*machine.bodies][-1], len(quick.names)
+    for _ in range(3):
+        q = quick.displaced(quick.start, 0.03 * rng.standard_normal(count))
+        v, a = rng.standard_normal((2, count))
+        pairs = [
+            (
+                each.mass_matrix(q),
+                each.bias(q, v),
+                each.inverse_dynamics(q, v, a),
+                each.forward_dynamics(q, v, a),
+                each.jacobian(body, q),
+            )
+            for each in (quick, slow)
+        ]
+        for mine, other in zip(*pairs, strict=True):
+            np.testing.assert_allclose(mine, other, rtol=1e-8, atol=1e-9 * (1.0 + np.abs(other).max()))
+
+
+def test_positions_that_are_open_are_closed_first():
+    quick, slow = (nivel.load(EXAMPLES / "mechanisms/slider-crank.yaml").mechanics() for _ in range(2))
+    slow._quick = None
+    q = quick.start.copy()
+    q[quick.position_names.index(quick.names[0])] += 0.4
+    np.testing.assert_allclose(quick.mass_matrix(q), slow.mass_matrix(q), rtol=1e-9)
+
+
+def test_rows_of_states_give_rows_of_results():
+    mechanics = nivel.load(EXAMPLES / "control/robot-arm.yaml").mechanics()
+    rng, count = np.random.default_rng(3), len(mechanics.names)
+    q, v, a = mechanics.start + 0.2 * rng.standard_normal((3, 5, count))
+    rows = mechanics.inverse_dynamics(q, v, a)
+    assert rows.shape == (5, count)
+    np.testing.assert_array_equal(rows[3], mechanics.inverse_dynamics(q[3], v[3], a[3]))
+    assert mechanics.mass_matrix(q).shape == (5, count, count)
+    assert mechanics.jacobian([*mechanics._machine.body_named][-1], q).shape == (5, 6, count)
+    # one state for all rows of the others
+    np.testing.assert_array_equal(mechanics.bias(q[0], v)[4], mechanics.bias(q[0], v[4]))
+    back = mechanics.forward_dynamics(q, v, rows)
+    np.testing.assert_allclose(back, a, rtol=1e-7, atol=1e-8)

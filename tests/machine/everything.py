@@ -298,6 +298,8 @@ EVERYTHING = {
             "static_friction": 0.5,
             "friction_model": "stiction",
             "friction_transition_speed": "1 mm/s",
+            "surface_velocity": ["0.1*time", "1 mm/s", 0],
+            "surface_spin": "2 rpm",
         },
         {
             "name": "helper",

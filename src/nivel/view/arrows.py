@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nivel.looks.poses import rotation
 from nivel.view.acting import place_of
 from nivel.view.coordinate_places import coordinate_place
-from nivel.view.records import Arrow, Triple
+from nivel.view.records import Arrow, Force, Triple
 from nivel.view.stage import Cast
 
 Array = NDArray[np.float64]
@@ -97,11 +97,44 @@ def _forces(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
             for k, sign in ((0, 1.0), (1, -1.0)):
                 if force.bodies[k] >= 0:
                     yield Traced(force.name, "applied", "force", force.bodies[k], force.points[k], sign * pulls)
-        elif force.kind == "contact" and force.axis is not None:
-            push = magnitude[:, None] * moments.turned(force.bodies[1], force.axis)
-            yield Traced(force.name, "applied", "force", force.bodies[0], force.points[0], push)
+        elif force.kind == "contact":
+            yield from _contact(force, moments, read)
         elif force.kind in ON_COORDINATES:
             yield from _on_coordinate(cast, moments, record, read, _CoordinateEffort(force.name, magnitude, power))
+
+
+def _contact(force: Force, moments: Moments, read: Read) -> Iterator[Traced]:
+    """What the bodies of a contact exert on each other, each at the point of it where it is touched in the mean."""
+    found = [_vector(f"force.{force.name}.{name}", read) for name in ("normal_{}", "friction_{}", "{}")]
+    normal_force = read(f"force.{force.name}.normal_force")
+    if normal_force is None or any(each is None for each in found):
+        return
+    normal, friction, place = (np.asarray(each) for each in found)
+    push = normal_force[:, None] * normal + friction
+    if not (normal_force > 0.0).any():
+        return
+    for body, sign in zip(force.bodies, (1.0, -1.0), strict=True):
+        if body >= 0:
+            yield Traced(
+                force.name, "applied", "force", body, _mean_point(moments, body, place, normal_force), sign * push
+            )
+
+
+def _vector(name: str, read: Read) -> Array | None:
+    """(n, 3) a variable of three components."""
+    parts = [read(name.format(axis)) for axis in "xyz"]
+    return (
+        None if any(part is None for part in parts) else np.stack([part for part in parts if part is not None], axis=1)
+    )
+
+
+def _mean_point(moments: Moments, body: int, place: Array, weight: Array) -> Triple:
+    """The mean of points in space, seen from a body."""
+    apart = place - moments.position[:, body]
+    seen = np.einsum("nji,nj->ni", moments.A[:, body], apart)
+    held = np.isfinite(weight) & (np.abs(weight) < LARGEST)
+    x, y, z = np.average(seen[held], axis=0, weights=np.maximum(weight[held], 0.0))
+    return float(x), float(y), float(z)
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,8 @@ import numpy as np
 from nivel.kernels.algebra.analytic import absolute, real, tanh
 from nivel.kernels.bodies.patch_coordinate import KEPT, PROPOSED, RESTING, RESTS
 from nivel.kernels.core.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
-from nivel.kernels.elements.patch import limited, size_of
+from nivel.kernels.elements.patch import OVER, limited, size_of
+from nivel.kernels.elements.touch import DRAG, GIVEN, HELD, LOST, MAGNITUDE, POWER, RUB, SLIP
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.solve.saddle import solve_rows
@@ -33,8 +34,6 @@ from nivel.native.function import leaf, stage
 # many it has: two along tangents, then maybe the spin
 COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING, FIRST, COUNT = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
 COULOMB, STICTION, LUGRE, PATCH = 0, 1, 2, 3
-# outputs of contacts
-MAGNITUDE, POWER, RUB, SLIP = 0, 1, 5, 6
 # columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces; REST: a rate below it is none where drivers
 # prescribe it, known when a run starts
 KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
@@ -59,6 +58,8 @@ SHARP, RESTED = 1e-1, 1e-3
 ANCHOR = 1e-3
 # What an effort moves counts for no more than this times what it would move of the two bodies without their other joints.
 BOUND = 1e3
+# An effort that differs from kinetic friction by this share holds.
+DIFFERENT = 1e-9
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
 # So much of 1/m is added to S_kk of patches, whose motion may be prescribed.
@@ -572,19 +573,43 @@ def propose(machine):
 
 @stage
 def report_patch(machine, k):
-    """Outputs of the contact whose patch begins with friction k, with its efforts; they take their power from the machine."""
+    """Outputs of the contact whose patch begins with friction k, with its efforts; they take their power from the machine, and pass on that
+    of a surface that moves over its body."""
     record = record_at(machine)
     friction, coordinates, out = record.friction, record.coordinates, record.outputs.value
     first, q = friction.columns[k, OUTPUT], friction.columns[k, COORDINATE]
     load, x, y = coordinates.value[q], coordinates.rate[q], coordinates.rate[q + 1]
-    squared, power = friction.force[k] * friction.force[k] + friction.force[k + 1] * friction.force[k + 1], 0.0 * load
+    squared, power, given = (
+        friction.force[k] * friction.force[k] + friction.force[k + 1] * friction.force[k + 1],
+        0.0 * load,
+        0.0 * load,
+    )
     for a in range(friction.columns[k, COUNT]):
         power += friction.force[k + a] * coordinates.rate[q + a]
+        given += friction.force[k + a] * friction.number[k + a, OVER]
+    record.control.power[0] += given
     record.control.power[1] -= power
-    out[first + POWER] += power
+    out[first + POWER] += power + given
+    out[first + LOST], out[first + GIVEN] = -power, given
     out[first + MAGNITUDE] = np.sqrt(load * load + squared)
     out[first + RUB] = np.sqrt(0.0 * load + squared)
     out[first + SLIP] = np.sqrt(x * x + y * y)
+    out[first + HELD] = 0.0 * load + (1.0 if is_held(record, k) else 0.0)
+    t, u = coordinates.J[coordinates.start[q]], coordinates.J[coordinates.start[q + 1]]
+    for a in range(3):
+        out[first + DRAG + a] = friction.force[k] * t[a] + friction.force[k + 1] * u[a] + 0.0 * load
+
+
+@stage
+def is_held(record, k):
+    """Whether the efforts of the patch that begins with friction k are not those of sliding."""
+    friction, q = record.friction, record.friction.columns[k, COORDINATE]
+    squared = friction.force[k] * friction.force[k] + friction.force[k + 1] * friction.force[k + 1]
+    reach = real(record.coordinates.value[q + 1])
+    if friction.columns[k, COUNT] == 3 and reach > 0.0:
+        squared += (friction.force[k + 2] / reach) ** 2
+    sliding = friction.number[k, KINETIC] * real(record.coordinates.value[q])
+    return np.abs(np.sqrt(squared) - sliding) > DIFFERENT * sliding
 
 
 @stage

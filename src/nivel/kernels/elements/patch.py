@@ -5,6 +5,7 @@ i. It has two or three coordinates that are known by their rates alone, slips al
 
     tᵀ[ṙ_i + ω × (p - r_i) - ṙ_j - Ω × (p - r_j)],   nᵀ(ω - Ω)
 
+Where the surface of j moves over it (`nivel.kernels.elements.moving_surface`) its velocity and spin are taken from these.
 The middle is no material point of a wheel, so with its own velocity ṗ the second derivatives have the terms ω × (ṗ - ṙ_i) - Ω × (ṗ - ṙ_j).
 The efforts (F, M) on them are limited together: |F|² + (M/r)² ≤ (μ N)², r the radius of gyration of the normal forces about the middle
 (limit surface: Goyal, Ruina, Papadopoulos 1991; as an ellipsoid: Howe, Cutkosky 1996). In it friction holds; a patch that slides has the
@@ -22,6 +23,8 @@ from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
+# column of `friction.number` of a patch: velocity of the surface of j over it along the tangent, or its spin
+OVER = 11
 # cosine of an axis that is too near to the normal
 NEAR_NORMAL = 0.8
 # More iterations than the multiplier of a limit has ever taken, and what it is known to.
@@ -85,28 +88,34 @@ def write_row(machine, k, q, on_first, on_second, rate, bias):
 
 
 @stage
-def write_patch(machine, k, count, q, p, pdot, n, t, u, load, reach):
-    """Fill the `count` rows from friction k and coordinate q on, for the middle p, its velocity, the normal n and the tangents t, u."""
+def write_patch(machine, k, count, q, p, pdot, n, t, u, load, reach, surface, change, spin, spin_rate):
+    """Fill the `count` rows from friction k and coordinate q on, for the middle p, its velocity, the normal n and the tangents t, u.
+
+    surface, change : velocity of the surface of j over it at p, and its rate. spin, spin_rate : of that surface about n.
+    """
     record = record_at(machine)
-    coordinates, markers, bodies = record.coordinates, record.markers, record.bodies
+    coordinates, markers, bodies, friction = record.coordinates, record.markers, record.bodies, record.friction
     i, j = coordinates.what[q, 1], coordinates.what[q, 2]
     w, W = bodies.omega[markers.body[i]], bodies.omega[markers.body[j]]
     d, D = minus(p, markers.r[i]), minus(p, markers.r[j])
-    slip = minus(plus(markers.rdot[i], cross(w, d)), plus(markers.rdot[j], cross(W, D)))
+    slip = minus(minus(plus(markers.rdot[i], cross(w, d)), plus(markers.rdot[j], cross(W, D))), surface)
     rest = plus(markers.bias[i], cross(w, minus(pdot, markers.rdot[i])))
-    rest = minus(rest, plus(markers.bias[j], cross(W, minus(pdot, markers.rdot[j]))))
+    rest = minus(minus(rest, plus(markers.bias[j], cross(W, minus(pdot, markers.rdot[j])))), change)
     for a in range(2):
         b = t if a == 0 else u
         x, y = cross(d, b), cross(D, b)
         first = (b[0], b[1], b[2], x[0], x[1], x[2])
         second = (-b[0], -b[1], -b[2], -y[0], -y[1], -y[2])
         write_row(machine, k + a, q + a, first, second, dot(b, slip), dot(b, rest) + dot(cross(W, b), slip))
+        friction.number[k + a, OVER] = real(dot(b, surface))
     coordinates.value[q], coordinates.value[q + 1] = load, reach
     if count == 3:
         o = 0.0 * load
         turning = minus(w, W)
         first, second = (o, o, o, n[0], n[1], n[2]), (o, o, o, -n[0], -n[1], -n[2])
-        write_row(machine, k + 2, q + 2, first, second, dot(n, turning), dot(cross(W, n), turning))
+        rate, bias = dot(n, turning) - spin, dot(cross(W, n), turning) - spin_rate
+        write_row(machine, k + 2, q + 2, first, second, rate, bias)
+        friction.number[k + 2, OVER] = real(spin)
 
 
 @stage

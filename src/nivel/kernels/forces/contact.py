@@ -1,9 +1,9 @@
-"""Contact of spheres, boxes, cylinders and convex hulls with planes, and of spheres with each other.
+"""Contact of shapes with planes, and of spheres with each other.
 
-A box and a hull touch with their corners. A cylinder touches with four points of each rim, the lowest one and those a quarter turn
-on, so it rolls on exact circles and stands on four feet. Normal force: `nivel.kernels.forces.impact`, or a law of the user, which
-works from outside and never pulls. Friction of every point: μ N tanh(v/v_s) against the sliding velocity of the bodies there; or that of a
-patch of all points, which sticks: `nivel.kernels.elements.patch`.
+A box and a hull touch with their corners, a capsule with its two balls, an ellipsoid with its lowest point. A cylinder touches with four
+points of each rim, the lowest one and those a quarter turn on, so it rolls on exact circles and stands on four feet. Normal force:
+`nivel.kernels.forces.impact`, or a law of the user, which works from outside and never pulls. Friction of every point: μ N tanh(v/v_s)
+against the sliding velocity of the bodies there; or that of a patch of all points, which sticks: `nivel.kernels.elements.patch`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,10 @@ import numpy as np
 from nivel.kernels.algebra.analytic import maximum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
+from nivel.kernels.elements.moving_surface import NUMBERS as SURFACE_NUMBERS
+from nivel.kernels.elements.moving_surface import SPIN, SPIN_RATE, find_surface, surface_at, surface_rate_at, times
 from nivel.kernels.elements.patch import axis, leave_patch, middle_of, minus, plus, tangents, write_patch
+from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, RUB, SLIP, leave_touch, write_touch
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_force_at
 from nivel.kernels.record.function import evaluate_function
@@ -21,18 +24,21 @@ from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import stage
 
-# columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere;
-# LAW: of the normal force, or NONE; COUNT: points that may touch; PATCH: first friction of a patch, or NONE, AXES: how many it has,
-# COORDINATE: the first of these
-OUTPUT, KIND, MARKER, OTHER, LAW, COUNT, PATCH, AXES, COORDINATE = 0, 1, 2, 3, 4, 5, 6, 7, 8
-# outputs: magnitude, power, deepest overlap, normal force, rate of the deepest overlap, friction, speed of slip; a law reads overlap and
-# rate of its point there
-DEPTH, FORCE, RATE, RUB, SLIP = 2, 3, 4, 5, 6
-SPHERE, BOX, CYLINDER, SPHERES, HULL = 0, 1, 2, 3, 4
-# columns of `number`; SIZE: radius; half lengths; radius and half length; the two radii. Then a point, a normal and sums of work; then the
-# corners of a hull in the axes of its marker, three numbers each.
-STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, SIZE, POINT, NORMAL, SUMS = 0, 1, 2, 3, 4, 5, 8, 11, 14
-NUMBERS = 22
+# columns of `columns`; MARKER: centre and axes of the shape (of a cylinder and a capsule z is its); OTHER: the plane (z outwards), or
+# the other sphere; LAW: of the normal force, or NONE; COUNT: points that may touch; PATCH: first friction of a patch, or NONE, AXES:
+# how many it has, COORDINATE: the first of these; SURFACE: the columns of a surface that moves over its body
+OUTPUT, KIND, MARKER, OTHER, LAW, COUNT, PATCH, AXES, COORDINATE, SURFACE = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+# a law reads overlap and rate of its point among the outputs
+SPHERE, BOX, CYLINDER, SPHERES, HULL, CAPSULE, ELLIPSOID = 0, 1, 2, 3, 4, 5, 6
+# columns of `number`; SIZE: radius; half lengths; radius and half length; semi-axes; the two radii; RADIUS: of a ball about the marker that
+# holds the shape, of two spheres 0. Then work: a point, a normal, sums over the points (force, moments of first and second order, force
+# times velocity of the point; friction on the first body; sum of the sizes of friction, power lost, power of the moving surface, power,
+# deepest overlap, its rate, fastest slip), and the moving surface; then the corners of a hull in its axes, three numbers each.
+STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, SIZE, RADIUS, POINT, NORMAL, SUMS = 0, 1, 2, 3, 4, 5, 8, 9, 12, 15
+RUBBED, RUBBING, LOST, GIVEN, POWER, DEEPEST, ITS_RATE, SLIDING, MOVING = 23, 26, 27, 28, 29, 30, 31, 32, 33
+NUMBERS = MOVING + SURFACE_NUMBERS
+# A shape is far from a plane if its ball is by this share of its radius: then the distance of the ball stands for that of all its points.
+FAR = 0.5
 # A cylinder whose axis is as near to the normal, by the square of the sine, stands.
 UPRIGHT = 1e-3
 
@@ -80,6 +86,16 @@ def rim_point(A, r, size, n, normal, p):
 
 
 @stage
+def lowest_point(A, r, size, normal, p):
+    """The point of an ellipsoid farthest against the normal: r - A S² Aᵀ n/|S Aᵀ n|."""
+    g0, g1, g2 = size[0] * dot(axis(A, 0), normal), size[1] * dot(axis(A, 1), normal), size[2] * dot(axis(A, 2), normal)
+    h = np.sqrt(g0 * g0 + g1 * g1 + g2 * g2)
+    x, y, z = -size[0] * g0 / h, -size[1] * g1 / h, -size[2] * g2 / h
+    for a in range(3):
+        p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
+
+
+@stage
 def law_force(machine, k, depth, rate, t):
     """The user's normal force at an overlap and its rate; none where the surfaces are apart, or where it would pull."""
     record = record_at(machine)
@@ -93,18 +109,17 @@ def law_force(machine, k, depth, rate, t):
 
 @stage
 def touch(machine, k, n, depth, t):
-    """Forces at the point of number[POINT:], normal number[NORMAL:] from the other body to this one; returns (N, friction, power, speed of
-    slip)."""
+    """Forces at the point of number[POINT:], normal number[NORMAL:] from the other body to this one, added to the sums of the contact."""
     record = record_at(machine)
     bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
-    numbers = elements.number[k]
+    columns, numbers = elements.columns[k], elements.number[k]
     p, normal = numbers[POINT:NORMAL], numbers[NORMAL:SUMS]
-    this, other = markers.body[elements.columns[k, MARKER]], markers.body[elements.columns[k, OTHER]]
+    this, other = markers.body[columns[MARKER]], markers.body[columns[OTHER]]
     v0, v1, v2 = velocity_at(bodies, this, p)
     u0, u1, u2 = velocity_at(bodies, other, p)
     v0, v1, v2 = v0 - u0, v1 - u1, v2 - u2
     out = v0 * normal[0] + v1 * normal[1] + v2 * normal[2]
-    if elements.columns[k, LAW] != NONE:
+    if columns[LAW] != NONE:
         force = law_force(machine, k, depth, -out, t)
         elements.proposal[k, n] = 0.0 * force + (1.0 if real(depth) > 0.0 else 0.0)
         control.power[0] += force * out
@@ -120,19 +135,35 @@ def touch(machine, k, n, depth, t):
         )
         control.stored[0] += stored
         control.power[1] += loss
-    s0, s1, s2 = v0 - out * normal[0], v1 - out * normal[1], v2 - out * normal[2]
-    speed = np.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
+    s = v0 - out * normal[0], v1 - out * normal[1], v2 - out * normal[2]
+    over = 0.0 * out, 0.0 * out, 0.0 * out
+    if columns[SURFACE] != NONE:
+        over = surface_at(machine, columns[SURFACE + 2], numbers[MOVING:NUMBERS], p)
+        up = dot(over, normal)
+        over = over[0] - up * normal[0], over[1] - up * normal[1], over[2] - up * normal[2]
+        s = minus(s, over)
+    squared = dot(s, s)
+    speed = np.sqrt(squared) if real(squared) > 0.0 else 0.0 * squared
     friction = 0.0 * force
     if real(numbers[FRICTION]) > 0.0 and real(speed) > 0.0:
         friction = numbers[FRICTION] * force * tanh(speed / numbers[TRANSITION])
-        s0, s1, s2 = friction * s0 / speed, friction * s1 / speed, friction * s2 / speed
+        s = friction * s[0] / speed, friction * s[1] / speed, friction * s[2] / speed
+        given = -dot(s, over)
         control.power[1] += friction * speed
+        control.power[0] += given
+        numbers[LOST] += friction * speed
+        numbers[GIVEN] += given
     else:
-        s0, s1, s2 = 0.0, 0.0, 0.0
-    x, y, z = force * normal[0] - s0, force * normal[1] - s1, force * normal[2] - s2
+        s = friction, friction, friction
+    x, y, z = force * normal[0] - s[0], force * normal[1] - s[1], force * normal[2] - s[2]
     power = add_force_at(bodies, this, p, x, y, z)
-    power += add_force_at(bodies, other, p, -x, -y, -z)
-    return force, friction, power, speed
+    numbers[POWER] += power + add_force_at(bodies, other, p, -x, -y, -z)
+    numbers[RUBBING] += friction
+    if real(speed) > real(numbers[SLIDING]):
+        numbers[SLIDING] = speed
+    for a in range(3):
+        numbers[RUBBED + a] -= s[a]
+    gather(machine, k, n, force)
 
 
 @stage
@@ -182,9 +213,15 @@ def find_point(machine, k, n):
         rim_point(A, r, size, n, normal, p)
     elif kind == HULL:
         hull_corner(A, r, numbers[NUMBERS:], n, p)
+    elif kind == ELLIPSOID:
+        lowest_point(A, r, size, normal, p)
+    elif kind == CAPSULE:
+        z = size[1] if n == 0 else -size[1]
+        for a in range(3):
+            p[a] += z * A[a, 2]
     height = (p[0] - o[0]) * normal[0] + (p[1] - o[1]) * normal[1] + (p[2] - o[2]) * normal[2]
-    depth = size[0] - height if kind == SPHERE else -height
-    if kind == SPHERE:
+    depth = size[0] - height if kind in (SPHERE, CAPSULE) else -height
+    if kind in (SPHERE, CAPSULE):
         # the force acts on the plane
         for a in range(3):
             p[a] -= height * normal[a]
@@ -203,9 +240,14 @@ def speed_of_point(machine, k, n):
     )
     i, j, kind, p = columns[MARKER], columns[OTHER], columns[KIND], numbers[POINT:NORMAL]
     w, W = bodies.omega[markers.body[i]], bodies.omega[markers.body[j]]
-    normal, r, o = (numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]), markers.r[i], markers.r[j]
-    if kind in (SPHERE, SPHERES):
-        d, speed = minus(r, o), minus(markers.rdot[i], markers.rdot[j])
+    normal, o = (numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]), markers.r[j]
+    r = markers.r[i, 0], markers.r[i, 1], markers.r[i, 2]
+    if kind == CAPSULE:
+        z = numbers[SIZE + 1] if n == 0 else -numbers[SIZE + 1]
+        r = plus(r, times(z, axis(markers.A[i], 2)))
+    if kind in (SPHERE, SPHERES, CAPSULE):
+        own = plus(markers.rdot[i], cross(w, minus(r, markers.r[i])))
+        d, speed = minus(r, o), minus(own, markers.rdot[j])
         if kind == SPHERES:
             # p - o = s n, s half of the way between both surfaces
             out, distance, s = dot(normal, speed), dot(normal, d), dot(normal, minus(p, o))
@@ -221,7 +263,20 @@ def speed_of_point(machine, k, n):
             out * normal[1] + height * turning[1],
             out * normal[2] + height * turning[2],
         )
-        return minus(markers.rdot[i], down)
+        return minus(own, down)
+    if kind == ELLIPSOID:
+        # x = -S² g/h in axes of the body, g = Aᵀ n, h = |S g|; ġ = Aᵀ (Ω - ω) × n
+        A, size, turning = markers.A[i], numbers[SIZE:POINT], cross(minus(W, w), normal)
+        h, along = 0.0 * normal[0], 0.0 * normal[0]
+        for b in range(3):
+            g = dot(axis(A, b), normal)
+            h += size[b] * size[b] * g * g
+            along += size[b] * size[b] * g * dot(axis(A, b), turning)
+        v = velocity_at(bodies, markers.body[i], p)
+        for b in range(3):
+            part = dot(axis(A, b), normal) * along / h - dot(axis(A, b), turning)
+            v = plus(v, times(size[b] * size[b] * part / np.sqrt(h), axis(A, b)))
+        return v
     if kind == CYLINDER:
         a = axis(markers.A[i], 2)
         sigma = dot(a, normal)
@@ -238,17 +293,20 @@ def speed_of_point(machine, k, n):
 
 @stage
 def gather(machine, k, n, force):
-    """Add the force at the point of number[POINT:] to the sums for the patch: force, its moments of first and second order about the
-    marker, force times velocity of the point."""
+    """Add the force at the point of number[POINT:] to the sums: force, its moments of first order about the marker; for a patch those of
+    second order, and force times velocity of the point."""
     record = record_at(machine)
     markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
-    d, v = minus(numbers[POINT:NORMAL], markers.r[columns[MARKER]]), speed_of_point(machine, k, n)
-    sums = numbers[SUMS:NUMBERS]
+    d = minus(numbers[POINT:NORMAL], markers.r[columns[MARKER]])
+    sums = numbers[SUMS:RUBBED]
     sums[0] += force
-    sums[4] += force * dot(d, d)
     for a in range(3):
         sums[1 + a] += force * d[a]
-        sums[5 + a] += force * v[a]
+    if columns[PATCH] != NONE:
+        v = speed_of_point(machine, k, n)
+        sums[4] += force * dot(d, d)
+        for a in range(3):
+            sums[5 + a] += force * v[a]
 
 
 @stage
@@ -256,7 +314,7 @@ def find_patch(machine, k):
     """The patch of contact k, from its sums."""
     record = record_at(machine)
     markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
-    sums, count, j = numbers[SUMS:NUMBERS], np.int64(columns[AXES]), columns[OTHER]
+    sums, count, j = numbers[SUMS:RUBBED], np.int64(columns[AXES]), columns[OTHER]
     first, q = np.int64(columns[PATCH]), np.int64(columns[COORDINATE])
     load = sums[0]
     if not real(load) > 0.0:
@@ -268,50 +326,96 @@ def find_patch(machine, k):
     if columns[KIND] == SPHERES:
         t, u = tangents(markers.A[j], n)
     p, pdot = plus(markers.r[columns[MARKER]], d), (sums[5] / load, sums[6] / load, sums[7] / load)
-    write_patch(machine, first, count, q, p, pdot, n, t, u, load, reach)
+    o = 0.0 * load
+    over, change, spin, spin_rate = (o, o, o), (o, o, o), o, o
+    if columns[SURFACE] != NONE:
+        moving, frame = numbers[MOVING:NUMBERS], columns[SURFACE + 2]
+        over, change = surface_at(machine, frame, moving, p), surface_rate_at(machine, frame, moving, p, pdot)
+        spin, spin_rate = o + moving[SPIN], o + moving[SPIN_RATE]
+    write_patch(machine, first, count, q, p, pdot, n, t, u, load, reach, over, change, spin, spin_rate)
+
+
+@stage
+def is_far(machine, k):
+    """Whether the ball of the shape is far from the plane, and was: then its distance stands for that of all points."""
+    record = record_at(machine)
+    markers, elements, followed = record.markers, record.elements, record.watched.followed[0]
+    columns, numbers = elements.columns[k], elements.number[k]
+    i, j, radius = columns[MARKER], columns[OTHER], numbers[RADIUS]
+    n, d = axis(markers.A[j], 2), minus(markers.r[i], markers.r[j])
+    gap = dot(n, d) - radius
+    if not real(gap) > FAR * real(radius) or columns[KIND] == SPHERES:
+        return False
+    if followed == 1:
+        for m in range(columns[COUNT]):
+            if elements.memory[k, m] > 0.0:
+                return False
+    speed = minus(minus(markers.rdot[i], markers.rdot[j]), cross(record.bodies.omega[markers.body[j]], d))
+    numbers[DEEPEST], numbers[ITS_RATE] = -gap, -dot(n, speed)
+    for m in range(columns[COUNT]):
+        elements.depth[k, m], elements.proposal[k, m] = -gap, 0.0 * gap
+        if followed == 1:
+            elements.depth_rate[k, m] = numbers[ITS_RATE]
+    return True
+
+
+@stage
+def look(machine, k, n, t):
+    """Find point n of contact k, and push where it touches."""
+    record = record_at(machine)
+    elements, followed, numbers = record.elements, record.watched.followed[0], record.elements.number[k]
+    depth = find_point(machine, k, n)
+    rate = approach(machine, k)
+    if real(depth) > real(numbers[DEEPEST]):
+        numbers[DEEPEST], numbers[ITS_RATE] = depth, rate
+    elements.depth[k, n] = depth
+    if followed == 1:
+        elements.depth_rate[k, n] = rate
+    if real(depth) > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
+        touch(machine, k, n, depth, t)
+    else:
+        elements.proposal[k, n] = 0.0
+
+
+@stage
+def begin_contact(machine, k, t):
+    """Clear the sums of contact k, and find its moving surface."""
+    elements = record_at(machine).elements
+    columns, numbers = elements.columns[k], elements.number[k]
+    for a in range(SUMS, MOVING):
+        numbers[a] = 0.0 * numbers[STIFFNESS]
+    numbers[DEEPEST] = numbers[DEEPEST] - np.inf
+    if columns[SURFACE] != NONE:
+        find_surface(machine, columns[SURFACE:], numbers[MOVING:NUMBERS], t)
+
+
+@stage
+def report_contact(machine, k):
+    """Patch and outputs of contact k, from its sums."""
+    record = record_at(machine)
+    columns, numbers, out = record.elements.columns[k], record.elements.number[k], record.outputs.value
+    if columns[PATCH] != NONE:
+        find_patch(machine, k)
+    first, force, friction = columns[OUTPUT], numbers[SUMS], numbers[RUBBING]
+    out[first] = np.sqrt(force * force + friction * friction)
+    out[first + 1], out[first + DEPTH], out[first + FORCE] = numbers[POWER], numbers[DEEPEST], force
+    out[first + RATE], out[first + RUB], out[first + SLIP] = numbers[ITS_RATE], friction, numbers[SLIDING]
+    if real(force) > 0.0:
+        d = numbers[SUMS + 1] / force, numbers[SUMS + 2] / force, numbers[SUMS + 3] / force
+        p = plus(record.markers.r[columns[MARKER]], d)
+        write_touch(machine, first, p, numbers[NORMAL:SUMS], numbers[RUBBED:RUBBING], numbers[LOST], numbers[GIVEN])
+    else:
+        leave_touch(machine, first)
 
 
 @family
 def apply(machine, number, t):
     """All contacts."""
-    record = record_at(machine)
-    elements, followed = record.elements, record.watched.followed[0]
+    elements = record_at(machine).elements
     for k in range(elements.span[number, 0], elements.span[number, 1]):
-        nothing = 0.0 * elements.number[k, STIFFNESS]
-        normal_force, friction_force, power, slip = nothing, nothing, nothing, nothing
-        deepest, its_rate = nothing - np.inf, nothing
-        sticks = elements.columns[k, PATCH] != NONE
-        if sticks:
-            for a in range(SUMS, NUMBERS):
-                elements.number[k, a] = nothing
-        for n in range(elements.columns[k, COUNT]):
-            depth = find_point(machine, k, n)
-            rate = approach(machine, k)
-            if real(depth) > real(deepest):
-                deepest, its_rate = depth, rate
-            elements.depth[k, n] = depth
-            if followed == 1:
-                elements.depth_rate[k, n] = rate
-            if real(depth) > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
-                force, friction, gained, speed = touch(machine, k, n, depth, t)
-                normal_force += force
-                friction_force += friction
-                power += gained
-                slip = speed if real(speed) > real(slip) else slip
-                if sticks:
-                    gather(machine, k, n, force)
-            else:
-                elements.proposal[k, n] = 0.0
-        if sticks:
-            find_patch(machine, k)
-        out = record.outputs.value
-        first = elements.columns[k, OUTPUT]
-        out[first] = np.sqrt(normal_force * normal_force + friction_force * friction_force)
-        out[first + 1], out[first + DEPTH], out[first + FORCE], out[first + RATE] = (
-            power,
-            deepest,
-            normal_force,
-            its_rate,
-        )
-        out[first + RUB], out[first + SLIP] = friction_force, slip
+        begin_contact(machine, k, t)
+        if not is_far(machine, k):
+            for n in range(elements.columns[k, COUNT]):
+                look(machine, k, n, t)
+        report_contact(machine, k)
     return OK

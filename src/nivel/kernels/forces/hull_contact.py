@@ -16,37 +16,40 @@ import numpy as np
 from nivel.kernels.algebra.analytic import maximum, minimum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
+from nivel.kernels.elements.moving_surface import SPIN as SURFACE_SPIN
+from nivel.kernels.elements.moving_surface import SPIN_RATE, find_surface, surface_at, surface_rate_at
 from nivel.kernels.elements.patch import leave_patch, middle_of, plus, tangents, write_patch
+from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, leave_touch, write_touch
+from nivel.kernels.elements.touch import RUB as FRICTION_FORCE
+from nivel.kernels.elements.touch import SLIP as SLIP_SPEED
 from nivel.kernels.forces.contact import velocity_at
 from nivel.kernels.forces.hull_pair import (
     AXES,
     BOX,
     COORDINATE,
     DAMPING,
-    DEPTH,
     FACES,
     FIELD,
-    FORCE,
     FRICTION,
-    FRICTION_FORCE,
     MARKER,
+    MOVING,
     NORMAL,
     OTHER,
     OTHER_FACES,
     OTHER_RADIUS,
     OUTPUT,
+    OVER,
     PATCH,
     PLANE,
     PUSH,
     PUSH_TORQUE,
     RADIUS,
-    RATE,
     RUB,
     RUB_TORQUE,
     SHIFT,
-    SLIP_SPEED,
     SPEED,
     SPIN,
+    SURFACE,
     TRANSITION,
     TURN,
     find_faces,
@@ -75,10 +78,10 @@ TOUCH = 1e-30
 
 
 @stage
-def see(machine, k):
-    """Place and motion of the second hull in the axes of the first; returns the distance of their middles."""
+def see(machine, k, t):
+    """Place and motion of the second hull and its surface in the axes of the first; returns the distance of their middles."""
     record = record_at(machine)
-    markers, bodies, n = record.markers, record.bodies, record.elements.number[k]
+    markers, bodies, n, columns = record.markers, record.bodies, record.elements.number[k], record.elements.columns[k]
     i, j = record.elements.columns[k, MARKER], record.elements.columns[k, OTHER]
     A, B, r = markers.A[i], markers.A[j], markers.r[i]
     a0, a1, a2 = velocity_at(bodies, markers.body[i], r)
@@ -93,6 +96,10 @@ def see(machine, k):
             n[SPIN + a] += A[b, a] * (w[b] - u[b])
             n[TURN + 3 * a + b] = A[0, a] * B[0, b] + A[1, a] * B[1, b] + A[2, a] * B[2, b]
         distance += n[SHIFT + a] * n[SHIFT + a]
+    if columns[SURFACE] != NONE:
+        find_surface(machine, columns[SURFACE:], n[MOVING:], t)
+        for a in range(3):
+            n[OVER + a] = A[0, a] * n[MOVING] + A[1, a] * n[MOVING + 1] + A[2, a] * n[MOVING + 2]
     return np.sqrt(distance)
 
 
@@ -122,6 +129,15 @@ def add_to(n, sums, x, y, z, f0, f1, f2):
 
 
 @leaf
+def slip_at(n, v0, v1, v2):
+    """Velocity with which the second surface slides over the first, where the second body moves relative to the first."""
+    N = n[NORMAL : NORMAL + 3]
+    x, y, z = v0 + n[OVER], v1 + n[OVER + 1], v2 + n[OVER + 2]
+    out = x * N[0] + y * N[1] + z * N[2]
+    return x - out * N[0], y - out * N[1], z - out * N[2]
+
+
+@leaf
 def rub_at(n, weight, x, y, z):
     """Add what damping and friction do where an elastic pressure pushes the second hull with the force `weight` against the normal of the
     plane; returns the power that is lost."""
@@ -140,7 +156,7 @@ def rub_at(n, weight, x, y, z):
         sums[3] += force * z
         sums[4] += force * (x * x + y * y + z * z)
     elif real(n[FRICTION]) > 0.0:
-        s0, s1, s2 = v0 + rate * N[0], v1 + rate * N[1], v2 + rate * N[2]
+        s0, s1, s2 = slip_at(n, v0, v1, v2)
         squared = s0 * s0 + s1 * s1 + s2 * s2
         along = -(m[0] * N[0] + m[1] * N[1] + m[2] * N[2])
         if real(squared) > 0.0 and real(along) > 0.0:
@@ -285,10 +301,11 @@ def overlap(columns, n, distance, is_apart):
 
 @stage
 def find_patch(machine, k):
-    """The patch of contact k, from its sums, which are clear then."""
+    """The patch of contact k, from its sums, which are clear then; returns its middle."""
     record = record_at(machine)
     markers, bodies = record.markers, record.bodies
     columns, n = record.elements.columns[k], record.elements.number[k]
+    p = middle_of_push(machine, k)
     first, count, q = np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE])
     i, j, sums = columns[MARKER], columns[OTHER], n[RUB:BOX]
     if real(sums[0]) > 0.0:
@@ -298,11 +315,35 @@ def find_patch(machine, k):
         t, u = tangents(markers.A[j], normal)
         v, w = velocity_at(bodies, markers.body[i], p), velocity_at(bodies, markers.body[j], p)
         pdot = 0.5 * (v[0] + w[0]), 0.5 * (v[1] + w[1]), 0.5 * (v[2] + w[2])
-        write_patch(machine, first, count, q, p, pdot, normal, t, u, load, reach)
+        o = 0.0 * load
+        over, change, spin, spin_rate = (o, o, o), (o, o, o), o, o
+        if columns[SURFACE] != NONE:
+            moving, frame = n[MOVING:], columns[SURFACE + 2]
+            over, change = surface_at(machine, frame, moving, p), surface_rate_at(machine, frame, moving, p, pdot)
+            spin, spin_rate = o + moving[SURFACE_SPIN], o + moving[SPIN_RATE]
+        write_patch(machine, first, count, q, p, pdot, normal, t, u, load, reach, over, change, spin, spin_rate)
     else:
         leave_patch(machine, first, count, q)
     for a in range(6):
         sums[a] = 0.0 * n[FIELD]
+    return p
+
+
+@stage
+def middle_of_push(machine, k):
+    """The point of the normal force's line that is next to the middle of the overlap."""
+    record = record_at(machine)
+    n, i = record.elements.number[k], record.elements.columns[k, MARKER]
+    F, T = n[PUSH:PUSH_TORQUE], n[PUSH_TORQUE:RUB]
+    squared = dot(F, F)
+    x = 0.0 * squared, 0.0 * squared, 0.0 * squared
+    if real(squared) > 0.0:
+        x = cross(F, T)
+        along = 0.0 * squared
+        for a in range(3):
+            along += F[a] * 0.5 * (n[BOX + a] + n[BOX + 3 + a])
+        x = (x[0] + along * F[0]) / squared, (x[1] + along * F[1]) / squared, (x[2] + along * F[2]) / squared
+    return plus(record.markers.r[i], turned(record.markers.A[i], x))
 
 
 @leaf
@@ -316,12 +357,11 @@ def turned(A, d):
 @leaf
 def speed_of_slip(n):
     """Speed across the normal at the middle of the normal force, between the two bodies."""
-    F, T, N = n[PUSH:PUSH_TORQUE], n[PUSH_TORQUE:RUB], n[NORMAL : NORMAL + 3]
+    F, T = n[PUSH:PUSH_TORQUE], n[PUSH_TORQUE:RUB]
     squared = dot(F, F)
     p = cross(F, T)
     v = velocity(n, p[0] / squared, p[1] / squared, p[2] / squared)
-    out = dot(v, N)
-    s = v[0] - out * N[0], v[1] - out * N[1], v[2] - out * N[2]
+    s = slip_at(n, v[0], v[1], v[2])
     square = dot(s, s)
     return np.sqrt(square) if real(square) > 0.0 else 0.0 * square
 
@@ -354,20 +394,29 @@ def apply(machine, number, t):
     elements, control, followed = record.elements, record.control, record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         columns, n = elements.columns[k], elements.number[k]
-        distance = see(machine, k)
+        distance = see(machine, k, t)
         # where steps end at a touch, the hulls touch from the next accepted state on
         depth, rate, energy, loss = overlap(columns, n, distance, followed == 1 and elements.memory[k, 0] == 0.0)
         elements.depth[k, 0], elements.proposal[k, 0] = depth, 0.0 * depth + (1.0 if real(depth) > 0.0 else 0.0)
         if followed == 1:
             elements.depth_rate[k, 0] = rate
         normal, power, slip = length_of(n, PUSH), 0.0 * depth, 0.0 * depth
-        if columns[PATCH] != NONE:
-            find_patch(machine, k)
+        given, first = 0.0 * depth, columns[OUTPUT]
+        p = middle_of_push(machine, k) if columns[PATCH] == NONE else find_patch(machine, k)
         if real(normal) > 0.0:
             power, slip = push(machine, k), speed_of_slip(n)
+            given, spun = -dot(n[RUB:RUB_TORQUE], n[OVER:MOVING]), dot(n[RUB_TORQUE:BOX], n[SPIN:PUSH])
+            rubbed = given - dot(n[RUB:RUB_TORQUE], n[SPEED:SPIN]) - spun
+            A = record.markers.A[columns[MARKER]]
+            N = turned(A, (-n[NORMAL], -n[NORMAL + 1], -n[NORMAL + 2]))
+            drag = turned(A, (-n[RUB], -n[RUB + 1], -n[RUB + 2]))
+            write_touch(machine, first, p, N, drag, rubbed, given)
+        else:
+            leave_touch(machine, first)
+        control.power[0] += given
         control.stored[0] += energy
         control.power[1] += loss
-        out, first = record.outputs.value, columns[OUTPUT]
+        out = record.outputs.value
         out[first + DEPTH], out[first + FORCE], out[first + RATE] = depth, normal, rate
         out[first + FRICTION_FORCE], out[first + SLIP_SPEED] = length_of(n, RUB), slip
         for a in range(3):

@@ -5,26 +5,28 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.elements.moving_surface import NUMBERS as SURFACE_NUMBERS
 from nivel.kernels.forces.pressure_cells import bound_cap, nearest_faces, overlap_under
 from nivel.native.function import leaf
 
 # columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; the patch as in
-# `nivel.kernels.forces.contact`; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says, and those of the
+# `nivel.kernels.forces.contact`, and the surface; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says,
+# and those of the
 # second
 OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, SECOND_EDGES = range(9)
-PATCH, AXES, COORDINATE, EDGES = 9, 10, 11, 12
-# outputs: magnitude, power, depth, normal force, rate of approach, friction, speed of slip at the middle
-DEPTH, FORCE, RATE, FRICTION_FORCE, SLIP_SPEED = 2, 3, 4, 5, 6
+PATCH, AXES, COORDINATE, SURFACE, EDGES = 9, 10, 11, 12, 15
 # columns of `number`; TRANSITION: 0 where friction is that of a patch. Then work: place of the second hull in axes of the first, velocity
 # and angular velocity relative to the first at its origin, sums (normal force and its torque, friction and its torque, or what the patch is
-# made of), a box, a plane, the normal of the contact from first to second
+# made of), a box, a plane, the normal of the contact from first to second, velocity of the
+# second one's surface over it, the moving surface
 FIELD, DAMPING, FRICTION, TRANSITION, RADIUS, OTHER_RADIUS = range(6)
 TURN, SHIFT, SPEED, SPIN, PUSH, PUSH_TORQUE, RUB, RUB_TORQUE, BOX, PLANE, NORMAL = (
     6, 15, 18, 21, 24, 27, 30, 33, 36, 42, 54,
 )  # fmt: skip
 # then the corners of the first hull (3 each), all faces (4 each), those of the second as seen from the first, which is work; corners
 # and faces of the second in its own axes; work: its corners as seen from the first, rows of the nearest faces, two polygons
-NUMBERS = 57
+OVER, MOVING = 57, 60
+NUMBERS = MOVING + SURFACE_NUMBERS
 # The second hull is larger by this share of the sizes, so that of two faces in one plane the nearest is never in doubt.
 APART = 1e-13
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
+
+from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
@@ -21,8 +23,9 @@ from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Record
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, Maybe, TwoNames, TwoRecords
-from nivel.machine.laws.time_function import ContactForce
+from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
 from nivel.machine.power_stiffness import PowerStiffness
+from nivel.machine.units.quantity import listed
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "extrusion", "mesh")  # that touch each other, with their convex hulls
@@ -46,7 +49,11 @@ class Contact(ForceElement):
     where they touch.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force", "rate", "friction_force", "slip_speed")
+    outputs: ClassVar[tuple[str, ...]] = (
+        *(*OUTPUTS, "depth", "normal_force", "rate", "friction_force", "slip_speed"),
+        *("friction_power", "surface_power", "sticks", "x", "y", "z"),
+        *("normal_x", "normal_y", "normal_z", "friction_x", "friction_y", "friction_z"),
+    )
 
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
@@ -89,6 +96,14 @@ class Contact(ForceElement):
         default=None, description="of `friction_model: coulomb`; stiction makes no use of it"
     )
 
+    surface_velocity: Maybe[Annotated[ThreeFunctions[SurfaceVelocity], BeforeValidator(listed)]] = Field(
+        default=None,
+        description="of the surface of the plane, along the axes of its marker, or of the second body, along its axes, over this body",
+    )
+    surface_spin: Maybe[SurfaceSpin] = Field(
+        default=None, description="of the surface of the plane about the z axis through the point of its marker"
+    )
+
     def problems(self) -> Iterator[Problem]:
         yield from self._problems_of_partners()
         if self.damping is not None and self.foundation_modulus is None:
@@ -121,6 +136,11 @@ class Contact(ForceElement):
             )
         if self.friction > 0 and not self.sticks and self.friction_transition_speed is None:
             yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        moving = [name for name in ("surface_velocity", "surface_spin") if getattr(self, name) is not None]
+        if moving and not self.friction:
+            yield Problem((moving[0],), f"`{moving[0]}` acts by `friction`, and none is given")
+        if self.surface_spin is not None and self.bodies is not None:
+            yield superfluous("surface_spin", "belongs to a `plane`; a body that turns has a joint and a driver")
         if self.static > self.friction and not self.sticks:
             yield superfluous("static_friction", "belongs to `friction_model: stiction`")
 

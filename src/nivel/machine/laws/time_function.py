@@ -254,3 +254,6 @@ SpringForce = Annotated[OneFunction, varying("force", local=("length", "rate"))]
 SpringTorque = Annotated[OneFunction, varying("torque", local=("angle", "rate"))]
 # Laws of contacts: overlap and its rate at each point that touches.
 ContactForce = Annotated[OneFunction, varying("force", local=("depth", "rate"))]
+# Surfaces that move over their bodies.
+SurfaceVelocity = Annotated[OneFunction, varying("velocity")]
+SurfaceSpin = Annotated[OneFunction, varying("angular velocity")]

@@ -18,7 +18,10 @@ from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces import Bushing, Contact, Material, Stop
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.hulls import hull_of, row_of
@@ -56,6 +59,12 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         ("rate", "m/s", "rate of the deepest overlap"),
         ("friction_force", "N", "friction force"),
         ("slip_speed", "m/s", "sliding speed"),
+        ("friction_power", "W", "power that friction turns to heat"),
+        ("surface_power", "W", "power of the moving surface"),
+        ("sticks", "1", "1 where friction holds, else 0"),
+        *((axis, "m", f"{axis} of the middle of the normal forces; 0 without contact") for axis in "xyz"),
+        *((f"normal_{axis}", "1", f"{axis} of the normal towards the first body") for axis in "xyz"),
+        *((f"friction_{axis}", "N", f"friction on the first body along {axis}") for axis in "xyz"),
     )
     if force.foundation_modulus is not None:
         _add_hulls(builder, force, first)
@@ -82,6 +91,7 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
     numbers = [stiffness or 0.0, force.exponent, loss, 0.0 if force.sticks else force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
+    numbers.append(0.0 if force.bodies is not None else _ball(builder.machine.body_named[str(force.body)]))
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = POINTS.get(kind, 1)
     if kind == contact.HULL:
@@ -90,7 +100,7 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     patch = [NONE, 0, 0]
     if force.sticks:
         patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
-    columns = [first, kind, *markers, law, points, *patch]
+    columns = [first, kind, *markers, law, points, *patch, *_surface(builder, force, markers[1])]
     builder.elements.add(contact.apply, columns, numbers, points, tuple(range(points)))
 
 
@@ -125,8 +135,44 @@ def _add_hulls(builder: SystemBuilder, force: Contact, first: int) -> None:
     hulls = hull_of(bodies[0]), hull_of(bodies[1])
     markers = [builder.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
     patch = add_patch(builder, force, (markers[0], markers[1]), first, True) if force.sticks else [NONE, 0, 0]
-    columns, numbers = row_of(hulls, force, patch)
+    frame = builder.frame(bodies[1].name) if force.surface_velocity is not None else NONE
+    columns, numbers = row_of(hulls, force, [*patch, *_surface(builder, force, frame)])
     builder.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
+
+
+def _surface(builder: SystemBuilder, force: Contact, frame: int) -> list[int]:
+    """Columns of the surface that moves over the second body, in axes of the marker `frame`."""
+    if force.surface_velocity is None and force.surface_spin is None:
+        return [NONE, 0, NONE]
+    given = [*(force.surface_velocity or (0.0, 0.0, 0.0)), force.surface_spin or 0.0]
+    smooth = all(_is_smooth(each) for each in given)
+    numbers = [builder.function(each, motion=smooth) for each in given]
+    return [numbers[0], int(smooth), frame]
+
+
+def _is_smooth(function: TimeFunction) -> bool:
+    """Whether the rate of a function is known: one of time alone, without corners."""
+    if isinstance(function, PythonLaw):
+        return False
+    try:
+        check_smooth(function)
+    except ExpressionError:
+        return False
+    return True
+
+
+def _ball(body: Body) -> float:
+    """[m] radius of a ball about the marker of a shape that holds it."""
+    match body.shape:
+        case Sphere():
+            return body.shape.radius
+        case Box():
+            return 0.5 * math.hypot(*box_size(body.shape))
+        case Cylinder():
+            return math.hypot(body.shape.radius, 0.5 * length(body.shape))
+        case Extrusion() | Mesh():
+            return float(np.linalg.norm(_corners(body), axis=1).max())
+    raise ValueError(f"body {body.name} has no shape that can touch")
 
 
 def _radius(body: Body) -> float:

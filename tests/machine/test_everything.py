@@ -10,7 +10,7 @@ from lanes import parts
 from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
 from nivel.machine import JOINT_COORDINATES, MachineRecord
-from nivel.machine.control import BLOCKS, FmuBlock
+from nivel.machine.control import BLOCKS, CBlock, FmuBlock
 from nivel.machine.core.index import SECTIONS
 from nivel.machine.forces import FORCES
 from nivel.machine.hydraulics import COMPONENTS
@@ -39,8 +39,8 @@ GARBAGE = (
 
 def test_every_kind_is_in_it():
     assert {type(force) for force in MACHINE.forces} == set(FORCES)
-    # FMUs need a file, and have tests of their own
-    assert {type(block) for block in MACHINE.control} == set(BLOCKS) - {FmuBlock}
+    # FMUs and C functions need a file, and have tests of their own
+    assert {type(block) for block in MACHINE.control} == set(BLOCKS) - {FmuBlock, CBlock}
     assert {type(component) for component in MACHINE.hydraulics} == set(COMPONENTS)
     assert {coupling.type for coupling in MACHINE.couplings} == {"gear", "belt", "rack", "linear", "function"}
     assert all(getattr(MACHINE, section) for section in SECTIONS)

@@ -25,6 +25,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.function import CONSTANT
 from nivel.machine import Input, Table
+from nivel.machine.control import UnitBlock
 from nivel.native.entry import Entry
 from nivel.results.frames.csv_table import columns
 from nivel.results.memory import Memory
@@ -149,8 +150,10 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
             f"{what} takes steps of one length, and {plan.settings.integrator} chooses them; "
             "take --integrator rk4, or --step-control fixed"
         )
-    if named := [block.name for block in plan.machine.control if block.type == "fmu"]:
-        raise refusal(f"the FMU of the block `{named[0]}` cannot go into {what}")
+    if named := [
+        f"{each.what} of the block `{each.name}`" for each in plan.machine.control if isinstance(each, UnitBlock)
+    ]:
+        raise refusal(f"{what} cannot have what others have compiled: {named[0]}")
     plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
     loop = _endless(start_loop(prepared, plan.settings))
     entries = tuple(dict.fromkeys(run_entries(plan)))

@@ -18,7 +18,6 @@ from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
 from nivel.files.body_files import place_body_files
 from nivel.files.csv_tables import read_csv_tables
-from nivel.files.fmu_blocks import read_fmu_blocks
 from nivel.files.include import include
 from nivel.files.known import Known
 from nivel.files.mass_file import read_mass_properties
@@ -29,6 +28,7 @@ from nivel.files.python_laws import read_python_laws
 from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
+from nivel.files.unit_blocks import read_unit_blocks
 from nivel.machine import MachineRecord, Record
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.laws.named_function import resolve_functions
@@ -122,7 +122,7 @@ def _tree_of(
     add_rotors(tree)
     read_meshes(tree, sources)
     read_python_laws(tree, sources)
-    read_fmu_blocks(tree, sources)
+    read_unit_blocks(tree, sources)
     read_csv_tables(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]

@@ -24,6 +24,7 @@ from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table
 from nivel.machine.changes import changed
+from nivel.machine.control import UnitBlock
 
 LONGEST: Final = 86400.0  # s of a live run
 LONGEST_TICK: Final = 0.1  # s: beyond it nobody can operate a machine
@@ -134,10 +135,12 @@ class LiveRun:
 
 
 def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
-    """Assemble the machine. Raises ModelError where it cannot be assembled, or has an FMU, which cannot be reset and restored here."""
+    """Assemble the machine. Raises ModelError where it cannot be assembled, or has a unit, which cannot be reset here."""
     for block in plan.machine.control:
-        if block.type == "fmu":
-            message = "a machine with an FMU cannot be operated; `nivel run` and `machine.start()` in Python run it"
+        if isinstance(block, UnitBlock):
+            message = (
+                f"a machine with {block.what} cannot be operated; `nivel run` and `machine.start()` in Python run it"
+            )
             raise ModelError(Fault("", 0, 0, f"control.{block.name}.file", message))
     prepared = prepare(plan.methods)
     return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

@@ -130,7 +130,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         as_placed=np.array([given is None for given in rows.given], dtype=bool),
         size=size,
         start=np.zeros(0),
-        fmus=tuple(builder.functions.fmus.values()),
+        units=tuple(builder.functions.units.values()),
     )
     poses, velocities = given_poses(machine), given_velocities(machine.bodies)
     return replace(system, start=system.state(poses.ravel(), *velocities))

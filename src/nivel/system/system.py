@@ -16,7 +16,7 @@ from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import Array, index_array
 
 if TYPE_CHECKING:
-    from nivel.system.signals.fmus import FmuInstance
+    from nivel.system.signals.units import Unit
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class System:
     coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
     nodes : of hydraulic circuits.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
-    input_functions : the function of each input. fmus : units that its control calls.
+    input_functions : the function of each input. units : of others that its control calls.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
@@ -83,7 +83,7 @@ class System:
     tree_names: tuple[str, ...] = ()
     modes: tuple[str, ...] = ()
     gradient_sizes: Array = field(default_factory=lambda: np.zeros(0))
-    fmus: tuple[FmuInstance, ...] = ()
+    units: tuple[Unit, ...] = ()
 
     @property
     def body_count(self) -> int:

@@ -32,8 +32,8 @@ from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
 from nivel.machine.control.block import Block
-from nivel.machine.control.fmu_output import FmuOutput
 from nivel.machine.control.part import PartFunction
+from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.formula import Formula
@@ -68,7 +68,7 @@ def control_in_words(blocks: Sequence[Block]) -> str:
 def _in_words(function: PartFunction) -> str:
     if isinstance(function, LinearFunction):
         return " + ".join(f"{factor:.6g}*{path}" for factor, path in function.terms)
-    if isinstance(function, FmuOutput):
+    if isinstance(function, UnitOutput):
         return f"{function.facts.outputs[function.number]} of {Path(function.facts.file).name}"
     assert not isinstance(function, Formula)  # made by the block, not given
     return function_in_words(function)

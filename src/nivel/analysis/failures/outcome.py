@@ -68,7 +68,7 @@ class Stop:
 def failure(stop: Stop) -> Told:
     """(message, advice) of a run that failed."""
     status = Status(stop.status)
-    told = _failed_fmu(stop) or next(filter(None, (tell(stop) for tell in FAILURES[status])))
+    told = _failed_unit(stop) or next(filter(None, (tell(stop) for tell in FAILURES[status])))
     # an iteration on the rates of the state that does not converge says itself what to do
     iterated = status == Status.NOT_CONVERGED and not len(stop.motion.system.record.residual.vdot)
     if not stop.chosen_by and not iterated and (grown := grown_motion(stop.motion, stop.time, stop.step, stop.y)):
@@ -80,12 +80,12 @@ def failure(stop: Stop) -> Told:
     return f"stopped at t = {stop.time:.6g} s: {message}", advice
 
 
-def _failed_fmu(stop: Stop) -> Told | None:
+def _failed_unit(stop: Stop) -> Told | None:
     """A unit of another program."""
-    said = next(filter(None, (fmu.failure for fmu in stop.motion.system.fmus)), "")
+    said = next(filter(None, (unit.failure for unit in stop.motion.system.units)), "")
     if not said:
         return None
-    return said, "Look at what the FMU is given, and at its own messages; `nivel run --allow-code` runs it as it is."
+    return said, "Look at what the unit is given, and at its own messages; `nivel run --allow-code` runs it as it is."
 
 
 def _broken(stop: Stop) -> Told | None:

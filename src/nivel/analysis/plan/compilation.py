@@ -16,9 +16,12 @@ from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
+from nivel.kernels.signals.c_function import output as c_output
 from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
+from nivel.machine.control import UnitBlock
+from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces import is_sticking
 from nivel.machine.hydraulics import Actuator
 from nivel.machine.joints.joint import JOINT_WORDS
@@ -226,6 +229,7 @@ def all_entries() -> list[Entry]:
             read_inputs,
             compute,
             state_rate,
+            c_output,
             fmu_output,
             run_expression,
         ]
@@ -271,8 +275,13 @@ def _families(machine: MachineRecord) -> list[Family]:
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
-    families |= dict.fromkeys([fmu_output] if any(block.type == "fmu" for block in machine.control) else [])
+    families |= dict.fromkeys(_unit_law(block.facts) for block in machine.control if isinstance(block, UnitBlock))
     return [*families, run_expression]
+
+
+def _unit_law(facts: UnitFacts) -> Family:
+    """What calls a unit; one in another process is called as an FMU."""
+    return c_output if isinstance(facts, CFacts) and not facts.own_process else fmu_output
 
 
 def _motions(machine: MachineRecord) -> list[Family]:

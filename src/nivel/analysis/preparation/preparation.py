@@ -95,8 +95,8 @@ class Prepared:
     machine: MachineRecord | None = None
 
     def again(self) -> Prepared | None:
-        """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to FMUs."""
-        if self.motion.twin is not None or self.motion.system.fmus:
+        """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to units."""
+        if self.motion.twin is not None or self.motion.system.units:
             return None
         own = copied(_Records(self.motion.system.record, self.absolute.system.record))
         motion, absolute = (

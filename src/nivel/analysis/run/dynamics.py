@@ -183,10 +183,10 @@ def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
 
 
 def _kept_ends(prepared: Prepared, settings: RunSettings) -> int:
-    """Of how many steps it is kept when they ended: where they are chosen and a function may have narrow features. FMUs do not go back."""
+    """Of how many steps it is kept when they ended: where they are chosen and a function may have narrow features. Units do not go back."""
     if (
         settings.steps > 0
-        or prepared.motion.system.fmus
+        or prepared.motion.system.units
         or prepared.machine is None
         or not narrow_functions(prepared.machine)
     ):

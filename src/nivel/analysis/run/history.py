@@ -166,8 +166,8 @@ def _counters(settings: RunSettings, facts: IntegratorFacts) -> NDArray[np.int64
 def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> None:
     """Everything that the record remembers of runs before, and what it has to know of this one."""
     record = prepared.motion.system.record
-    for fmu in prepared.motion.system.fmus:
-        fmu.begin()
+    for unit in prepared.motion.system.units:
+        unit.begin()
     record.control.iterations[1:] = 0, MOST_UNSETTLED
     forget(record.partition, formulas=facts.needs == "accelerations")
     record.newton.kept[:] = 0.0

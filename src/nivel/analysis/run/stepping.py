@@ -50,7 +50,6 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
-from nivel.kernels.signals.fmu import output
 from nivel.kernels.signals.watch import watch
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.csv_table import columns
@@ -61,7 +60,7 @@ from nivel.words.arguments import plain
 from nivel.words.wording import shown, unknown_word
 
 if TYPE_CHECKING:
-    from nivel.system.signals.fmus import FmuInstance
+    from nivel.system.signals.units import Unit
 
 ENDLESS: Final = 2**62  # steps
 # joints that other lengths open are closed to this share of their sizes, in so many corrections at most
@@ -74,20 +73,20 @@ PLACED: Final = 1e-9  # share of the machine's size by which bodies may miss the
 class Snapshot:
     """The whole state of a simulation at one moment: what goes on from it repeats the motion to the last bit.
 
-    time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers. fmus :
-    what its FMUs have saved. structure : names of all that it is made of, by kind.
+    time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers. units :
+    what its units of other programs have saved. structure : names of all that it is made of, by kind.
     """
 
     time: float
     machine: str = field(repr=False)
     arrays: tuple[NDArray[Any], ...] = field(repr=False)
-    fmus: tuple[bytes, ...] = field(default=(), repr=False)
+    units: tuple[bytes, ...] = field(default=(), repr=False)
     structure: Structure = field(default_factory=dict, repr=False)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write it to a file (NumPy's `.npz`); an existing file is replaced."""
         named = {f"a{k}": array for k, array in enumerate(self.arrays)}
-        named |= {f"f{k}": np.frombuffer(content, dtype=np.uint8) for k, content in enumerate(self.fmus)}
+        named |= {f"f{k}": np.frombuffer(content, dtype=np.uint8) for k, content in enumerate(self.units)}
         with Path(path).open("wb") as file:
             facts = {"time": self.time, "machine": self.machine, "structure": json.dumps(dict(self.structure))}
             np.savez(file, **facts, **named)  # type: ignore[arg-type]
@@ -97,10 +96,10 @@ class Snapshot:
         """Read a file that `save` wrote. Raises ModelError where it is none."""
         try:
             with np.load(path, allow_pickle=False) as data:
-                fmus = tuple(data[name].tobytes() for name in data.files if name.startswith("f"))
-                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 3 - len(fmus)))
+                units = tuple(data[name].tobytes() for name in data.files if name.startswith("f"))
+                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 3 - len(units)))
                 structure = {kind: tuple(names) for kind, names in json.loads(str(data["structure"])).items()}
-                return cls(float(data["time"]), str(data["machine"]), arrays, fmus, structure)
+                return cls(float(data["time"]), str(data["machine"]), arrays, units, structure)
         except (OSError, ValueError, KeyError, EOFError) as error:
             raise ModelError(f"{fspath(path)} is no saved state of a simulation: {error}") from error
 
@@ -127,7 +126,7 @@ class Simulation:
         self._kept = (
             _remembered(self._prepared, self._run)
             if piece is None or own is None
-            else [piece, own, *_of_fmus(self._prepared)]
+            else [piece, own, *_of_units(self._prepared)]
         )
         self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
         self._step = float(plan.settings.step)
@@ -438,8 +437,8 @@ class Simulation:
         """This moment, to be restored or saved."""
         self._take_frames()
         arrays = tuple(array.copy() for array in self._kept)
-        fmus = tuple(fmu.state() for fmu in self._fmus)
-        return Snapshot(self.time, self._digest, arrays, fmus, self._structure)
+        units = tuple(unit.state() for unit in self._units)
+        return Snapshot(self.time, self._digest, arrays, units, self._structure)
 
     def restore(self, state: Snapshot) -> None:
         """Go back, or on, to a moment of this machine with these settings: the motion repeats to the last bit.
@@ -461,13 +460,13 @@ class Simulation:
         if self._recorded:
             self._take_frames()
             self._memory.forget_after(state.time)
-        addresses = self._addresses_of_fmus()
+        addresses = self._addresses_of_units()
         for array, kept in zip(mine, given, strict=True):
             array[...] = kept
         for arguments, places, own in addresses:
             arguments[places] = own
-        for fmu, content in zip(self._fmus, state.fmus, strict=True):
-            fmu.restore(content)
+        for unit, content in zip(self._units, state.units, strict=True):
+            unit.restore(content)
         self._counter[FRAMES] = 0
         if self._events:
             self._events = [event for event in self._events if event.time <= state.time]
@@ -479,8 +478,8 @@ class Simulation:
         if self._recorded:
             self._memory.forget_after(state.time)
         carry_over(self._kept, state.arrays, self._prepared, self._run)
-        for fmu, content in zip(self._fmus, state.fmus, strict=True):
-            fmu.restore(content)
+        for unit, content in zip(self._units, state.units, strict=True):
+            unit.restore(content)
         self._events = [event for event in self._events if event.time <= state.time]
         try:
             self._close_again()
@@ -530,19 +529,20 @@ class Simulation:
         text = write_machine(self._plan.machine) + json.dumps(self._settings.as_dict(), sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
 
-    def _addresses_of_fmus(self) -> list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]:
-        """Arguments of functions, places among them of addresses of records of FMUs, and these: they are no part of a state."""
+    def _addresses_of_units(self) -> list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]:
+        """Arguments of functions, places among them of addresses of records of units, and these: they are no part of a state."""
         motion = self._prepared.motion
-        if not self._fmus:
+        if not self._units:
             return []
         functions = motion.system.record.functions
-        places = functions.span[functions.address == np.uint64(output.address), 3]
+        laws = [np.uint64(unit.law.address) for unit in self._units]
+        places = functions.span[np.isin(functions.address, laws), 3]
         twin = () if motion.twin is None else (motion.twin.record.functions,)
         return [(each.arguments, places, each.arguments[places].copy()) for each in (functions, *twin)]
 
     @property
-    def _fmus(self) -> tuple[FmuInstance, ...]:
-        return self._prepared.motion.system.fmus
+    def _units(self) -> tuple[Unit, ...]:
+        return self._prepared.motion.system.units
 
     def __repr__(self) -> str:
         return f"<Simulation of {self._plan.machine.name}: t = {self.time:.6g} s, {self.steps} steps of {self._step:g} s, not verified>"
@@ -577,15 +577,15 @@ def _endless(prepared: Prepared, plan: Plan, *, whole: bool) -> tuple[Loop, NDAr
     return loop._replace(history=Handle(own._replace(frames=run.frames))), piece
 
 
-def _of_fmus(prepared: Prepared) -> list[NDArray[Any]]:
-    """What is remembered of FMUs but their own memory."""
-    every = [array for fmu in prepared.motion.system.fmus for array in fmu.arrays]
+def _of_units(prepared: Prepared) -> list[NDArray[Any]]:
+    """What is remembered of units but their own memory."""
+    every = [array for unit in prepared.motion.system.units for array in unit.arrays]
     return [array for array in every if array.size and array.dtype != np.uint64]
 
 
 def _remembered(prepared: Prepared, run: Run) -> list[NDArray[Any]]:
     """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
-    return [*remembered(run, prepared.motion), *_of_fmus(prepared)]
+    return [*remembered(run, prepared.motion), *_of_units(prepared)]
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

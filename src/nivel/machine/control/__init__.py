@@ -9,6 +9,7 @@ from pydantic_core import CoreSchema
 
 from nivel.machine.control.algebra import DeadZone, Gain, Limit, Lookup, SignalBlock, Sum, Switch
 from nivel.machine.control.block import Block
+from nivel.machine.control.c_function import CBlock
 from nivel.machine.control.cascade import Cascade
 from nivel.machine.control.dynamics import (
     Derivative,
@@ -25,6 +26,7 @@ from nivel.machine.control.held import Delay, Hysteresis, MovingAverage, RateLim
 from nivel.machine.control.pid import Pid
 from nivel.machine.control.profile import Trapezoid, Waypoints
 from nivel.machine.control.state_machine import StateMachine
+from nivel.machine.control.unit import UnitBlock
 from nivel.machine.control.user_block import UserBlock
 from nivel.machine.given import Field
 
@@ -55,6 +57,7 @@ BLOCKS: list[type[Block]] = [
     Waypoints,
     UserBlock,
     FmuBlock,
+    CBlock,
 ]
 BLOCK_TYPES: dict[str, type[Block]] = {str(kind.model_fields["type"].default): kind for kind in BLOCKS}
 
@@ -76,6 +79,7 @@ __all__ = [
     "BLOCKS",
     "BLOCK_TYPES",
     "Block",
+    "CBlock",
     "Cascade",
     "ControlBlock",
     "DeadZone",
@@ -101,6 +105,7 @@ __all__ = [
     "Switch",
     "TransferFunction",
     "Trapezoid",
+    "UnitBlock",
     "UserBlock",
     "Waypoints",
 ]

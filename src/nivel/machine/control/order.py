@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
-from nivel.machine.control.fmu_output import FmuOutput
 from nivel.machine.control.part import Part, PartFunction
+from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.time_function import signals_of
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
@@ -48,7 +48,7 @@ class PartOf:
 
 
 def _signals_of(function: PartFunction) -> tuple[str, ...]:
-    return function.signals if isinstance(function, LinearFunction | Formula | FmuOutput) else signals_of(function)
+    return function.signals if isinstance(function, LinearFunction | Formula | UnitOutput) else signals_of(function)
 
 
 def parts_of(blocks: Sequence[Block]) -> list[PartOf]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from nivel.machine.control.fmu_output import FmuOutput
+from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
@@ -15,7 +15,7 @@ Role = Literal["signal", "state", "sample", "memory"]
 VALUE = "value"
 
 
-PartFunction = TimeFunction | LinearFunction | Formula | FmuOutput
+PartFunction = TimeFunction | LinearFunction | Formula | UnitOutput
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nivel.kernels.record.function import CODE, CONSTANT, HELD, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.record.program import run
 from nivel.kernels.record.record import Functions
-from nivel.kernels.signals.fmu import output
-from nivel.machine.control.fmu_output import FmuOutput
 from nivel.machine.control.part import PartFunction
+from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
@@ -30,10 +28,8 @@ from nivel.system.laws.program import (
     motion_program,
     switching_program,
 )
+from nivel.system.signals.units import Unit, unit_of
 from nivel.system.tables import Array, index_array
-
-if TYPE_CHECKING:
-    from nivel.system.signals.fmus import FmuInstance
 
 Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.record.function`
 Find = Callable[[str], Signal]
@@ -43,7 +39,7 @@ Find = Callable[[str], Signal]
 class FunctionTable:
     """Functions of a machine in numbers. Laws are compiled, or loaded from the cache, when they are added.
 
-    fmus : units by their blocks. switches : places in `arguments` of the side of each switch, and of its difference.
+    units : of others by their blocks. switches : places in `arguments` of the side of each switch, and of its difference.
     """
 
     kind: list[int] = field(default_factory=list)
@@ -56,7 +52,7 @@ class FunctionTable:
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
     switches: list[tuple[int, int]] = field(default_factory=list)
-    fmus: dict[str, FmuInstance] = field(default_factory=dict)
+    units: dict[str, Unit] = field(default_factory=dict)
 
     def add(
         self,
@@ -99,13 +95,11 @@ class FunctionTable:
                     return self._append_switching(switching_program(function, signals), signals, find)
                 program = expression_program(function, signals, beyond=beyond)
                 return self._append(CODE, signals, find, address=run.address, program=program)
-            case FmuOutput():
-                from nivel.system.signals.fmus import FmuInstance
-
-                fmu = self.fmus.get(function.facts.block) or FmuInstance(function.facts)
-                self.fmus[function.facts.block] = fmu
-                arguments = [float(fmu.handle.address), float(function.number), TIME_SYMBOL, *function.inputs]
-                return self._append(CODE, arguments, find, address=output.address)
+            case UnitOutput():
+                unit = self.units.get(function.facts.block) or unit_of(function.facts)
+                self.units[function.facts.block] = unit
+                arguments = [float(unit.handle.address), float(function.number), TIME_SYMBOL, *function.inputs]
+                return self._append(CODE, arguments, find, address=unit.law.address)
             case PythonLaw():
                 address = law_address(function, motion=motion)
                 return self._append(CODE, list(function.arguments), find, address=address)

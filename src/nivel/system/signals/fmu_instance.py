@@ -19,9 +19,10 @@ from nivel.errors import Fault, ModelError
 from nivel.files.fmu_file import UnitDescription, read_description, unknown_variables, unpack
 from nivel.files.sources import read_bytes
 from nivel.kernels.core.block import Handle
+from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
-from nivel.machine.control.fmu import FmuFacts
+from nivel.machine.control.unit_output import FmuFacts
 
 MOST_MESSAGES = 20
 # an instance that was freed, or never made
@@ -140,6 +141,11 @@ class FmuInstance:
         record.number[kernel.VERSION] = self.description.version
         return record
 
+    @property
+    def law(self) -> Family:
+        """What calls it."""
+        return kernel.output
+
     # --- a run ---
 
     def begin(self) -> None:
@@ -250,6 +256,57 @@ class FmuInstance:
         self._call(free, ctypes.byref(kept))
         if status > kernel.WARNING:
             raise self._fault("refuses a saved state")
+
+    # --- without kernels ---
+
+    def go(self, begin: float, step: float | None, inputs: bytes) -> bytes:
+        """Outputs at the time `begin` [s], where the unit begins, or a step later; the failure is set where there are none."""
+        record = self.record
+        record.time[0] = begin if step is None else begin + step
+        record.inputs[:] = np.frombuffer(inputs)
+        fault = self._initialise(begin) if step is None else self._step(begin, step)
+        if fault == kernel.NONE and self._transfer(kernel.GET, record.output_references, record.outputs):
+            fault = kernel.OF_VALUES
+        if fault == kernel.NONE and not np.isfinite(record.outputs).all():
+            fault = kernel.NO_NUMBER
+        record.number[1:] = kernel.RUNNING, fault, record.number[kernel.CALLS] + 1
+        return record.outputs.tobytes()
+
+    def _initialise(self, time: float) -> int:
+        version = self.description.version
+        setup, enter, leave = CALLED[version][kernel.SETUP : kernel.INSTANCE]
+        begin, end = ctypes.c_double(time), ctypes.c_double(0.0)
+        status = self._call(setup, 0, ctypes.c_double(0.0), begin, 0, end)
+        if version == 2 and status <= kernel.WARNING:
+            status = self._call(enter)
+        if status > kernel.WARNING:
+            return kernel.OF_START
+        if self._transfer(kernel.SET, self.record.input_references, self.record.inputs):
+            return kernel.OF_VALUES
+        return kernel.OF_START if self._call(leave) > kernel.WARNING else kernel.NONE
+
+    def _step(self, begin: float, step: float) -> int:
+        version, record = self.description.version, self.record
+        if self._transfer(kernel.SET, record.input_references, record.inputs):
+            return kernel.OF_VALUES
+        more = []
+        if version == 3:
+            record.flags[:] = 0
+            first = record.flags.ctypes.data
+            more = [ctypes.c_void_p(each) for each in (first, first + 4, first + 8, record.last.ctypes.data)]
+        function = CALLED[version][kernel.STEP]
+        if self._call(function, ctypes.c_double(begin), ctypes.c_double(step), 1, *more) > kernel.WARNING:
+            return kernel.OF_STEP
+        return kernel.ENDS if record.flags[1] & 255 else kernel.NONE
+
+    def _transfer(self, function: int, references: Any, values: Any) -> bool:
+        """Whether reading or writing values fails."""
+        if not len(values):
+            return False
+        version, count = self.description.version, ctypes.c_size_t(len(values))
+        sizes = (count,) if version == 3 else ()
+        places = (ctypes.c_void_p(references.ctypes.data), count, ctypes.c_void_p(values.ctypes.data))
+        return self._call(CALLED[version][function], *places, *sizes) > kernel.WARNING
 
     # --- calls ---
 

@@ -1,4 +1,4 @@
-"""Blocks that are FMUs: their files are read only for people who allow it, and their variables are looked up."""
+"""Blocks that are FMUs and C functions: their files are read only for people who allow it, and variables of FMUs are looked up."""
 
 from __future__ import annotations
 
@@ -11,20 +11,19 @@ from nivel.files.tree import Path, Tree
 
 # another word for the time between samples, as states have it
 EVERY, SAMPLE_TIME = "every", "sample_time"
+LIBRARIES: Final = (".c", ".so", ".dll", ".dylib")
+UNITS: Final = ("fmu", "c")
 NAMED: Final = ("inputs", "outputs", "parameters")
 
 
-def read_fmu_blocks(tree: Tree, sources: Sources) -> None:
-    """Check the file of each block of the type `fmu`, and put its whole path into the block. Faults go to `tree.faults`."""
+def read_unit_blocks(tree: Tree, sources: Sources) -> None:
+    """Check the file of each block of the types `fmu` and `c`, and put its whole path into the block. Faults go to `tree.faults`."""
     for name, block in section_of(tree, "control").items():
-        if isinstance(block, dict) and block.get("type") == "fmu":
+        if isinstance(block, dict) and block.get("type") in UNITS:
             _read(tree, sources, ("control", name), block)
 
 
 def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> None:
-    # archives take some milliseconds to import
-    from nivel.files.fmu_file import read_description, unknown_variables
-
     if EVERY in block:
         if SAMPLE_TIME in block:
             tree.report((*path, EVERY), f"give `{EVERY}` or `{SAMPLE_TIME}`, not both", at_key=True)
@@ -45,6 +44,22 @@ def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> No
         tree.broken.add(path)
         return
     content, file = found
+    if block["type"] == "fmu":
+        _look_up(tree, path, block, content, file)
+    elif not file.endswith(LIBRARIES):
+        tree.report(
+            (*path, "file"),
+            f"a shared library ({', '.join(LIBRARIES[1:])}) or a C file (.c) was expected, got `{given}`",
+        )
+        tree.broken.add(path)
+    block["file"] = str(resolved(file))
+
+
+def _look_up(tree: Tree, path: Path, block: dict[str, Any], content: bytes, file: str) -> None:
+    """Whether the file is an FMU with the variables that the block names."""
+    # archives take some milliseconds to import
+    from nivel.files.fmu_file import read_description, unknown_variables
+
     try:
         description = read_description(content, file)
     except ModelError as error:
@@ -52,7 +67,6 @@ def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> No
             tree.report((*path, "file"), f"`{file}`: {fault.message}")
         tree.broken.add(path)
         return
-    block["file"] = str(resolved(file))
     for key, message in unknown_variables(description, *(_variables(block, each) for each in NAMED)):
         tree.report((*path, key), message)
         tree.broken.add(path)

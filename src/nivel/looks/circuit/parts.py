@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.hydraulics.component import SENSING
 from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.hydraulics.symbols import LETTER, Symbol, box
 
@@ -29,6 +30,11 @@ class Part:
     column: int = 0
     x: float = 0.0
     y: float = 0.0
+
+    @property
+    def sensing(self) -> tuple[str, ...]:
+        """Ports that feel a pressure and take no flow."""
+        return COMPONENT_OF[self.type].sensing if self.type in COMPONENT_OF else SENSING
 
     @property
     def label(self) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Final
 
 from nivel.looks.circuit.parts import Circuit, Part
-from nivel.machine.hydraulics.component import SENSING
 from nivel.system.hydraulics.symbols import flipped
 
 ACTUATOR, LOAD, VALVE, BEFORE, SUPPLY = 0, 1, 2, 3, 4
@@ -86,7 +85,7 @@ def _is_upside_down(part: Part, circuit: Circuit) -> bool:
             float(other.row)
             for port in ports
             for line, other, _ in circuit.pins()
-            if port not in SENSING and line == part.lines.get(port) and other is not part and line not in circuit.drains
+            if port not in part.sensing and line == part.lines.get(port) and other is not part and line not in circuit.drains
         ]
         return sum(rows) / len(rows) if rows else 1e3  # tanks are below all
 

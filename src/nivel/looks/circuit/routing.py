@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from nivel.looks.circuit.parts import VALUE, Circuit, Part
-from nivel.machine.hydraulics.component import SENSING
 from nivel.system.hydraulics.symbols import LETTER
 
 TRACK, LANE, MARGIN, EDGE = 19.0, 11.0, 14.0, 10.0  # [px] between tracks and lanes; above and below tracks; around all
@@ -188,7 +187,7 @@ class Router:
             else:
                 out.lines.append(self._stub(pin))
         for node, channels in self.channels.items():
-            dashed = all(pin.port in SENSING for pin in self.pins if pin.node == node)
+            dashed = all(pin.port in pin.part.sensing for pin in self.pins if pin.node == node)
             ends = []
             for channel in sorted(channels):
                 y, (low, high) = self._y(node, channel), self._span(node, channel)
@@ -211,7 +210,7 @@ class Router:
         if pin.aside:
             level = pin.y + (-JOG if pin.up else JOG)
             points = [(pin.x, pin.y), (pin.x, level), (pin.at, level), (pin.at, y)]
-        return Line(pin.node, points, pin.port in SENSING)
+        return Line(pin.node, points, pin.port in pin.part.sensing)
 
     def _dots(self, node: str, channel: int, y: float, span: tuple[float, float]) -> Iterator[tuple[float, float]]:
         """Points of a track where three lines meet."""

@@ -18,10 +18,22 @@ from nivel.machine.hydraulics.actuators import (
 )
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.hydraulics.directional import DirectionalValve
+from nivel.machine.hydraulics.flow_valves import FlowControl, FlowDivider, PriorityValve, ShuttleValve
 from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
 from nivel.machine.hydraulics.machines import FlowSource, HydraulicMotor, Pump
 from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
+from nivel.machine.hydraulics.pressure_valves import (
+    BrakeValve,
+    CartridgeValve,
+    CrossPortRelief,
+    PilotReducingValve,
+    PilotReliefValve,
+    SequenceValve,
+    UnloadingValve,
+)
 from nivel.machine.hydraulics.restrictions import Orifice, Pipe
+from nivel.machine.hydraulics.sections import Section
+from nivel.machine.hydraulics.spool_valve import Edge, Notch, Solenoid, SpoolValve, Switching
 from nivel.machine.hydraulics.valves import (
     CheckValve,
     Compensator,
@@ -43,6 +55,19 @@ COMPONENTS: list[type[Component]] = [
     ReducingValve,
     Compensator,
     DirectionalValve,
+    SpoolValve,
+    Section,
+    FlowControl,
+    FlowDivider,
+    PriorityValve,
+    ShuttleValve,
+    UnloadingValve,
+    SequenceValve,
+    PilotReliefValve,
+    PilotReducingValve,
+    CartridgeValve,
+    CrossPortRelief,
+    BrakeValve,
     FlowSource,
     Pump,
     HydraulicMotor,
@@ -81,12 +106,18 @@ __all__ = [
     "Accumulator",
     "Actuator",
     "AnyFluid",
+    "BrakeValve",
+    "CartridgeValve",
     "CheckValve",
     "Compensator",
     "Component",
     "CounterbalanceValve",
+    "CrossPortRelief",
     "Cushion",
     "DirectionalValve",
+    "Edge",
+    "FlowControl",
+    "FlowDivider",
     "FlowSource",
     "Fluid",
     "Gas",
@@ -94,15 +125,26 @@ __all__ = [
     "HydraulicCylinder",
     "HydraulicMotor",
     "LoadSensing",
+    "Notch",
     "Orifice",
+    "PilotReducingValve",
+    "PilotReliefValve",
     "Pipe",
     "PistonFriction",
+    "PriorityValve",
     "Pump",
     "ReducingValve",
     "ReliefValve",
     "RotaryActuator",
+    "Section",
+    "SequenceValve",
+    "ShuttleValve",
+    "Solenoid",
+    "SpoolValve",
+    "Switching",
     "Tank",
     "TelescopicCylinder",
+    "UnloadingValve",
     "Volume",
     "register",
 ]

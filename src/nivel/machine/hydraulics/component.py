@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Pressure, Share, SonicConductance, VolumeFlow
-from nivel.machine.core.record import Name, unknown_word
+from nivel.machine.core.record import Name, entry, unknown_word
 from nivel.machine.given import Field, Maybe, Usual
 from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, POWER, PRESSURE
 from nivel.machine.units.quantity import fault, shown
@@ -40,6 +40,7 @@ class Component(Checked):
     chamber A. functions : fields that may vary. early : signals known before flows are; late : the others. gases : whether gas may flow
     through it. passes : pairs of ports (from, to) between which fluid passes at any pressure; delivers : port into which it delivers a
     given flow, whatever the pressure; relieves : port whose pressure it bounds. These ask for a relief valve where none is reached.
+    sensing : ports that feel a pressure and take no flow. loads : whether a load-sensing signal may take the load of A or B from it.
     usual : what its results are between, by the words with which their names begin.
     """
 
@@ -54,6 +55,8 @@ class Component(Checked):
     passes: ClassVar[tuple[tuple[str, str], ...]] = ()
     delivers: ClassVar[str] = ""
     relieves: ClassVar[str] = ""
+    sensing: ClassVar[tuple[str, ...]] = SENSING
+    loads: ClassVar[bool] = False
     usual: ClassVar[Mapping[str, Usual]] = {"pressure": PRESSURE, "flow": FLOW, "power": POWER}
 
     name: Name
@@ -64,12 +67,23 @@ class Component(Checked):
     @property
     def inlets(self) -> tuple[str, ...]:
         """Ports out of which fluid can come into what is connected to them."""
-        return tuple(port for port in self.ports if port not in SENSING)
+        return tuple(port for port in self.ports if port not in self.sensing)
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:
         """Names of its quantities, by a record or raw data."""
         return (*cls.early, *cls.late)
+
+    @classmethod
+    def nodes_in(cls, data: Any) -> tuple[str, ...]:
+        """Those of `nodes` that it has, by a record or raw data."""
+        return cls.nodes
+
+    @classmethod
+    def ports_in(cls, data: Any) -> set[str]:
+        """Ports that are connected, by a record or raw data."""
+        ports = entry(data, "ports")
+        return {str(port) for port in ports} if isinstance(ports, Mapping) else set()
 
     def problems(self) -> Iterator[Problem]:
         yield from self.problems_of_ports(self.needs, self.may)

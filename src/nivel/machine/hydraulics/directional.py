@@ -66,6 +66,7 @@ class DirectionalValve(Rated):
 
     functions: ClassVar[tuple[str, ...]] = ("command",)
     gases: ClassVar[bool] = True
+    loads: ClassVar[bool] = True
     early: ClassVar[tuple[str, ...]] = ()
     late: ClassVar[tuple[str, ...]] = ("position", "flow_PA", "flow_PB", "flow_AT", "flow_BT", "flow_AR", "flow_BS")
 

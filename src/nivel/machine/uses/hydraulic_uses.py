@@ -48,7 +48,7 @@ def node_types(components: Any) -> dict[str, str]:
             continue
         ports = ports_of(component)
         single = entry(component, "acting") == "single"
-        for node in COMPONENT_OF[type_].nodes:
+        for node in COMPONENT_OF[type_].nodes_in(component):
             attached = node[1:] in ports and _has_chambers(type_)
             if not attached and not (single and node == ".B"):
                 out[f"{name}{node}"] = type_
@@ -73,9 +73,10 @@ def ports_of(component: Any) -> Mapping[str, str]:
 def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: Place) -> Faults:
     type_ = str(entry(component, "type"))
     seen: dict[str, str] = {}
+    sensing = COMPONENT_OF.get(type_, Component).sensing
     for port, node in ports_of(component).items():
         where = (*place, "ports", port)
-        if port not in SENSING or nodes.get(node) != "volume":  # a tank may be felt alone
+        if port not in sensing or nodes.get(node) != "volume":  # a tank may be felt alone
             used.add(node)
         if node not in nodes:
             whole = [each for each in nodes if each.startswith(f"{node}.")]
@@ -84,11 +85,11 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
                 where,
                 f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes)),
             )
-        elif nodes[node] == SIGNAL and port not in SENSING:
+        elif nodes[node] == SIGNAL and port not in sensing:
             yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"
         elif _has_chambers(type_) and nodes[node] != "volume":
             yield where, f"a chamber is part of a volume, and `{node}` is a {nodes[node]}"
-        elif port not in SENSING:
+        elif port not in sensing:
             seen[port] = node
     if len(seen) > 1 and len(set(seen.values())) == 1 and not _has_chambers(type_):
         node = next(iter(seen.values()))
@@ -111,12 +112,20 @@ def _of_signal(component: Any, index: Index, used: set[str], place: Place) -> Fa
     for at, name in enumerate(as_list(entry(component, "valves"))):
         valve = index.hydraulics.get(name) if isinstance(name, str) else None
         if valve is None:
-            known = [each for each, its in index.hydraulics.items() if entry(its, "type") == "directional-valve"]
+            known = [each for each, its in index.hydraulics.items() if _has_a_load(its)]
             yield (*place, "valves", at), unknown_name("valve", str(name), tuple(known))
-        elif entry(valve, "type") != "directional-valve" or entry(valve, "ways") != "4/3":
-            yield (*place, "valves", at), f"`{name}` is no 4/3 directional valve, whose load could be sensed"
+        elif not _has_a_load(valve):
+            yield (*place, "valves", at), f"`{name}` is no 4/3 directional valve or section, whose load could be sensed"
         else:
             used.update(ports_of(valve).values())
+
+
+def _has_a_load(valve: Any) -> bool:
+    """Whether a valve feeds A or B, one at a time, from P."""
+    kind = COMPONENT_OF.get(str(entry(valve, "type")))
+    if kind is None or not kind.loads:
+        return False
+    return kind.ports_in(valve) >= {"P", "T", "A", "B"}
 
 
 def _of_angle(component: Any, index: Index, place: Place) -> Faults:

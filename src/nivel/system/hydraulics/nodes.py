@@ -27,6 +27,7 @@ from nivel.machine.hydraulics import (
 )
 from nivel.machine.hydraulics.actuators import DEAD_SHARE, PistonFriction
 from nivel.machine.hydraulics.fluid import OIL, REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
+from nivel.machine.uses.hydraulic_uses import makers
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.restitution import damping_of_restitution
 from nivel.system.hydraulics.circuit import FLUID, Node
@@ -82,7 +83,7 @@ def _know_pressures(builder: SystemBuilder, component: Component) -> None:
     for node in circuit.nodes.values():
         if node.owner == component.name and not isinstance(component, Actuator):
             circuit.depends.setdefault(node.name, Coupled(frozenset(), node.states))
-            circuit.signals[f"{component.name}.pressure"] = (node.output, circuit.depends[node.name])
+            circuit.signals[f"{component.name}.{node.quantity}"] = (node.output, circuit.depends[node.name])
     if isinstance(component, Actuator):
         with builder.noting():
             for chamber in _sweep(component)[1]:
@@ -139,6 +140,18 @@ def chamber_nodes(builder: SystemBuilder, component: Actuator, swept: Swept) -> 
         if cushion is not None:
             room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
             yield _volume(builder, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept)
+
+
+def inner_nodes(*names: str) -> NodeMaker:
+    """Small volumes within a valve, NAME.C of a name C, each of the size `inner_volume`."""
+
+    def make(builder: SystemBuilder, component: Any, swept: Swept) -> Iterator[Node]:
+        room = (component.inner_volume, 0.0, 0.0, 1.0, 1.0)
+        for name in names:
+            if f".{name}" in component.nodes_in(component):
+                yield _volume(builder, component, f"{component.name}.{name}", f"_{name}", room, None, swept)
+
+    return make
 
 
 def chamber_node(component: Actuator, chamber: str) -> str:
@@ -215,8 +228,12 @@ def _gas(builder: SystemBuilder, fluid: int) -> Gas | None:
 
 
 def _fluid(builder: SystemBuilder, component: Component) -> int:
-    """Number of the fluid of a component."""
+    """Number of the fluid of a component; of the volumes within a valve that of what it is connected to."""
     name = getattr(component, "fluid", None)
+    if name is None and "fluid" not in type(component).model_fields:
+        by_node = makers(builder.machine.hydraulics)
+        others = (by_node.get(node) for node in component.ports.values())
+        name = next((each.fluid for each in others if getattr(each, "fluid", None) is not None), None)
     return 0 if name is None else [fluid.name for fluid in builder.machine.fluids].index(name)
 
 

@@ -43,18 +43,18 @@ def _circle(radius: float, y: float = 0.0) -> str:
     return f'<circle cx="0" cy="{y:g}" r="{radius:g}"/>'
 
 
-def _arrow(x: float, y0: float, y1: float) -> str:
+def arrow(x: float, y0: float, y1: float) -> str:
     """An arrow along y, with its tip at y1."""
     way = 1.0 if y1 > y0 else -1.0
     return path(f"M{x:g} {y0:g} V{y1:g}") + path(f"M{x:g} {y1:g} l-3 {-6 * way:g} h6 z", "full")
 
 
-def _adjustable(x0: float, y0: float, x1: float, y1: float) -> str:
+def adjustable(x0: float, y0: float, x1: float, y1: float) -> str:
     """The oblique arrow of what can be set."""
     return path(f"M{x0:g} {y0:g} L{x1:g} {y1:g}") + path(f"M{x1:g} {y1:g} l-7 1.5 l5 5 z", "full")
 
 
-def _varies(data: Mapping[str, Any], key: str) -> bool:
+def varies(data: Mapping[str, Any], key: str) -> bool:
     return not isinstance(data.get(key), float | int | None)
 
 
@@ -64,7 +64,7 @@ def _setting(data: Mapping[str, Any], key: str, factor: float, unit: str) -> tup
     return (f"{factor * value:.4g} {unit}",) if isinstance(value, float | int) else ()
 
 
-def _bar(data: Mapping[str, Any], key: str) -> tuple[str, ...]:
+def in_bar(data: Mapping[str, Any], key: str) -> tuple[str, ...]:
     return _setting(data, key, 1e-5, "bar")
 
 
@@ -75,8 +75,8 @@ def _displacement(data: Mapping[str, Any]) -> tuple[str, ...]:
 def orifice(data: Mapping[str, Any]) -> Symbol:
     """A restriction."""
     body = path("M0 -16 V16 M-8 -8 Q-1 0 -8 8 M8 -8 Q1 0 8 8")
-    if _varies(data, "opening"):
-        body += _adjustable(-13, 12, 13, -12)
+    if varies(data, "opening"):
+        body += adjustable(-13, 12, 13, -12)
     return Symbol(body, 13.0, 16.0, {"B": 0.0}, {"A": 0.0})
 
 
@@ -99,46 +99,46 @@ def check(data: Mapping[str, Any]) -> Symbol:
 
 def relief(data: Mapping[str, Any]) -> Symbol:
     """A relief valve."""
-    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + _arrow(-5, -12, 12)
+    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + arrow(-5, -12, 12)
     body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12", "dashed")
-    if _varies(data, "opens_at"):
-        body += _adjustable(13, 9, 27, -10)
-    return Symbol(body, 27.0, 20.0, {"P": 0.0}, {"T": 0.0}, "relief", _bar(data, "opens_at"))
+    if varies(data, "opens_at"):
+        body += adjustable(13, 9, 27, -10)
+    return Symbol(body, 27.0, 20.0, {"P": 0.0}, {"T": 0.0}, "relief", in_bar(data, "opens_at"))
 
 
 def reducing(data: Mapping[str, Any]) -> Symbol:
     """A reducing valve."""
-    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + _arrow(0, 12, -12)
+    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + arrow(0, 12, -12)
     body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12", "dashed")
     drain = "T" in (data.get("ports") or {})
     body += path("M8 12 V16 H30 V20") if drain else ""
     below = {"P": 0.0} | ({"T": 30.0} if drain else {})
-    return Symbol(body, 30.0 if drain else 27.0, 20.0, {"A": 0.0}, below, settings=_bar(data, "pressure"))
+    return Symbol(body, 30.0 if drain else 27.0, 20.0, {"A": 0.0}, below, settings=in_bar(data, "pressure"))
 
 
 def compensator(data: Mapping[str, Any]) -> Symbol:
     """A pressure compensator."""
-    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + _arrow(0, 12, -12)
+    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + arrow(0, 12, -12)
     body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12 M26 0 H34 V20", "dashed")
-    return Symbol(body, 34.0, 20.0, {"A": 0.0}, {"P": 0.0, "LS": 34.0}, settings=_bar(data, "margin"))
+    return Symbol(body, 34.0, 20.0, {"A": 0.0}, {"P": 0.0, "LS": 34.0}, settings=in_bar(data, "margin"))
 
 
 def counterbalance(data: Mapping[str, Any]) -> Symbol:
     """A counterbalance valve with its check valve."""
-    square = path("M-26 -10 H-6 V10 H-26 Z") + _arrow(-20, -10, 10) + path("M-6 0 l2 -4 l3 8 l3 -8 l2 4")
+    square = path("M-26 -10 H-6 V10 H-26 Z") + arrow(-20, -10, 10) + path("M-6 0 l2 -4 l3 8 l3 -8 l2 4")
     sides = path("M0 -26 V-18 M-16 -10 V-18 H20 V-9 M0 26 V18 M-16 10 V18 H20 V9")
     check = path("M20 9 V6 M13 -3 L20 6 L27 -3 M20 -6 V-9") + '<circle cx="20" cy="-1.5" r="4"/>'
     pilots = path("M-16 -15 H-30 V-4 H-26 M-36 26 V4 H-26", "dashed")
     frame = path("M-33 -22 H31 V22 H-33 Z", "frame")
     body, below = square + sides + check + pilots + frame, {"V": 0.0, "X": -36.0}
-    return Symbol(body, 36.0, 26.0, {"L": 0.0}, below, settings=_bar(data, "opens_at"))
+    return Symbol(body, 36.0, 26.0, {"L": 0.0}, below, settings=in_bar(data, "opens_at"))
 
 
 def pump(data: Mapping[str, Any]) -> Symbol:
     """A pump, or a source of flow."""
     body = _circle(16.0) + path("M0 -16 l-6 10 h12 z", "full") + path("M0 -24 V-16 M0 16 V24 M-16 -2 H-26 M-16 2 H-26")
-    if data.get("margin") is not None or _varies(data, "setting") or data.get("setting", 1.0) != 1.0:
-        body += _adjustable(-15, 17, 17, -17)
+    if data.get("margin") is not None or varies(data, "setting") or data.get("setting", 1.0) != 1.0:
+        body += adjustable(-15, 17, 17, -17)
     sensing = "LS" in (data.get("ports") or {})
     body += path("M16 0 H30 V-24", "dashed") if sensing else ""
     above = {"B": 0.0} | ({"LS": 30.0} if sensing else {})
@@ -149,8 +149,8 @@ def motor(data: Mapping[str, Any]) -> Symbol:
     """A hydraulic motor."""
     body = _circle(16.0) + path("M-6 0 l-10 -6 v12 z M6 0 l10 -6 v12 z", "full")
     body += path("M-16 0 H-26 V24 M16 0 H26 V24 M-2 -16 V-24 M2 -16 V-24")
-    if _varies(data, "setting"):
-        body += _adjustable(-15, 17, 17, -17)
+    if varies(data, "setting"):
+        body += adjustable(-15, 17, 17, -17)
     return Symbol(body, 26.0, 24.0, {}, {"A": -26.0, "B": 26.0}, "actuator", _displacement(data))
 
 

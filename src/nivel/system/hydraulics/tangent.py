@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics import piston, rotary, spool, volume
+from nivel.kernels.hydraulics import piston, rotary, spool, spool_drive, volume
 from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
@@ -21,7 +21,12 @@ from nivel.system.system import System
 
 Index = NDArray[np.uint32]
 # columns with the states that outputs of families are, at their first column
-STATES: dict[Family, int] = {spool.move: spool.STATE, spool.lift: spool.STATE, rotary.set_displacement: rotary.STATE}
+STATES: dict[Family, int] = {
+    spool.move: spool.STATE,
+    spool.lift: spool.STATE,
+    spool_drive.drive: spool_drive.STATE,
+    rotary.set_displacement: rotary.STATE,
+}
 # and with the coordinates on which families act
 COORDINATES: dict[Family, int] = {piston.guide: piston.COORDINATE, rotary.turn: rotary.COORDINATE}
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import hypot
 from typing import Any, Final
 
@@ -34,10 +34,60 @@ def directional_valve(data: Mapping[str, Any]) -> tuple[str, float, float, dict[
     body += "".join(f'<path d="M{rest + x:g} {half:g} v6"/>' for x in bottom.values())
     end = -first + half
     body += _solenoid(-end, -1.0) + (_solenoid(end, 1.0) if centred else _spring(end))
+    if centred:
+        body += _centring(-end, -1.0) + _centring(end, 1.0)
     if centred and data.get("frequency") is not None:
         body += f'<path d="M{-end:g} {-half - 3:g} H{end:g} M{-end:g} {half + 3:g} H{end:g}"/>'
     above, below = ({port: rest + x for port, x in side.items()} for side in (top, bottom))
-    return body, end + 14.0, half + 6.0, above, below
+    return body, end + (26.0 if centred else 14.0), half + 6.0, above, below
+
+
+def boxes(
+    groups: Sequence[Sequence[tuple[str, str]]], top: Sequence[str], bottom: Sequence[str], spring: str
+) -> tuple[str, float, float, dict[str, float], dict[str, float]]:
+    """As `directional_valve`, of a spool with any ports: the pairs that it joins in each box, the second one at rest; `spring`: of one side,
+    or of both, then solenoids act on both."""
+    count = max(len(top), len(bottom), 2)
+    wide = max(BOX, 16.0 * count)
+    half, rest = 0.5 * wide, 0.0
+    first = -0.5 * wide * (len(groups) - 1)
+    rest = first + wide
+
+    def spread(side: Sequence[str]) -> dict[str, float]:
+        step = wide / max(len(side), 1) if len(side) > 2 else 16.0
+        return {port: step * (k - 0.5 * (len(side) - 1)) for k, port in enumerate(side)}
+
+    above, below = spread(top), spread(bottom)
+    body = "".join(
+        line for k, pairs in enumerate(groups) for line in _wide_box(first + k * wide, half, pairs, above, below)
+    )
+    body += "".join(f'<path d="M{rest + x:g} {-0.5 * BOX:g} v-6"/>' for x in above.values())
+    body += "".join(f'<path d="M{rest + x:g} {0.5 * BOX:g} v6"/>' for x in below.values())
+    end = 0.5 * wide * len(groups)
+    body += _solenoid(-end, -1.0) + (_solenoid(end, 1.0) if spring == "both" else _spring(end))
+    if spring == "both":
+        body += _centring(-end, -1.0) + _centring(end, 1.0)
+    shift = ({port: rest + x for port, x in side.items()} for side in (above, below))
+    return body, end + 26.0, 0.5 * BOX + 6.0, *shift
+
+
+def _wide_box(
+    x: float, half: float, pairs: Sequence[tuple[str, str]], top: Mapping[str, float], bottom: Mapping[str, float]
+) -> Iterator[str]:
+    high = 0.5 * BOX
+    yield f'<path d="M{x - half:g} {-high:g} h{2 * half:g} v{BOX:g} h{-2 * half:g} z"/>'
+    place = {port: (x + at, -high) for port, at in top.items()} | {port: (x + at, high) for port, at in bottom.items()}
+    for a, b in pairs:
+        yield _way(place[a], place[b])
+    joined = {port for pair in pairs for port in pair}
+    for port, (px, py) in place.items():
+        if port not in joined:
+            yield f'<path d="M{px:g} {py:g} v{STUB if py < 0.0 else -STUB:g} m-3 0 h6"/>'
+
+
+def _centring(x: float, side: float) -> str:
+    """A spring beside a solenoid."""
+    return f'<path d="M{x + 12 * side:g} 0 l{2 * side:g} -5 l{3 * side:g} 10 l{3 * side:g} -10 l{3 * side:g} 10 l{side:g} -5"/>'
 
 
 def _box(

@@ -7,14 +7,17 @@ import math
 from nivel.kernels.hydraulics import load_signal, restriction, spool
 from nivel.kernels.hydraulics.tangent import MOVE, RESTRICT, SIGNAL
 from nivel.kernels.record.record import NONE
-from nivel.machine.hydraulics import DirectionalValve, LoadSensing
+from nivel.machine.hydraulics import DirectionalValve, LoadSensing, Section, SpoolValve
 from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
+from nivel.system.hydraulics.components.spools import closed_until
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import signal_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
 from nivel.system.signals.state_facts import StateFact
+
+ROUNDING = 0.02  # share of the stroke over which a load is first felt
 
 
 def add_directional(builder: SystemBuilder, component: DirectionalValve) -> None:
@@ -78,7 +81,11 @@ def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
     """The signal, and the valves that it is made of."""
     node = builder.circuit.nodes[component.name]
     columns, numbers = [node.state], [component.lag, component.opens_within]
-    valves = {each.name: each for each in builder.machine.hydraulics if isinstance(each, DirectionalValve)}
+    valves = {
+        each.name: each
+        for each in builder.machine.hydraulics
+        if isinstance(each, DirectionalValve | Section | SpoolValve)
+    }
     for name in component.valves:
         valve = valves[name]
         output, coupled = builder.circuit.signals[f"{name}.position"]
@@ -86,7 +93,8 @@ def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
             builder.touch_state(node.state)
             builder.note(coupled)
             columns += [output, *(builder.node(valve.ports[port]) for port in "ABT")]
-        numbers += [valve.overlap, valve.rounding]
+        shut = (closed_until(valve), ROUNDING) if isinstance(valve, SpoolValve) else (valve.overlap, valve.rounding)
+        numbers += shut
     width = 1 + load_signal.WIDE * load_signal.MOST
     builder.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)
 

@@ -1,0 +1,203 @@
+"""Spools that solenoids move against springs, and valves that switch late.
+
+A proportional spool, with everything over the force of the spring between its middle and its full stroke:
+
+    ü = ω² (D(w) - u - P u/√(u² + U²) - F tanh(u̇/V) - φ - s) - 2 ζ ω u̇
+
+D is the input w without its dead band, P the preload of the springs, F friction, φ the steady force of the flow, which closes every edge
+that it passes, and s the stop at the end of the stroke. The input follows c = command + dither with a play of the width H:
+
+    ẇ = (c - w - H/2)⁺/τ - (w - c - H/2)⁺/τ
+
+A valve that switches is on where its command is above one half. An energy e goes to 1 within t_on + t_move, and back to 0 within
+t_off + t_move; the valve moves where a < e < b, so that both delays are as they are given:
+
+    ė = r tanh((g - e)/E)        u = S((e - a)/(b - a))
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real, tanh
+from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.smooth import magnitude_within, root_flow, sign_within, step
+from nivel.kernels.hydraulics.spool import clipped
+from nivel.kernels.record.function import evaluate_function, table_value
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.native.function import leaf
+
+# columns of `columns`; PLAY: state w, or NONE; STATE: u; CURVE: table of the force over the current that the command is, or NONE; output:
+# position. Edges whose flow acts on the spool: output of the flow, nodes
+OUTPUT, STATE, SPEED, COMMAND, PLAY, CURVE, FIRST_EDGE = 0, 1, 2, 3, 4, 5, 6
+EDGE_FLOW, EDGE_FROM, EDGE_TO, WIDE = 0, 1, 2, 3
+MOST = 6  # edges
+# columns of `number`: least input, natural frequency ω [rad/s], ζ, P, F, V [1/s], H, dead band, dither: amplitude, frequency [rad/s];
+# corner of the flows [Pa]; then the force of each edge over its Q √Δp, negative where it acts towards smaller positions
+LEAST, FREQUENCY, DAMPING, PRELOAD, FRICTION, SLOW, PLAY_WIDTH, DEAD, DITHER, DITHER_FREQUENCY, CORNER, FIRST_FORCE = range(12)
+# U of the preload, τ [s] of the play, stiffness of the stop over that of the spring
+CENTRE, PLAY_TIME, STOP = 0.005, 1e-3, 100.0
+
+# valves that switch: columns of `columns` as above to COMMAND, STATE: e; of `number`: least position, rates [1/s] up and down, a, b
+UP, DOWN, BEGIN, END = 1, 2, 3, 4
+ROUNDED = 0.01  # E
+
+
+@leaf
+def beyond(x, band):
+    """What of x is outside -band … band."""
+    if real(x) > real(band):
+        return x - band
+    if real(x) < -real(band):
+        return x + band
+    return 0.0 * x
+
+
+@leaf
+def without_dead_band(w, band):
+    """The input that a dead band leaves: full at a full input."""
+    return beyond(w, band) * (1.0 / (1.0 - real(band)))
+
+
+@leaf
+def balance(n, u, v, wish):
+    """The acceleration of a spool at its position u and speed v, without the force of the flow."""
+    omega = real(n[FREQUENCY])
+    force = wish - u - n[PRELOAD] * sign_within(u, CENTRE) - n[FRICTION] * tanh(v * (1.0 / real(n[SLOW])))
+    acceleration = omega * omega * force - 2.0 * real(n[DAMPING]) * omega * v
+    over = beyond(u, 1.0 + 0.0 * u)
+    if real(over) != 0.0:
+        acceleration = acceleration - omega * omega * STOP * over - 2.0 * np.sqrt(STOP) * omega * v
+    return acceleration
+
+
+@leaf
+def force_of(functions, curve, current, least):
+    """The force of solenoids at a current, over that of the springs; a second solenoid, where `least` is negative, acts the other way."""
+    back = real(current) < 0.0
+    force, _, _ = table_value(functions, curve, -current if back else current)
+    return -force if back and least < 0.0 else force
+
+
+@called(Phase.POSITIONS)
+@family
+def drive(machine, number, t):
+    """Inputs and positions of proportional spools."""
+    record = record_at(machine)
+    elements, rate = record.elements, record.elements.state_rate
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        wish = evaluate_function(machine, index[COMMAND], t)
+        if index[CURVE] == NONE:
+            wish = clipped(wish, n[LEAST])
+        else:
+            wish = force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
+        if real(n[DITHER]) != 0.0:
+            wish = wish + n[DITHER] * np.sin(n[DITHER_FREQUENCY] * t)
+        if index[PLAY] != NONE:
+            held = elements.state[index[PLAY]]
+            rate[index[PLAY]] += beyond(wish - held, 0.5 * n[PLAY_WIDTH]) * (1.0 / PLAY_TIME)
+            wish = held
+        wish = without_dead_band(wish, n[DEAD])
+        if index[STATE] == NONE:
+            record.outputs.value[index[OUTPUT]] = wish
+            continue
+        u, v = elements.state[index[STATE]], elements.state[index[SPEED]]
+        rate[index[STATE]] += v
+        rate[index[SPEED]] += balance(n, u, v, wish)
+        record.outputs.value[index[OUTPUT]] = u
+    return OK
+
+
+@called(Phase.BALANCE)
+@family
+def close(machine, number, t):
+    """Forces of flows on spools: each acts towards where its edge is closed."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        if index[STATE] == NONE:
+            continue
+        omega = real(n[FREQUENCY])
+        for i in range(MOST):
+            first = FIRST_EDGE + WIDE * i
+            if first >= index.shape[0] or index[first] == NONE:
+                break
+            difference = circuit.pressure[index[first + EDGE_FROM]] - circuit.pressure[index[first + EDGE_TO]]
+            power = record.outputs.value[index[first + EDGE_FLOW]] * root_flow(difference, n[CORNER], 0)
+            elements.state_rate[index[SPEED]] += omega * omega * n[FIRST_FORCE + i] * power
+    return OK
+
+
+@called(Phase.POSITIONS)
+@family
+def switch(machine, number, t):
+    """Energies and positions of valves that switch."""
+    record = record_at(machine)
+    elements = record.elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        command = clipped(evaluate_function(machine, index[COMMAND], t), n[LEAST])
+        goal = 0.0
+        if real(command) > 0.5:
+            goal = 1.0
+        elif real(command) < -0.5:
+            goal = -1.0
+        e = elements.state[index[STATE]]
+        growing = goal != 0.0 and goal * real(e) >= 0.0
+        pace = real(n[UP]) if growing else real(n[DOWN])
+        elements.state_rate[index[STATE]] += pace * tanh((goal - e) * (1.0 / ROUNDED))
+        size = magnitude_within(e, 1e-9)
+        opening = step((size - n[BEGIN]) * (1.0 / (real(n[END]) - real(n[BEGIN]))))
+        record.outputs.value[index[OUTPUT]] = opening if real(e) >= 0.0 else -opening
+    return OK
+
+
+@family
+def add_slopes(machine, number, t):
+    """Slopes of the inputs, positions and speeds of spools, for commands that do not depend on the state; those of flow forces are left
+    out."""
+    record = record_at(machine)
+    elements, tangent = record.elements, record.circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        moved = index[PLAY] != NONE and elements.state_rate[index[PLAY]] != 0.0
+        if moved:
+            play = tangent.unknown[index[PLAY]]
+            tangent.slopes[play, play] -= 1.0 / PLAY_TIME
+        if index[STATE] == NONE:
+            continue
+        own, speed, omega = tangent.unknown[index[STATE]], tangent.unknown[index[SPEED]], n[FREQUENCY]
+        u, v = elements.state[index[STATE]], elements.state[index[SPEED]]
+        size, turning = magnitude_within(u, CENTRE), tanh(v / n[SLOW])
+        stiffness = 1.0 + n[PRELOAD] * CENTRE * CENTRE / (size * size * size)
+        loss = 2.0 * n[DAMPING] * omega + omega * omega * n[FRICTION] * (1.0 - turning * turning) / n[SLOW]
+        if np.abs(u) > 1.0:
+            stiffness += STOP
+            loss += 2.0 * np.sqrt(STOP) * omega
+        tangent.slopes[own, speed] += 1.0
+        tangent.slopes[speed, own] -= omega * omega * stiffness
+        tangent.slopes[speed, speed] -= loss
+        if index[PLAY] != NONE and np.abs(elements.state[index[PLAY]]) > n[DEAD]:
+            play = tangent.unknown[index[PLAY]]
+            tangent.slopes[speed, play] += omega * omega / (1.0 - n[DEAD])
+    return OK
+
+
+@family
+def add_slopes_of_switches(machine, number, t):
+    """Slopes of the energies of valves that switch."""
+    record = record_at(machine)
+    elements, tangent = record.elements, record.circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        rate = elements.state_rate[index[STATE]]
+        pace = max(n[UP], n[DOWN])
+        share = min(np.abs(rate) / pace, 1.0)
+        tangent.slopes[tangent.unknown[index[STATE]], tangent.unknown[index[STATE]]] -= (
+            pace * (1.0 - share * share) / ROUNDED
+        )
+    return OK

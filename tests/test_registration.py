@@ -17,7 +17,7 @@ from nivel.cli.run import command as run_command
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.kernels.core import status
-from nivel.kernels.hydraulics import tangent
+from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
@@ -28,7 +28,7 @@ from nivel.native.entry import Entry
 from nivel.results.pages import MAKERS, page_maker
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS
-from nivel.system.hydraulics.tangent import DERIVED, NUMBERS
+from nivel.system.hydraulics.tangent import slopes_by_family
 from nivel.system.joints.joints import JOINTS
 from settings_keywords import kind_of
 
@@ -101,9 +101,11 @@ def test_components_have_the_types_that_the_builder_knows():
 
 
 def test_every_slope_by_hand_has_one_number():
+    """The first families have numbers, each its own, and all kinds of components agree on what adds the slopes of a family."""
+    adding = slopes_by_family()
     for kind in COMPONENTS.values():
-        assert all(NUMBERS[family] == number for family, number in (kind.slopes or {}).items())
-    assert [NUMBERS[family] for family in DERIVED] == list(range(tangent.PIPE + 1))
+        assert all(adding[family] == slopes for family, slopes in (kind.slopes or {}).items())
+    assert sorted(slopes for slopes in adding.values() if isinstance(slopes, int)) == list(range(OTHERS))
 
 
 @pytest.mark.parametrize("page", MAKERS)

@@ -16,6 +16,11 @@ def _ball(name, **more):
 OWN = "def own(t, x):\n    return t + x, -x\n"
 _RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}
 
+
+def _over(points, values):
+    return {"of": "position", "points": points, "values": values}
+
+
 EVERYTHING = {
     "name": "everything",
     "description": "one of each",
@@ -424,6 +429,126 @@ EVERYTHING = {
             "ports": {"A": "line", "B": "tank"},
             "displacement": "10 cm^3/rev",
             "coordinate": "hinge.angle",
+        },
+        {
+            "name": "notched",
+            "type": "spool-valve",
+            "ports": {"P": "supply", "A": "line", "T": "tank", "LS": "sensed"},
+            "edges": {
+                "PA": {
+                    "flows": [_over([0, 1], [0, "20 L/min"]), _over([0, 1], [0, "30 L/min"])],
+                    "pressure_drops": ["5 bar", "20 bar"],
+                    "jet_angle": "69 deg",
+                },
+                "AT": {"area": _over([-1, 0], ["20 mm^2", 0]), "discharge_coefficient": 0.7, "leakage": 1e-13},
+                "ALS": {
+                    "notches": [
+                        {"shape": "triangle", "angle": "60 deg", "begins": 0.1, "length": "4 mm", "number": 4},
+                        {"shape": "rectangle", "width": "2 mm"},
+                        {"shape": "bore", "diameter": "1 mm"},
+                    ]
+                },
+                "PLS": {"flow": _over([0, 1], [0, "0.1 L/min"]), "pressure_drop": "5 bar"},
+            },
+            "current": "0.1 + 0.05*sin(time)",
+            "solenoid": {
+                "force": {"of": "current", "points": [0, 0.8], "values": [0, "70 N"]},
+                "spring": "10 N/mm",
+                "preload": "10 N",
+                "friction": "1 N",
+            },
+            "stroke": "6 mm",
+            "frequency": "60 Hz",
+            "dead_band": 0.02,
+            "hysteresis": 0.03,
+            "dither": {"amplitude": 0.05, "frequency": "120 Hz"},
+        },
+        {"name": "sensed", "type": "volume", "volume": "5 cm^3"},
+        {
+            "name": "switch",
+            "type": "spool-valve",
+            "ports": {"P": "supply", "A": "line"},
+            "edges": {"PA": {"flow": _over([0, 1], [0, "5 L/min"]), "pressure_drop": "5 bar"}},
+            "command": "0.5*(1 + sin(time))",
+            "switching": {"on_delay": "20 ms", "off_delay": "30 ms", "time": "15 ms"},
+        },
+        {
+            "name": "section",
+            "type": "section",
+            "ports": {"P": "supply", "T": "tank", "A": "line", "B": "ram.B", "LS": "ls"},
+            "command": "0.1*sin(time)",
+            "frequency": "8 Hz",
+            **_RATED,
+        },
+        {
+            "name": "shared",
+            "type": "section",
+            "compensation": "post",
+            "ports": {"P": "supply", "T": "tank", "A": "line", "B": "ram.B", "LS": "ls"},
+            "command": 0.1,
+            **_RATED,
+        },
+        {"name": "meter", "type": "flow-control", "ports": {"P": "supply", "A": "line"}, "setting": 0.5, **_RATED},
+        {"name": "halves", "type": "flow-divider", "ports": {"P": "supply", "A": "line", "B": "sensed"}, **_RATED},
+        {
+            "name": "steering",
+            "type": "priority-valve",
+            "ports": {"P": "supply", "CF": "line", "EF": "sensed", "LS": "ls"},
+            **_RATED,
+        },
+        {
+            "name": "shuttle",
+            "type": "shuttle-valve",
+            "ports": {"A": "supply", "B": "line", "C": "sensed"},
+            **_RATED,
+        },
+        {
+            "name": "unload",
+            "type": "unloading-valve",
+            "ports": {"P": "supply", "T": "tank", "LS": "ls"},
+            "opens_at": "12 bar",
+            **_RATED,
+        },
+        {
+            "name": "sequence",
+            "type": "sequence-valve",
+            "ports": {"P": "supply", "A": "line", "T": "tank"},
+            "opens_at": "100 bar",
+            "free_return": True,
+            **_RATED,
+        },
+        {
+            "name": "main",
+            "type": "pilot-relief-valve",
+            "ports": {"P": "supply", "T": "tank"},
+            "opens_at": "250 bar",
+            **_RATED,
+        },
+        {
+            "name": "reduced",
+            "type": "pilot-reducing-valve",
+            "ports": {"P": "supply", "A": "line", "T": "tank"},
+            "pressure": "60 bar",
+            **_RATED,
+        },
+        {
+            "name": "logic",
+            "type": "cartridge-valve",
+            "ports": {"A": "supply", "B": "line", "X": "ram.A"},
+            **_RATED,
+        },
+        {
+            "name": "cross",
+            "type": "cross-port-relief",
+            "ports": {"A": "line", "B": "supply", "T": "tank"},
+            "opens_at": "150 bar",
+            **_RATED,
+        },
+        {
+            "name": "brake",
+            "type": "brake-valve",
+            "ports": {"VA": "supply", "VB": "line", "A": "swing.A", "B": "swing.B"},
+            **_RATED,
         },
         {
             "name": "feed",

@@ -11,6 +11,7 @@ import yaml
 from nivel.files.outline import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
 from nivel.machine import Body, Expression, Inertia, MachineRecord, PythonLaw, Record, SimulationSettings, Table
+from nivel.machine.hydraulics.curve import Curve
 from nivel.machine.uses.references import SECTIONS
 
 
@@ -56,8 +57,10 @@ def _plain(value: Any) -> Any:
             return [value.xx, value.yy, value.zz]
         case Record():
             return _fields(value)
-        case Table():
+        case Table() | Curve():
             return _Line(value.written())
+        case dict() if any(isinstance(each, Record) for each in value.values()):
+            return {key: _plain(each) for key, each in value.items()}
         case PythonLaw():
             return {key: entry for key, entry in value.written().items() if entry != ""}
         case Expression(text):

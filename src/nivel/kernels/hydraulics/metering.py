@@ -29,10 +29,16 @@ CORNER, LEAK, FIRST_DROP = 0, 1, 2
 
 
 @leaf
+def has_curve(index, i):
+    """Whether an edge has a curve of this number."""
+    return i < MOST and FIRST_CURVE + i < index.shape[0] and index[FIRST_CURVE + i] != NONE
+
+
+@leaf
 def curve_below(index, n, size):
     """Number of the curve at or below the difference of pressure `size`, the first one where there is none."""
     low = np.int64(0)
-    while low + 1 < MOST and index[FIRST_CURVE + low + 1] != NONE and size >= n[FIRST_DROP + low + 1]:
+    while has_curve(index, low + 1) and size >= n[FIRST_DROP + low + 1]:
         low += 1
     return low
 
@@ -43,7 +49,7 @@ def conductance_at(functions, index, n, u, difference):
     size = np.abs(difference)
     low = curve_below(index, n, size)
     value, slope, _ = table_value(functions, index[FIRST_CURVE + low], u)
-    if low + 1 < MOST and index[FIRST_CURVE + low + 1] != NONE and size > n[FIRST_DROP + low]:
+    if has_curve(index, low + 1) and size > n[FIRST_DROP + low]:
         above, steeper, _ = table_value(functions, index[FIRST_CURVE + low + 1], u)
         share = (size - n[FIRST_DROP + low]) / (n[FIRST_DROP + low + 1] - n[FIRST_DROP + low])
         value = value + share * (above - value)
@@ -56,7 +62,7 @@ def by_difference(functions, index, n, u, difference):
     """∂K/∂|Δp| at a real position and difference of pressure."""
     size = np.abs(difference)
     low = curve_below(index, n, size)
-    if low + 1 < MOST and index[FIRST_CURVE + low + 1] != NONE and size > n[FIRST_DROP + low]:
+    if has_curve(index, low + 1) and size > n[FIRST_DROP + low]:
         value, _, _ = table_value(functions, index[FIRST_CURVE + low], u)
         above, _, _ = table_value(functions, index[FIRST_CURVE + low + 1], u)
         return (above - value) / (n[FIRST_DROP + low + 1] - n[FIRST_DROP + low])

@@ -36,7 +36,9 @@ EDGE_FLOW, EDGE_FROM, EDGE_TO, WIDE = 0, 1, 2, 3
 MOST = 6  # edges
 # columns of `number`: least input, natural frequency ω [rad/s], ζ, P, F, V [1/s], H, dead band, dither: amplitude, frequency [rad/s];
 # corner of the flows [Pa]; then the force of each edge over its Q √Δp, negative where it acts towards smaller positions
-LEAST, FREQUENCY, DAMPING, PRELOAD, FRICTION, SLOW, PLAY_WIDTH, DEAD, DITHER, DITHER_FREQUENCY, CORNER, FIRST_FORCE = range(12)
+LEAST, FREQUENCY, DAMPING, PRELOAD, FRICTION, SLOW, PLAY_WIDTH, DEAD, DITHER, DITHER_FREQUENCY, CORNER, FIRST_FORCE = (
+    range(12)
+)
 # U of the preload, τ [s] of the play, stiffness of the stop over that of the spring
 CENTRE, PLAY_TIME, STOP = 0.005, 1e-3, 100.0
 
@@ -90,10 +92,7 @@ def drive(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         wish = evaluate_function(machine, index[COMMAND], t)
-        if index[CURVE] == NONE:
-            wish = clipped(wish, n[LEAST])
-        else:
-            wish = force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
+        wish = clipped(wish, n[LEAST]) if index[CURVE] == NONE else force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
         if real(n[DITHER]) != 0.0:
             wish = wish + n[DITHER] * np.sin(n[DITHER_FREQUENCY] * t)
         if index[PLAY] != NONE:

@@ -85,7 +85,10 @@ def _is_upside_down(part: Part, circuit: Circuit) -> bool:
             float(other.row)
             for port in ports
             for line, other, _ in circuit.pins()
-            if port not in part.sensing and line == part.lines.get(port) and other is not part and line not in circuit.drains
+            if port not in part.sensing
+            and line == part.lines.get(port)
+            and other is not part
+            and line not in circuit.drains
         ]
         return sum(rows) / len(rows) if rows else 1e3  # tanks are below all
 

@@ -116,5 +116,3 @@ class ShuttleValve(Rated):
     )
     lag: NotNegativeDuration = Field(default=0.0, description="time constant; 0: none")
     leakage: Leakage = Field(default=0.0)
-
-

@@ -6,9 +6,16 @@ from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Frequency, Leakage, NotNegativeDuration, PositiveNumber, Pressure
+from nivel.machine.core.coefficient import (
+    Frequency,
+    Leakage,
+    NotNegativeDuration,
+    PositiveNumber,
+    Pressure,
+    Volume,
+    VolumeFlow,
+)
 from nivel.machine.core.coefficient import Share as Proportion
-from nivel.machine.core.coefficient import Volume, VolumeFlow
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Rated, problem_of_share
@@ -105,6 +112,6 @@ class Section(Rated):
             if self.compensation == "none":
                 yield superfluous("ports", "LS belongs to a section with a compensator")
             else:
-                yield Problem((), "port LS is missing: the compensator feels the load-sensing pressure; write `LS: ls`")
+                yield Problem((), "port LS is missing: the compensator reads the load-sensing pressure; write `LS: ls`")
         if self.saturation_share is not None and self.compensation != "pre":
             yield superfluous("saturation_share", "belongs to `compensation: pre`; post shares the flow by itself")

@@ -139,7 +139,9 @@ class Edge(Checked):
 class Solenoid(Checked):
     """Forces of proportional solenoids, with springs that centre the spool or push it back."""
 
-    force: Annotated[SomeCurve, CurveOf("force", CURRENT_SYMBOL)] = Field(description="over the magnitude of the current")
+    force: Annotated[SomeCurve, CurveOf("force", CURRENT_SYMBOL)] = Field(
+        description="over the magnitude of the current"
+    )
     spring: Annotated[OneNumber, Quantity("stiffness", positive=True)] = Field(description="stiffness of the spring")
     preload: NotNegativeForce = Field(default=0.0, description="of the spring in its middle")
     friction: NotNegativeForce = Field(default=0.0, description="of the spool; dither overcomes it")

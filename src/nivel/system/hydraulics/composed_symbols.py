@@ -160,7 +160,9 @@ def brake(data: Mapping[str, Any]) -> Symbol:
         body += _moved(path("M-7 -7 H7 V7 H-7 Z") + arrow(-3, -7, 7), x + 15 * side, 0.0)
         body += _check(x, 0.0)
     body += path("M-22 22 L28 5 M22 22 L-28 5", "dashed")
-    return Symbol(body, 48.0, 30.0, {"A": -22.0, "B": 22.0}, {"VA": -22.0, "VB": 22.0}, settings=in_bar(data, "opens_at"))
+    return Symbol(
+        body, 48.0, 30.0, {"A": -22.0, "B": 22.0}, {"VA": -22.0, "VB": 22.0}, settings=in_bar(data, "opens_at")
+    )
 
 
 def spool_valve(data: Mapping[str, Any]) -> Symbol:

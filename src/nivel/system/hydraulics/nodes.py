@@ -232,8 +232,8 @@ def _fluid(builder: SystemBuilder, component: Component) -> int:
     name = getattr(component, "fluid", None)
     if name is None and "fluid" not in type(component).model_fields:
         by_node = makers(builder.machine.hydraulics)
-        others = (by_node.get(node) for node in component.ports.values())
-        name = next((each.fluid for each in others if getattr(each, "fluid", None) is not None), None)
+        fluids = (getattr(by_node.get(node), "fluid", None) for node in component.ports.values())
+        name = next((each for each in fluids if each is not None), None)
     return 0 if name is None else [fluid.name for fluid in builder.machine.fluids].index(name)
 
 

@@ -45,11 +45,13 @@ def directional_valve(data: Mapping[str, Any]) -> tuple[str, float, float, dict[
 def boxes(
     groups: Sequence[Sequence[tuple[str, str]]], top: Sequence[str], bottom: Sequence[str], spring: str
 ) -> tuple[str, float, float, dict[str, float], dict[str, float]]:
-    """As `directional_valve`, of a spool with any ports: the pairs that it joins in each box, the second one at rest; `spring`: of one side,
-    or of both, then solenoids act on both."""
+    """As `directional_valve`, of a spool with any ports.
+
+    groups : pairs that it joins in each box, of which the second is at rest. spring : of "one" side, or of "both": solenoids act on both.
+    """
     count = max(len(top), len(bottom), 2)
     wide = max(BOX, 16.0 * count)
-    half, rest = 0.5 * wide, 0.0
+    half = 0.5 * wide
     first = -0.5 * wide * (len(groups) - 1)
     rest = first + wide
 
@@ -67,8 +69,8 @@ def boxes(
     body += _solenoid(-end, -1.0) + (_solenoid(end, 1.0) if spring == "both" else _spring(end))
     if spring == "both":
         body += _centring(-end, -1.0) + _centring(end, 1.0)
-    shift = ({port: rest + x for port, x in side.items()} for side in (above, below))
-    return body, end + 26.0, 0.5 * BOX + 6.0, *shift
+    up, down = ({port: rest + x for port, x in side.items()} for side in (above, below))
+    return body, end + 26.0, 0.5 * BOX + 6.0, up, down
 
 
 def _wide_box(

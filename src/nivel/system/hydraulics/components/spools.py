@@ -8,10 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.kernels.hydraulics import metering, restriction, spool, spool_drive
-from nivel.kernels.hydraulics.tangent import DRIVE, LIFT, METER, MOVE, RESTRICT, SWITCH
+from nivel.kernels.hydraulics.tangent import LIFT, MOVE, RESTRICT
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Section, SpoolValve
-from nivel.machine.hydraulics.curve import Curve
 from nivel.machine.hydraulics.spool_valve import Edge, Switching, ends_of
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
@@ -99,7 +98,8 @@ def _add_drive(
 
 def _full_force(component: SpoolValve) -> float:
     """[N] of the springs between the middle and the full stroke."""
-    assert component.solenoid is not None and component.stroke is not None  # the record was checked
+    assert component.solenoid is not None
+    assert component.stroke is not None
     return component.solenoid.spring * component.stroke
 
 
@@ -128,10 +128,7 @@ def _add_edge(
 def conductances(component: SpoolValve, edge: Edge, density: float) -> tuple[list[float], list[Table]]:
     """(differences of pressure [Pa], K [m³/s/√Pa] over the position at each) of an edge."""
     curves = component.curves_of(edge)
-    if edge.flows:
-        drops = list(edge.pressure_drops)
-    else:
-        drops = [edge.pressure_drop or 0.0]
+    drops = list(edge.pressure_drops) if edge.flows else [edge.pressure_drop or 0.0]
     out = []
     for curve, drop in zip(curves, drops, strict=True):
         root = drop * (drop * drop + component.transition**2) ** -0.25
@@ -233,9 +230,9 @@ def _add_section_spool(builder: SystemBuilder, component: Section) -> int:
 
 
 OF_VALVES = {
-    spool_drive.drive: DRIVE,
-    spool_drive.switch: SWITCH,
-    metering.apply: METER,
+    spool_drive.drive: spool_drive.add_slopes,
+    spool_drive.switch: spool_drive.add_slopes_of_switches,
+    metering.apply: metering.add_slopes,
 }
 OF_SECTIONS = {spool.move: MOVE, spool.lift: LIFT, restriction.apply: RESTRICT}
 KINDS = (

@@ -92,7 +92,11 @@ def drive(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         wish = evaluate_function(machine, index[COMMAND], t)
-        wish = clipped(wish, n[LEAST]) if index[CURVE] == NONE else force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
+        wish = (
+            clipped(wish, n[LEAST])
+            if index[CURVE] == NONE
+            else force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
+        )
         if real(n[DITHER]) != 0.0:
             wish = wish + n[DITHER] * np.sin(n[DITHER_FREQUENCY] * t)
         if index[PLAY] != NONE:

@@ -26,9 +26,10 @@ from nivel.errors import ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.core.status import NOT_FINITE
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces import Contact, Stop
+from nivel.machine.forces import Contact, Stop, is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
+from nivel.methods import chooses
 from nivel.system.forces.contacts import tangent_stiffness
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
@@ -41,6 +42,8 @@ CHOSEN, OF_MODES = ("radau", "bdf", "generalised-alpha"), ("generalised-alpha", 
 FIXED = ("ros2",)
 # loads at which the stiffness of a contact is taken, as multiples of the weight
 HIT = 10.0
+# Shares of the swing of a contact in which friction stops what it can hold; chosen steps pass over it where nothing changes.
+STOPPING = 1e-3
 STANDARD_GRAVITY = 9.81
 NONE_GOES = "no implicit method goes with its other settings"
 
@@ -123,10 +126,20 @@ def _implicit_plans(plan: Plan, found: Rate, *, fixed: bool) -> Iterator[Plan]:
     modes = bool(machine.beams or machine.is_flexible) and not _touching(machine)
     for name in FIXED if fixed else OF_MODES if modes else CHOSEN:
         try:
-            new = plan_run(machine.replace(simulation=machine.simulation.replace(integrator=name)))
+            new = plan_run(_stopping_soon(machine.replace(simulation=machine.simulation.replace(integrator=name))))
         except ModelError:
             continue
         yield replace(new, reason=_implicit(plan, found))
+
+
+def _stopping_soon(machine: MachineRecord) -> MachineRecord:
+    """The machine with a shorter `step`, where none is given and steps are chosen: within two of it friction stops what it can hold, which
+    must be over before an impact is."""
+    settings = machine.simulation
+    rates = [each.rate for each in _of_contacts(machine, sticking=True)]
+    if not rates or "step" in settings.model_fields_set or not chooses(settings.integrator, settings.step_control):
+        return machine
+    return machine.replace(simulation=settings.replace(step=min(settings.step, STOPPING / max(rates))))
 
 
 def _explicit(plan: Plan, found: Rate | None) -> str:
@@ -164,10 +177,13 @@ def _touching(machine: MachineRecord) -> list[Contact | Stop]:
     return [each for each in machine.forces if isinstance(each, Contact | Stop)]
 
 
-def _of_contacts(machine: MachineRecord) -> Iterator[Rate]:
-    """Of contacts hit by some times the weight of what touches, of their friction near rest, and of end stops."""
+def _of_contacts(machine: MachineRecord, *, sticking: bool = False) -> Iterator[Rate]:
+    """Of contacts hit by some times the weight of what touches, of their friction near rest, and of end stops. sticking : of contacts that
+    stick alone."""
     gravity = float(np.linalg.norm(machine.gravity)) or STANDARD_GRAVITY
     for each in _touching(machine):
+        if sticking and not is_sticking(each):
+            continue
         kind = "contact" if isinstance(each, Contact) else "end stop"
         mass = _mass_at(machine, each)
         stiffness = tangent_stiffness(machine, each, HIT * mass * gravity)

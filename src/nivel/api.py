@@ -398,6 +398,38 @@ class Machine(Model):
         return _sweep([self.with_settings(given)], values, SweepSettings(**own), listener)
 
     @checked_arguments
+    def batch(
+        self,
+        values: Mapping[str, Sequence[Any] | Any],
+        *,
+        save: Sequence[str] | str = (),
+        threads: int | None = None,
+        listener: Listener | None = None,
+        **settings: Unpack[RunSettingsDict],
+    ) -> xarray.Dataset:
+        """Run many variants in one call, without trust reports: for optimisation, learning and sampling.
+
+        values : lists of equal length by path, ``{"bodies.rod.mass": masses, "forces.load.stiffness": stiffnesses}``; the first of all
+        lists make the first variant. save : names of results; default all joint coordinates and sensors. threads : as many as there are
+        processors by default. settings : of all runs, as in `simulate`.
+
+        Where numbers of the machine follow from the values by formulas (masses, stiffnesses, loads and the like; fixed steps of an
+        explicit integrator), the machine is prepared once and its numbers are patched, so that a variant costs little more than its
+        steps; else every variant is prepared: the attribute `prepared_because` says why. Nothing tells how exact the runs are;
+        `sweep` does. Raises ModelError where values or names are not known, or no variant can be run.
+        """
+        from nivel.analysis.sweep.batch import run_batch
+        from nivel.analysis.sweep.rows import rows_of
+        from nivel.native.workers import processors
+
+        given = _given(settings)
+        chosen, rows = self.with_settings(given), rows_of(values)
+        plan = chosen.with_values(rows[0])._plan({*given, *self.origin.settings_outside})
+        build(_entries_of(plan, chosen.record), listener)
+        names = (save,) if isinstance(save, str) else tuple(save)
+        return run_batch(chosen, rows, names, threads=threads or processors(), listener=listener or Listener())
+
+    @checked_arguments
     def statics(
         self,
         *,

@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.sweep.formulas import WORKSPACE, fit
+from nivel.analysis.sweep.formulas import named_arrays as arrays_of
 from nivel.c_library.exported import Exported, refusal
 from nivel.c_library.image import WORD
 from nivel.errors import Fault, ModelError
@@ -25,42 +27,9 @@ Vary = Callable[[Mapping[str, float]], Exported]
 # values that a parameter takes, as shares of its default, until the machine accepts all of a row
 SHARES = ((1.25, 0.8, 1.1), (0.8, 0.9, 0.95), (1.02, 0.98, 1.01))
 ABOUT_ZERO = (1.0, -1.0, 0.5)
-# powers that numbers may follow, one or two at once
-POWERS = ((1.0,), (2.0,), (-0.5,), (-1.0,), (3.0,), (-2.0,), (0.5,), (1.0, 2.0))
-FITS = 1e-11
 # share of the scale of a state by which a machine with formulas may differ from one that was prepared, after some steps
 AGREES, STEPS = 1e-8, 10
 LEAST_POSITIVE = 1e-300
-
-# Numbers that each evaluation computes again, by the beginnings of their names in the record.
-WORKSPACE = (
-    "bodies.wrench",
-    "bodies.Rddot",
-    "bodies.alpha_b",
-    "constraints.lam",
-    "friction.force",
-    "saddle.",
-    "tree.rows.lam",
-    "tree.inertia",
-    "tree.U",
-    "tree.Dinv",
-    "tree.root",
-    "tree.wrench",
-    "tree.delta",
-    "tree.small",
-    "frames.",
-    "elements.state",
-    "circuit.known",
-    "circuit.pressure",
-    "circuit.density",
-    "circuit.enthalpy",
-    "circuit.power",
-    "circuit.stored",
-    "outputs.",
-    "control.energy",
-    "control.power",
-    "control.stored",
-)
 
 
 class Formula(NamedTuple):
@@ -131,7 +100,7 @@ def _formulas_of(path: str, value: float, number: int, nominal: Exported, vary: 
             raise _UnfitError(f"it changes the whole numbers `{name}`")
         first = nominal.image.byte_of(array.ctypes.data) // WORD
         for place in changed:
-            terms = _fit(xs, rows[:, place])
+            terms = fit(xs, rows[:, place])
             if terms is not None:
                 yield Formula(first + int(place), number, terms)
             elif not _is_workspace(name, int(place), nominal):
@@ -151,21 +120,6 @@ def _varied(path: str, value: float, vary: Vary) -> tuple[NDArray[np.float64], l
     return np.array([value, *rows[-1]]), [vary({path: x}) for x in rows[-1]]
 
 
-def _fit(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[tuple[float, float], ...] | None:
-    """Factors and powers of the first formula that fits all points."""
-    if not np.isfinite(y).all():
-        return None
-    for powers in POWERS:
-        if min(x) <= 0.0 and any(power < 0.0 or power % 1.0 for power in powers):
-            continue
-        columns = np.array([np.ones_like(x), *(x**power for power in powers)]).T
-        size = np.abs(columns).max(axis=0)
-        factors = np.linalg.lstsq(columns / size, y, rcond=None)[0] / size
-        if np.abs(columns @ factors - y).max() <= FITS * np.abs(y).max():
-            return tuple((float(factor), power) for factor, power in zip(factors[1:], powers, strict=True))
-    return None
-
-
 def _is_workspace(name: str, place: int, nominal: Exported) -> bool:
     """Whether an evaluation computes this number again."""
     part = name.partition(".")[2]
@@ -183,15 +137,7 @@ def named_arrays(machine: Exported) -> Iterator[tuple[str, NDArray[Any]]]:
         "history": machine.loop.history.record,
     }
     for name, record in records.items():
-        yield from _named(record, name)
-
-
-def _named(record: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
-    for field, part in zip(record._fields, record, strict=True):
-        if isinstance(part, tuple):
-            yield from _named(part, f"{name}.{field}")
-        else:
-            yield f"{name}.{field}", part
+        yield from arrays_of(record, name)
 
 
 def _least(path: str, value: float, vary: Vary) -> float:

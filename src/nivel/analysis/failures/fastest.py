@@ -57,7 +57,7 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
     count = len(y) - 2  # energies follow from the others
     if not 0 < count <= MOST_ENTRIES or not np.isfinite(y).all():
         return None
-    steps = SHARE * np.maximum(np.abs(y[:count]), _scales(motion, count))
+    steps = increments(motion, y)
     A = np.zeros((count, count))
     for k in range(count):
         ends = [_rate(motion, t, y, k, side * steps[k]) for side in (1.0, -1.0)]
@@ -77,6 +77,12 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
     shape = np.real(right[:, k] * np.exp(0.25j * np.pi))
     owner = _taking_part(motion, np.abs(left[:, j] * right[:, k]))
     return Fastest(float(np.abs(rates[k])), owner or _working(motion, t, y, shape), t)
+
+
+def increments(motion: MotionEquations, y: Array) -> Array:
+    """(n,) of the entries of y without its energies, for differences."""
+    count = len(y) - 2
+    return SHARE * np.maximum(np.abs(y[:count]), _scales(motion, count))
 
 
 def _scales(motion: MotionEquations, count: int) -> Array:

@@ -41,12 +41,14 @@ def simulate(
     verify_limit: float | None = None,
     listener: Listener | None = None,
     compile_seconds: float = 0.0,
+    judge: bool = True,
 ) -> Result:
     """Run as planned; the result is in memory, or streamed to the file `out`.
 
     compile_seconds : what was spent on compiling before, for the result's timing.
     verify : a second run goes beside this one, with finer steps on other times, and its distance tells how exact this one is; it goes on
     after it for `verify_limit` [s] at most, by default as long again as it took.
+    judge : a trust report is made; without one the result is that of a run of which nobody knows how exact it is.
     A machine that names no integrator, and becomes too fast for the one that it has, begins anew with another.
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails, SystemExit where SIGTERM
     came, with the result closed.
@@ -61,7 +63,9 @@ def simulate(
         elements = ElementsRun.beside(second, plan, verify_limit) if second is not None else None
         try:
             with terminable():
-                return _run(plan, prepared, sink, second, elements, source, listener, begin, compile_seconds)
+                return _run(
+                    plan, prepared, sink, second, elements, source, listener, begin, compile_seconds, judge=judge
+                )
         except FasterError as faster:
             listener.say(f"beginning anew, because {faster.found.what} became fast")
             sink.discard()
@@ -84,6 +88,8 @@ def _run(
     listener: Listener,
     begin: float,
     compile_seconds: float,
+    *,
+    judge: bool = True,
 ) -> Result:
     """The run, with the second one beside it, and one with other elements of its beams."""
     machine, settings = plan.machine, plan.settings
@@ -100,7 +106,7 @@ def _run(
         verified = second.wait(listener)
     found = elements.wait(listener) if elements is not None and verified is not None else None
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return close_run(sink, plan, prepared, finished, verified, seconds, found)
+    return close_run(sink, plan, prepared, finished, verified, seconds, found, judge=judge)
 
 
 def close_run(
@@ -111,8 +117,10 @@ def close_run(
     verified: Verified | None,
     timing: dict[str, float],
     found: Found | None = None,
+    *,
+    judge: bool = True,
 ) -> Result:
-    """Close the sink of a run with its trust report and all that is known of how it ended.
+    """Close the sink of a run with its trust report, where it is to be judged, and all that is known of how it ended.
 
     verified : the second run, or None. found : the run with other elements, or None. timing : seconds besides the loop's.
     Raises SolveError, with the result, where the run failed.
@@ -130,9 +138,10 @@ def close_run(
         "advice": advice,
         "events": to_json(finished.events),
         "stopped_by": finished.stopped_by,
-        "trust": assess(run).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }
+    if judge:
+        attributes["trust"] = assess(run).to_json()
     if estimate is not None and run.elements is not None and run.elements.errors is not None:
         estimate = with_elements(estimate, run.elements.errors)
     if estimate is not None:

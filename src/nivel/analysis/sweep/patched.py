@@ -91,7 +91,7 @@ def blank(machine: Model) -> Blank:
 def _blank_of(plan: Plan, prepared: Prepared) -> Blank:
     system = prepared.motion.system
     prepared, piece = prepared.in_one_piece()
-    if plan.settings.steps == 0 or piece is None or system.fmus:
+    if plan.settings.steps == 0 or piece is None or system.units:
         raise UnsuitedError("its integrator or a block of its control keeps memory of its own")
     rows = int(plan.settings.frames) + 2
     if rows * system.layout.width * 8 > MOST_BYTES:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from nivel.analysis.compare.compare_grid import compile_grid, lay_out
 from nivel.analysis.plan.compilation import (
@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from nivel.analysis.check.check import Check
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
+    from nivel.analysis.run.many import Simulations
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.fmu.writer import Unit
@@ -349,18 +350,37 @@ class Machine(Model):
                 vary=lambda changes: export(same.with_values(changes)._plan({}), "an FMU"),
             )
 
+    @overload
+    def start(
+        self, *, record: bool = False, listener: Listener | None = None, **settings: Unpack[StepSettingsDict]
+    ) -> Simulation: ...
+
+    @overload
+    def start(
+        self,
+        *,
+        n: int,
+        values: Mapping[str, Any] | None = None,
+        listener: Listener | None = None,
+        **settings: Unpack[StepSettingsDict],
+    ) -> Simulations: ...
+
     @checked_arguments
     def start(
         self,
         *,
+        n: int | None = None,
+        values: Mapping[str, Any] | None = None,
         record: bool = False,
         listener: Listener | None = None,
         **settings: Unpack[StepSettingsDict],
-    ) -> Simulation:
+    ) -> Simulation | Simulations:
         """The machine ready to move step by step: ``sim.step()``, ``sim["hinge.angle"]``, ``sim.state``.
 
         Settings override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
-        record : keep a frame every `output_interval`, for ``sim.result()``. Raises ModelError.
+        record : keep a frame every `output_interval`, for ``sim.result()``. n : so many copies, which one call steps:
+        ``sims.step({"push": forces})``, ``sims["hinge.angle"]`` (n,); values : lists of n values by path, other numbers of each copy.
+        Raises ModelError.
         """
         given = _given(settings)
         chosen = self.with_settings(given)
@@ -368,8 +388,28 @@ class Machine(Model):
         build(_entries_of(plan, chosen.record), listener)
         from nivel.analysis.run.stepping import Simulation
 
+        if n is None:
+            if values:
+                raise ModelError(Fault("", 0, 0, "values", "lists of values make several copies: say how many, n=3"))
+            with chosen._faults_in_file():
+                return Simulation(plan, source=self.origin.source, record=record)
+        if n < 1 or record:
+            message = "copies keep no frames" if record else f"a number of copies of at least 1 was expected, got {n}"
+            raise ModelError(Fault("", 0, 0, "record" if record else "n", message))
+        from nivel.analysis.run.many import Simulations
+
+        if not values:
+            with chosen._faults_in_file():
+                return Simulations([plan] * n, source=self.origin.source)
+        from nivel.analysis.sweep.rows import rows_of
+
+        rows = rows_of(values)
+        if len(rows) != n:
+            raise ModelError(Fault("", 0, 0, "values", f"lists of {n} values are needed; there are {len(rows)}"))
+        machines = [chosen.with_values(row) for row in rows]
+        plans = [each._plan(each.origin.settings_outside) for each in machines]
         with chosen._faults_in_file():
-            return Simulation(plan, source=self.origin.source, record=record)
+            return Simulations(plans, source=self.origin.source)
 
     @checked_arguments
     def sweep(

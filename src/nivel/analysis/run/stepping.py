@@ -113,9 +113,12 @@ class Simulation:
 
     verified: Final = False
 
-    def __init__(self, plan: Plan, *, source: str = "", record: bool = False) -> None:
+    def __init__(
+        self, plan: Plan, *, source: str = "", record: bool = False, ready: tuple[Plan, Prepared] | None = None
+    ) -> None:
+        """ready : the plan with its integrator, and the machine made ready, where that is done already."""
         refuse_chosen_steps(plan)
-        plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
+        plan, prepared = ready or fitted(plan, prepare(plan.methods), fixed=True)
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared
         self._prepared, piece = prepared.in_one_piece()
@@ -160,7 +163,7 @@ class Simulation:
         self._memory.begin(self._header)
         self._counter[EVERY] = plan.settings.every if record else ENDLESS
         self._recorded = record
-        self._go(0)
+        self.go(0)
 
     # --- moving ---
 
@@ -186,17 +189,18 @@ class Simulation:
         Raises SolveError where the step fails, and ModelError where the simulation is over, or `inputs` has a name that is neither.
         """
         if inputs:
-            self._set(inputs)
-        self._go(1)
+            self.set_inputs(inputs)
+        self.go(1)
 
     def advance(self, duration: float, inputs: Mapping[str, float] | None = None) -> None:
         """As many steps as fill `duration` [s], a multiple of the step, in one compiled call; an event may end it earlier."""
-        count = self._count_of(duration)
+        count = self.count_of(duration)
         if inputs:
-            self._set(inputs)
-        self._go(count)
+            self.set_inputs(inputs)
+        self.go(count)
 
-    def _count_of(self, duration: float) -> int:
+    def count_of(self, duration: float) -> int:
+        """Steps that fill `duration` [s]. Raises ModelError where it is no multiple of the step."""
         value = plain(duration)
         if not isinstance(value, int | float) or isinstance(value, bool):
             raise ModelError(Fault("", 0, 0, "duration", f"a number of seconds was expected, got {shown(duration)}"))
@@ -206,7 +210,8 @@ class Simulation:
             raise ModelError(Fault("", 0, 0, "duration", message))
         return count
 
-    def _go(self, steps: int) -> None:
+    def go(self, steps: int) -> None:
+        """So many steps in one compiled call. Raises as `step` does."""
         counter = self._counter
         if counter[STOPPED]:
             raise ModelError(self._over)
@@ -231,7 +236,7 @@ class Simulation:
         message, advice, time = failure_of(self._prepared, self._settings, self._run, status, jam)
         raise SolveError(message, time=time, advice=advice, result=self.result() if self._recorded else None)
 
-    def _set(self, inputs: Mapping[str, float]) -> None:
+    def set_inputs(self, inputs: Mapping[str, float]) -> None:
         """Give inputs and states their values, and evaluate again what depends on them."""
         if not isinstance(inputs, Mapping):
             said = f"values by name were expected, {{'push': 200}}, got {shown(inputs)}; how long a step is says the machine"
@@ -330,6 +335,16 @@ class Simulation:
             values[[BEFORE, AFTER]] = motion.system.record.watched.value[: values.shape[1]]
             values[SIDE] = np.sign(values[BEFORE])
         self._observe()
+
+    def check_inputs(self, inputs: Mapping[str, float]) -> None:
+        """Raise ModelError for a name that is no input or state, and for a value that it cannot have."""
+        for name, value in inputs.items():
+            self._checked(name, value)
+
+    @property
+    def machine_name(self) -> str:
+        """Name of the machine."""
+        return self._plan.machine.name
 
     def _checked(self, name: str, value: float) -> float:
         """The value of an input or a state as a number. Raises ModelError."""

@@ -37,6 +37,23 @@ def machine_with_circuits(command="0.3 + 0.5*rail.displacement + 1e-9*line.press
                     "displacement": "28 cm^3/rev", "speed": "1500 rpm", "pistons": 9, "volumetric_efficiency": 0.95,
                     "mechanical_efficiency": 0.9, "nominal_pressure": "200 bar", "nominal_speed": "1500 rpm",
                 },
+                "diesel": {
+                    "type": "engine", "speed": "1500 rpm", "inertia": 0.2, "drag": 10,
+                    "torque_curve": {"speeds": [80, 200], "torques": [100, 90]},
+                },
+                "second": {
+                    "type": "pump", "ports": {"A": "tank", "B": "line", "L": "tank", "X": "supply"}, "engine": "diesel",
+                    "displacement": "5 cm^3/rev", "case_leakage": 1e-13, "torque_limit": 2, "frequency": "5 Hz",
+                    "efficiency": {
+                        "speeds": [50, 200], "pressures": ["20 bar", "200 bar"], "volumetric": [0.8, 0.7, 0.95, 0.9],
+                        "mechanical": [0.8, 0.9, 0.85, 0.95],
+                    },
+                },
+                "third": {
+                    "type": "pump", "ports": {"A": "tank", "B": "supply", "LS": "ls"}, "speed": "1500 rpm", "margin": "90 bar",
+                    "displacement": "5 cm^3/rev", "rate_limit": 9, "frequency": "8 Hz",
+                    "cut_off_curve": {"pressures": ["80 bar", "180 bar"], "settings": [1.0, 0.2]},
+                },
                 "spare": {"type": "flow-source", "ports": {"A": "tank", "B": "supply"}, "flow": "1e-5*(1 + sin(time))"},
                 "relief": {
                     "type": "relief-valve", "ports": {"P": "supply", "T": "tank"}, "opens_at": "100 bar",

@@ -50,6 +50,7 @@ from nivel.system.beams.tangent import (
     tangent_tables,
 )
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
+from nivel.system.hydraulics.tangent import slope_hooks
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import dual_address
 from nivel.system.system import Array, System
@@ -278,8 +279,9 @@ def _twin(record: Record, *, held: bool) -> Handle:
     """
     twin = dual_twin(record)
     address = np.zeros_like(record.hooks.address)
-    # behind the others are motions of joints
-    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS, *range(HOOKS, len(address))):
+    # behind the others are motions of joints, and then what adds slopes of circuits, which are real numbers
+    end = len(address) - slope_hooks(record)
+    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS, *range(HOOKS, end)):
         address[hook] = _on_duals(record.hooks.address[hook])
     families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)
     if held:

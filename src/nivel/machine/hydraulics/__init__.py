@@ -20,7 +20,7 @@ from nivel.machine.hydraulics.component import Component
 from nivel.machine.hydraulics.directional import DirectionalValve
 from nivel.machine.hydraulics.flow_valves import FlowControl, FlowDivider, PriorityValve, ShuttleValve
 from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
-from nivel.machine.hydraulics.machines import FlowSource, HydraulicMotor, Pump
+from nivel.machine.hydraulics.machines import Engine, FlowSource, HydraulicMotor, Pump
 from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
 from nivel.machine.hydraulics.pressure_valves import (
     BrakeValve,
@@ -69,6 +69,7 @@ COMPONENTS: list[type[Component]] = [
     CrossPortRelief,
     BrakeValve,
     FlowSource,
+    Engine,
     Pump,
     HydraulicMotor,
     HydraulicCylinder,
@@ -116,6 +117,7 @@ __all__ = [
     "Cushion",
     "DirectionalValve",
     "Edge",
+    "Engine",
     "FlowControl",
     "FlowDivider",
     "FlowSource",

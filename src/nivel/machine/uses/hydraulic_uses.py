@@ -16,6 +16,7 @@ from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, find
 
 Faults = Iterator[tuple[Place, str]]
 SIGNAL: Final = "load-sensing"
+BOUNDING: Final = ("margin", "cut_off_curve")  # with these the pressure sets the displacement of a pump
 
 
 def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faults:
@@ -30,6 +31,7 @@ def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faul
         yield from _of_fluid(component, index, place)
         yield from _of_signal(component, index, used, place)
         yield from _of_angle(component, index, place)
+        yield from _of_engine(component, index, place)
         if kind is not None:
             yield from symbol_faults(component, place, index, parameters, kind.functions)
             yield from _late(component, kind.functions, index, parameters, place)
@@ -143,6 +145,14 @@ def _of_angle(component: Any, index: Index, place: Place) -> Faults:
         yield (*place, "coordinate"), f"`{reference}` is a length; what turns needs an angle"
 
 
+def _of_engine(component: Any, index: Index, place: Place) -> Faults:
+    """The engine that turns a pump."""
+    name = entry(component, "engine")
+    if isinstance(name, str) and entry(index.hydraulics.get(name), "type") != "engine":
+        known = [each for each, its in index.hydraulics.items() if entry(its, "type") == "engine"]
+        yield (*place, "engine"), unknown_name("engine", name, tuple(known))
+
+
 def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Parameters, place: Place) -> Faults:
     """Signals of components that are known only after what a component is told."""
     for key in keys:
@@ -189,7 +199,7 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
     tanks = {name for name, type_ in nodes.items() if type_ == "tank"}
     for at, component in enumerate(components):
         kind, ports = COMPONENT_OF.get(str(entry(component, "type")), Component), ports_of(component)
-        if kind.delivers not in ports or entry(component, "margin") is not None:
+        if kind.delivers not in ports or any(entry(component, key) is not None for key in BOUNDING):
             continue
         node = ports[kind.delivers]
         reached, front = {node}, [node]

@@ -7,7 +7,7 @@ from typing import Final
 from nivel.kernels.hydraulics import gas, gas_flow, ledger, volume
 from nivel.kernels.hydraulics.phase import PHASES
 from nivel.kernels.record.hook import Family
-from nivel.machine.hydraulics import Component, Gas, LoadSensing, Tank
+from nivel.machine.hydraulics import Component, Engine, Gas, LoadSensing, Tank
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics.components import COMPONENTS
@@ -63,6 +63,10 @@ def add_circuits(builder: SystemBuilder) -> None:
         add_fluids(builder)
         add_nodes(builder, {word: kind.nodes for word, kind in COMPONENTS.items() if kind.nodes is not None})
         _add_pressures(builder)
+        for component in builder.machine.hydraulics:
+            if (present := COMPONENTS[component.type].present) is not None:
+                with located(f"hydraulics.{component.name}"), builder.noting():
+                    present(builder, component)
 
 
 def add_components(builder: SystemBuilder) -> None:
@@ -70,8 +74,8 @@ def add_components(builder: SystemBuilder) -> None:
     components = builder.machine.hydraulics
     if not components:
         return
-    # positions of valves before what reads them
-    for component in sorted(components, key=lambda each: isinstance(each, LoadSensing)):
+    # positions of valves and torques of pumps before what reads them
+    for component in sorted(components, key=lambda each: isinstance(each, LoadSensing | Engine)):
         if (add := COMPONENTS[component.type].add) is not None:
             with located(f"hydraulics.{component.name}"), builder.noting():
                 add(builder, component)

@@ -33,6 +33,7 @@ class ComponentKind:
     symbol: Callable[[Mapping[str, Any]], Symbol] | None = None
     slopes: Mapping[Family, int | Family] | None = None
     nodes: NodeMaker | None = None
+    present: Callable[[SystemBuilder, Any], None] | None = None
 
     def __post_init__(self) -> None:
         if bool(self.words.nodes) != (self.nodes is not None):

@@ -139,10 +139,34 @@ def pump(data: Mapping[str, Any]) -> Symbol:
     body = _circle(16.0) + path("M0 -16 l-6 10 h12 z", "full") + path("M0 -24 V-16 M0 16 V24 M-16 -2 H-26 M-16 2 H-26")
     if data.get("margin") is not None or varies(data, "setting") or data.get("setting", 1.0) != 1.0:
         body += adjustable(-15, 17, 17, -17)
-    sensing = "LS" in (data.get("ports") or {})
-    body += path("M16 0 H30 V-24", "dashed") if sensing else ""
-    above = {"B": 0.0} | ({"LS": 30.0} if sensing else {})
-    return Symbol(body, 30.0 if sensing else 26.0, 24.0, above, {"A": 0.0}, "supply", _displacement(data))
+    if _has_two_ways(data):
+        body += path("M0 16 l-6 -10 h12 z", "full")
+    ports = data.get("ports") or {}
+    sensed = {port: 30.0 + 10.0 * k for k, port in enumerate(port for port in ("LS", "X") if port in ports)}
+    body += (
+        path(" ".join(f"M16 {5.0 * k:g} H{x:g} V-24" for k, x in enumerate(sensed.values())), "dashed")
+        if sensed
+        else ""
+    )
+    drain = {"L": 14.0} if "L" in ports else {}
+    body += path("M10 12.5 L14 17 V24", "dashed") if drain else ""
+    wide = max([26.0, *sensed.values()])
+    below = {"A": 0.0} | drain
+    return Symbol(body, wide, 24.0, {"B": 0.0} | sensed, below, "supply", _displacement(data))
+
+
+def _has_two_ways(data: Mapping[str, Any]) -> bool:
+    """Whether a pump swings over centre: it is told to, or its setting varies with nothing that bounds it to one way."""
+    least = data.get("least_setting")
+    if least is not None:
+        return least < 0.0
+    return data.get("frequency") is not None and data.get("margin") is None and varies(data, "setting")
+
+
+def engine(data: Mapping[str, Any]) -> Symbol:
+    """A combustion engine."""
+    body = path("M-18 -18 H18 V18 H-18 Z M-8 -18 V18 M-8 4 H-18 M18 -2 H28 M18 2 H28")
+    return Symbol(body, 28.0, 18.0, {}, {}, "supply", _setting(data, "speed", 30.0 / pi, "rpm"), "M")
 
 
 def motor(data: Mapping[str, Any]) -> Symbol:
@@ -151,7 +175,9 @@ def motor(data: Mapping[str, Any]) -> Symbol:
     body += path("M-16 0 H-26 V24 M16 0 H26 V24 M-2 -16 V-24 M2 -16 V-24")
     if varies(data, "setting"):
         body += adjustable(-15, 17, 17, -17)
-    return Symbol(body, 26.0, 24.0, {}, {"A": -26.0, "B": 26.0}, "actuator", _displacement(data))
+    drain = {"L": 12.0} if "L" in (data.get("ports") or {}) else {}
+    body += path("M10 12.5 L12 16 V24", "dashed") if drain else ""
+    return Symbol(body, 26.0, 24.0, {}, {"A": -26.0, "B": 26.0} | drain, "actuator", _displacement(data))
 
 
 def cylinder(data: Mapping[str, Any]) -> Symbol:

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics import piston, rotary, spool, spool_drive, volume
+from nivel.kernels.hydraulics import piston, pump_control, rotary, spool, spool_drive, volume
 from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
@@ -26,6 +26,7 @@ STATES: dict[Family, int] = {
     spool.lift: spool.STATE,
     spool_drive.drive: spool_drive.STATE,
     rotary.set_displacement: rotary.STATE,
+    pump_control.regulate: pump_control.STATE,
 }
 # and with the coordinates on which families act
 COORDINATES: dict[Family, int] = {piston.guide: piston.COORDINATE, rotary.turn: rotary.COORDINATE}
@@ -34,6 +35,11 @@ COORDINATES: dict[Family, int] = {piston.guide: piston.COORDINATE, rotary.turn: 
 def slopes_by_family() -> dict[Family, int | Family]:
     """What adds the slopes of each family with derivatives by hand."""
     return {family: adding for kind in COMPONENTS.values() for family, adding in (kind.slopes or {}).items()}
+
+
+def slope_hooks(record: Record) -> int:
+    """How many hooks, the last ones, add slopes of circuits."""
+    return max(0, len(record.circuit.tangent.family) - OTHERS)
 
 
 def with_circuit_tangent(system: System) -> System:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +19,24 @@ Whole = NDArray[np.int64]
 TETRAHEDRA: Final = {"C3D4": 4, "C3D10": 10, "C3D10M": 10, "C3D10MH": 10, "C3D10T": 10, "C3D4T": 4}
 
 
+class RigidGroup(NamedTuple):
+    """Nodes that CalculiX moves as a rigid body, by *RIGID BODY or *COUPLING with *KINEMATIC.
+
+    reference : node whose rows are its translations. rotation : node whose rows are its rotations; None: CalculiX makes one.
+    """
+
+    reference: int
+    rotation: int | None
+    keyword: str
+    line: int
+
+
 @dataclass
 class Mesh:
     """Numbers (n,) and places (n, 3) of nodes; node sets by name; `elements` (e, 4 or 10) numbers of nodes of tetrahedra.
 
-    only_tetrahedra : whether there are no other elements. young, poisson, density : of the only material, or None.
+    only_tetrahedra : whether there are no other elements. types : line of the first element of each type. young,
+    poisson, density : of the only material, or None.
     """
 
     numbers: Whole
@@ -35,6 +48,8 @@ class Mesh:
     young: float | None = None
     poisson: float | None = None
     density: float | None = None
+    types: dict[str, int] = field(default_factory=dict)
+    rigid: list[RigidGroup] = field(default_factory=list)
 
 
 def read_mesh(path: Path) -> Mesh:
@@ -72,7 +87,7 @@ def _table(path: Path) -> tuple[Whole, Array]:
 
 
 class _Input:
-    """Reads the keywords *NODE, *ELEMENT, *NSET, *ELASTIC and *DENSITY; others are passed over."""
+    """Reads the keywords *NODE, *ELEMENT, *NSET, *ELASTIC, *DENSITY, *RIGID BODY and *COUPLING; others are passed over."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -84,6 +99,9 @@ class _Input:
         self.materials = self.instances = 0
         self.values: dict[str, list[float]] = {}
         self.pending: list[int] = []
+        self.types: dict[str, int] = {}
+        self.rigid: list[RigidGroup] = []
+        self.coupling = 0
 
     def mesh(self) -> Mesh:
         keyword, options = "", {}
@@ -113,6 +131,8 @@ class _Input:
             young,
             poisson,
             density,
+            self.types,
+            self.rigid,
         )
 
     def _begin(self, keyword: str, options: dict[str, str], line: int) -> None:
@@ -126,8 +146,28 @@ class _Input:
                 "this is a second *INSTANCE, with numbers of nodes of its own; write a flat input file", line
             )
         self.materials += keyword == "MATERIAL"
-        if keyword == "ELEMENT" and options.get("TYPE", "").upper() not in TETRAHEDRA:
-            self.others = True
+        if keyword == "ELEMENT":
+            self.types.setdefault(options.get("TYPE", "").upper(), line)
+            self.others |= options.get("TYPE", "").upper() not in TETRAHEDRA
+        self._bind(keyword, options, line)
+
+    def _bind(self, keyword: str, options: dict[str, str], line: int) -> None:
+        """Groups of nodes that move as rigid bodies."""
+        match keyword:
+            case "RIGID BODY":
+                rotation = options.get("ROT NODE")
+                self.rigid.append(
+                    RigidGroup(
+                        _number(options, "REF NODE", keyword, line),
+                        None if rotation is None else _number(options, "ROT NODE", keyword, line),
+                        keyword,
+                        line,
+                    )
+                )
+            case "COUPLING":
+                self.coupling = _number(options, "REF NODE", keyword, line)
+            case "KINEMATIC" if self.coupling:
+                self.rigid.append(RigidGroup(self.coupling, None, keyword, line))
 
     def _data(self, keyword: str, options: dict[str, str], parts: list[str]) -> None:
         match keyword:
@@ -157,6 +197,13 @@ class _Input:
             return
         for part in parts:
             members += [int(part)] if part.isdecimal() else self.sets.get(part, [])
+
+
+def _number(options: dict[str, str], key: str, keyword: str, line: int) -> int:
+    """The number of a node. Raises FormatError."""
+    if not (given := options.get(key, "")).isdecimal():
+        raise FormatError(f"*{keyword} needs `{key}=` with the number of a node, got `{given}`", line)
+    return int(given)
 
 
 def _keyword(line: str) -> tuple[str, dict[str, str]]:

@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.checks.checks import unsymmetric
+from nivel.flexible.foreign.calculix import internal_nodes, refuse_expanded, rigid_rows
 from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh, read_mesh
 from nivel.flexible.foreign.nastran import read_dmig
@@ -45,10 +46,37 @@ def matrix_model(located: Located) -> tuple[FiniteElementModel, NodeSets]:
     given = located.record.matrices
     assert given is not None
     mesh = _opened(located, "nodes", given.nodes, read_mesh)
-    read = _matrices(located, given, mesh)
+    try:
+        read = _matrices(located, given, mesh)
+    except ModelError:
+        if given.format == "calculix":  # nodes of the solids in place of shells stand there many times
+            _in_nodes(located, given, lambda: refuse_expanded(mesh))
+        raise
+    if given.format == "calculix":
+        read = _in_nodes(located, given, lambda: _of_calculix(read, mesh))
     _check_nodes(located, mesh, read)
     length, mass = LENGTHS[given.units.length], MASSES[given.units.mass]
     return _model(located, given, mesh, read, length, mass)
+
+
+def _of_calculix(read: _Read, mesh: Mesh) -> _Read:
+    """With the rotations of rigid groups as directions of their reference nodes. Raises FormatError."""
+    if any(node > mesh.numbers[-1] for node, _ in read.labels):  # of the solids in place of shells
+        refuse_expanded(mesh)
+    labels = rigid_rows(read.labels, mesh)
+    stiffness, mass = (
+        FileMatrix(each.matrix, rigid_rows(each.labels or (), mesh)) for each in (read.stiffness, read.mass)
+    )
+    return _Read(stiffness, mass, labels)
+
+
+def _in_nodes(located: Located, given: Matrices, do: Callable[[], Any]) -> Any:
+    """What `do` returns; its FormatError as a ModelError with the line of the mesh."""
+    try:
+        return do()
+    except FormatError as error:
+        message = str(error).removeprefix(f"line {error.line}: ")
+        raise ModelError(Fault(str(located.beside(given.nodes)), error.line, 1, "matrices.nodes", message)) from None
 
 
 def _opened(located: Located, key: str, name: str, reader: Callable[[Path], Any]) -> Any:
@@ -144,7 +172,7 @@ def _hole(numbers: Whole) -> str:
 def _check_nodes(located: Located, mesh: Mesh, read: _Read) -> None:
     """Refuse rows and elements of nodes that do not exist, and directions that are none. Raises ModelError."""
     known = set(mesh.numbers.tolist())
-    missing = sorted({node for node, _ in read.labels} - known)
+    missing = sorted({node for node, _ in read.labels} - known - internal_nodes(read.labels, mesh))
     faults = []
     if missing:
         names = ", ".join(map(str, missing[:8])) + (" …" if len(missing) > 8 else "")
@@ -164,11 +192,13 @@ def _check_nodes(located: Located, mesh: Mesh, read: _Read) -> None:
 def _model(
     located: Located, given: Matrices, mesh: Mesh, read: _Read, length: float, mass_unit: float
 ) -> tuple[FiniteElementModel, NodeSets]:
-    used = sorted({node for node, _ in read.labels})
+    inside = internal_nodes(read.labels, mesh)
+    used = sorted({node for node, _ in read.labels} - inside)
     place = {node: k for k, node in enumerate(used)}
     freedoms = np.full((len(used), 6), -1, dtype=np.int64)
     for row, (node, axis) in enumerate(read.labels):
-        freedoms[place[node], axis - 1] = row
+        if node not in inside:
+            freedoms[place[node], axis - 1] = row
     position = mesh.places[np.searchsorted(mesh.numbers, used)] * length
     scale = _row_lengths(read.labels, length)
     # K in N/m for translations: mass/s²; a turn brings a length
@@ -177,6 +207,7 @@ def _model(
     _check_matrices(located, sp.csc_array(K), sp.csc_array(M), read.labels)
     dropped = len(mesh.numbers) - len(used)
     notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
+    notes += (f"{len(inside)} incompatible modes of elements C3D8I are rows without a node",) if inside else ()
     sets = {
         name: np.array(sorted({place[node] for node in members if node in place}), dtype=np.int64)
         for name, members in mesh.sets.items()

@@ -83,7 +83,8 @@ Mass = PointMass | MatrixMass
 
 def from_matrix(position: Array, freedoms: NDArray[np.int64], matrix: Sparse) -> Mass:
     """A PointMass where `matrix` is one: x, y and z of nodes have the same mass and nothing couples them; else a MatrixMass."""
-    if np.any(freedoms[:, 3:] >= 0) or np.any(freedoms[:, :3] < 0):
+    rows_without_node = matrix.shape[0] > np.count_nonzero(freedoms >= 0)
+    if np.any(freedoms[:, 3:] >= 0) or np.any(freedoms[:, :3] < 0) or rows_without_node:
         return MatrixMass(position, freedoms, matrix)
     blocks = [[matrix[freedoms[:, a]][:, freedoms[:, b]] for b in range(3)] for a in range(3)]
     scalar = sp.csr_array((blocks[0][0] + blocks[1][1] + blocks[2][2]) / 3.0)

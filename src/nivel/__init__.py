@@ -30,13 +30,17 @@ if TYPE_CHECKING:
     from nivel.machine import Baumgarte as Baumgarte
     from nivel.machine import Beam as Beam
     from nivel.machine import Belt as Belt
+    from nivel.machine import BeltDrive as BeltDrive
     from nivel.machine import Block as Block
     from nivel.machine import Body as Body
+    from nivel.machine import Brake as Brake
     from nivel.machine import Bushing as Bushing
+    from nivel.machine import Clutch as Clutch
     from nivel.machine import Contact as Contact
     from nivel.machine import Driver as Driver
     from nivel.machine import Event as Event
     from nivel.machine import Expression as Expression
+    from nivel.machine import Freewheel as Freewheel
     from nivel.machine import Friction as Friction
     from nivel.machine import FunctionCoupling as FunctionCoupling
     from nivel.machine import Gear as Gear
@@ -54,6 +58,7 @@ if TYPE_CHECKING:
     from nivel.machine import Rope as Rope
     from nivel.machine import Sensor as Sensor
     from nivel.machine import Servo as Servo
+    from nivel.machine import Shaft as Shaft
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
     from nivel.machine import State as State
@@ -62,6 +67,7 @@ if TYPE_CHECKING:
     from nivel.machine import ThreeAxisSpring as ThreeAxisSpring
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
+    from nivel.machine import TransmissionLoss as TransmissionLoss
     from nivel.results.comparison.comparison import Comparison as Comparison
     from nivel.results.result import Result as Result
 
@@ -85,6 +91,12 @@ _HOME = {
     "Driver": "nivel.machine",
     "Event": "nivel.machine",
     "Expression": "nivel.machine",
+    "BeltDrive": "nivel.machine",
+    "Brake": "nivel.machine",
+    "Clutch": "nivel.machine",
+    "Freewheel": "nivel.machine",
+    "Shaft": "nivel.machine",
+    "TransmissionLoss": "nivel.machine",
     "Friction": "nivel.machine",
     "FunctionCoupling": "nivel.machine",
     "Gear": "nivel.machine",
@@ -119,14 +131,18 @@ __all__ = [
     "Baumgarte",
     "Beam",
     "Belt",
+    "BeltDrive",
     "Block",
     "Body",
+    "Brake",
     "Bushing",
+    "Clutch",
     "Comparison",
     "Contact",
     "Driver",
     "Event",
     "Expression",
+    "Freewheel",
     "Friction",
     "FunctionCoupling",
     "Gear",
@@ -148,6 +164,7 @@ __all__ = [
     "Rope",
     "Sensor",
     "Servo",
+    "Shaft",
     "SimulationSettings",
     "SolveError",
     "SpringDamper",
@@ -157,6 +174,7 @@ __all__ = [
     "ThreeAxisSpring",
     "Torque",
     "TorsionalSpringDamper",
+    "TransmissionLoss",
     "import_model",
     "load",
     "open_result",

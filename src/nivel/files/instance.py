@@ -19,6 +19,8 @@ MENTIONS: Final = (
     "plane",
     "joints",
     "coordinate",
+    "against",
+    "coupling",
     "coordinates",
     "force",
     "distance",

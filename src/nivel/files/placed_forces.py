@@ -30,7 +30,17 @@ from nivel.machine import (
     Torque,
     TorsionalSpringDamper,
 )
-from nivel.machine.forces import Between, Ends, ForceElement
+from nivel.machine.forces import (
+    BeltDrive,
+    Between,
+    Brake,
+    DriveLine,
+    Ends,
+    ForceElement,
+    Freewheel,
+    Shaft,
+    TransmissionLoss,
+)
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)
@@ -177,6 +187,30 @@ def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, s
     return changes
 
 
+def _of_drive_line(force: DriveLine, scene: Scene) -> Changes:
+    """What acts between two coordinates: where one of them counts the other way, its ratio does too."""
+    changes = {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
+    turned = scene.is_opposite(force.coordinate)
+    if force.against is not None and scene.is_opposite(force.against) != turned:
+        changes["ratio"] = -force.ratio
+    if turned and isinstance(force, Freewheel):
+        raise NotRepresentableError("a freewheel on a coordinate whose sign is reversed by the placement is not supported")
+    if turned and isinstance(force, Shaft):
+        changes["free_value"] = -force.free_value + 0.0
+    return changes
+
+
+def _of_belt(force: BeltDrive, scene: Scene) -> Changes:
+    if scene.is_opposite(force.coordinate) == scene.is_opposite(force.against):
+        return {}
+    return {"crossed": not force.crossed}
+
+
+def _of_brake(force: Brake | TransmissionLoss, scene: Scene) -> Changes:
+    """Friction acts alike both ways."""
+    return {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
+
+
 def substituted_locals(law: TimeFunction) -> TimeFunction:
     """`law` of a coordinate, with the coordinate's `value` and `rate` counted the other way."""
     return substituted(law, _other_way, local=("value", "rate"))
@@ -207,4 +241,8 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     ThreeAxisSpring: _three_axis_spring,
     Contact: _contact,
     Rope: _rope,
+    DriveLine: _of_drive_line,
+    BeltDrive: _of_belt,
+    Brake: _of_brake,
+    TransmissionLoss: _of_brake,
 }

@@ -119,6 +119,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         input_functions=tuple(builder.input_functions),
         nodes=tuple(builder.circuit.nodes.values()),
         frictions=tuple(builder.friction_names),
+        friction_loads=builder.friction_loads,
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
         velocity_rows=frozenset(rows.velocity),

@@ -37,6 +37,8 @@ class SystemBuilder:
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
     frictions : (columns of index, of number) of `nivel.kernels.elements.friction`. friction_names : of each, the force or its patch.
+    friction_loads : of those whose load is a function, what it depends on. transmissions : of couplings and screw joints by name the row,
+    and its factors of coordinates.
     owners : `joints.hinge`, `markers.tip`, …: what made each marker. noted : the bodies and states used in each `noting`.
     inputs : the signal of every input. input_functions : the function of each, in the order of the machine. control : the signal of every
     part of a block by its path.
@@ -54,6 +56,8 @@ class SystemBuilder:
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     friction_names: list[str] = field(default_factory=list)
+    friction_loads: dict[int, Coupled] = field(default_factory=dict)
+    transmissions: dict[str, tuple[int, dict[int, float]]] = field(default_factory=dict)
     noted: list[Coupled] = field(default_factory=list)
     owners: list[str] = field(default_factory=list)
     inputs: dict[str, Signal] = field(default_factory=dict)
@@ -154,6 +158,12 @@ class SystemBuilder:
         """Index of a joint coordinate, which is measured in every evaluation from now on."""
         joint, name = resolve(reference, self.machine.joints, kind)
         return self._measured(f"{joint}.{name}")
+
+    def add_friction(self, name: str, index: list[int], numbers: list[float]) -> None:
+        """A friction with these columns and numbers, for the element called `name`; it depends on all that was asked for by the element."""
+        self.friction_loads[len(self.frictions)] = Coupled(frozenset(self._noting), frozenset(self._noting_states))
+        self.frictions.append((index, numbers))
+        self.friction_names.append(name)
 
     def own_state(self, fact: StateFact) -> int:
         """Index of a new state: what adds to its rate is said by the kernel of its element."""

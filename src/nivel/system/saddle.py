@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.kernels.elements.friction import LEVER, WAY
 from nivel.kernels.record.record import NONE, Friction, Saddle
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.elimination import plan
 from nivel.system.joints.rows import RowTable
 from nivel.system.system import Equations
 from nivel.system.tables import index_array, padded
+
+
+# entries of the rows of frictions
+COLUMNS: Final = WAY + 1
+NUMBERS: Final = LEVER + 1
 
 
 def friction_parts(builder: SystemBuilder, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
@@ -82,8 +89,8 @@ def friction_tables(
         int(np.searchsorted(of_row[saddle.blocks[0] :], row_count + k) + saddle.blocks[0]) for k in range(count + 1)
     ]
     return Friction(
-        columns=padded([index for index, _ in builder.frictions], NONE).astype(np.uint32),
-        number=padded([numbers for _, numbers in builder.frictions], 0.0),
+        columns=padded([_filled(index, COLUMNS, NONE) for index, _ in builder.frictions], NONE).astype(np.uint32),
+        number=padded([_filled(numbers, NUMBERS, 0.0) for _, numbers in builder.frictions], 0.0),
         part=index_array([min(part for row, part, _ in extra if row == row_count + k) for k in range(count)], 1),
         block=index_array(list(pairwise(first)), 2),
         force=np.zeros(count),
@@ -97,6 +104,11 @@ def friction_tables(
         jacobian=np.zeros((count, count)),
         work=np.zeros((9, count)),
     )
+
+
+def _filled(row: list[Any], count: int, fill: float) -> list[Any]:
+    """A row with as many entries as the kernel reads."""
+    return [*row, *[fill] * (count - len(row))]
 
 
 def moved_masses(builder: SystemBuilder, mass: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -48,7 +49,7 @@ class System:
     and drivers. row_owner : name of the joint, coupling or driver of each of these. velocity_rows : those of
     them that hold velocities alone, as of wheels that do not slip. point_masses : (B,) bodies that do not turn.
     coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
-    nodes : of hydraulic circuits.
+    nodes : of hydraulic circuits. friction_loads : on what those depend that are functions, by the number of the friction.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
     input_functions : the function of each input. units : of others that its control calls.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
@@ -67,6 +68,7 @@ class System:
     input_functions: tuple[int, ...]
     nodes: tuple[Node, ...]
     frictions: tuple[str, ...]
+    friction_loads: Mapping[int, Coupled]
     events: tuple[str, ...]
     rows: tuple[str, ...]
     row_owner: tuple[str, ...]

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.kernels.bodies.combined import COMBINED
 from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.record.hook import Family
@@ -91,12 +92,13 @@ class Target:
 
 @dataclass
 class CoordinateTable:
-    """Scalars measured between two markers, or a slider and the nodes of its rail; the same one is measured once."""
+    """Scalars measured between two markers, or a slider and the nodes of its rail, or combined of others; the same one is measured once."""
 
     what: list[tuple[int, int, int, int]] = field(default_factory=list)  # kind, first marker, second marker, axis
     rails: dict[int, Rail] = field(default_factory=dict)  # of sliders
     wheels: dict[int, Wheel] = field(default_factory=dict)  # of what rolls
     targets: dict[int, Target] = field(default_factory=dict)  # of driven orientations
+    sums: dict[int, tuple[tuple[int, float], ...]] = field(default_factory=dict)  # of combined ones: coordinates, factors
     active: set[int] = field(default_factory=set)
     _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
 
@@ -127,8 +129,19 @@ class CoordinateTable:
         self.targets[index] = target
         return index
 
+    def combined(self, terms: tuple[tuple[int, float], ...]) -> int:
+        """Index of a new coordinate Σ factor coordinate, of others that every evaluation measures."""
+        for coordinate, _ in terms:
+            self.use(coordinate)
+        self.what.append((COMBINED, NONE, NONE, NONE))
+        index = len(self.what) - 1
+        self.sums[index] = terms
+        return self.use(index)
+
     def markers(self, coordinate: int) -> tuple[int, ...]:
         """Markers that a coordinate looks at, one for each of its parts."""
+        if coordinate in self.sums:
+            return tuple(marker for each, _ in self.sums[coordinate] for marker in self.markers(each))
         _, first, second, _ = self.what[coordinate]
         return (first, *self.rails[coordinate].nodes) if coordinate in self.rails else (first, second)
 
@@ -158,7 +171,11 @@ class CoordinateTable:
         )
 
     def _numbers(self, coordinate: int) -> tuple[float, ...]:
-        """A number for each part: stations of the nodes of a rail, radii of a wheel, what says the target of a turn."""
+        """A number for each part: stations of the nodes of a rail, radii of a wheel, what says the target of a turn, factors and numbers
+        of what is combined."""
+        if coordinate in self.sums:
+            terms = self.sums[coordinate]
+            return tuple(n for each, factor in terms for n in (factor, float(each), *[0.0] * (len(self.markers(each)) - 2)))
         if coordinate in self.rails:
             return 0.0, *self.rails[coordinate].stations
         if coordinate in self.targets:

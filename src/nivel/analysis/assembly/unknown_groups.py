@@ -12,6 +12,7 @@ from nivel.analysis.assembly.tree_paths import Carrying
 from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import NONE
+from nivel.system.builder import NOTHING
 from nivel.system.joints.rails import stretches
 from nivel.system.system import System
 
@@ -57,8 +58,8 @@ def unknown_groups(
         groups = _moved_by(system, each.bodies) | {moving + state for state in each.states}
         couples |= set(combinations(sorted(groups), 2))
     effort = {k: moving + states + len(joints) + place for place, k in enumerate(stiction)}
-    for k, (bodies, state, joint) in enumerate(_frictions(system)):
-        depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
+    for k, (bodies, states_of_load, joint) in enumerate(_frictions(system)):
+        depending = [*(moving + state for state in states_of_load), *([number[joint]] if joint in number else [])]
         depending += [effort[k]] if k in effort else []
         first, count = record.friction.columns[k, [columns.FIRST, columns.COUNT]]
         if first == k:
@@ -161,8 +162,8 @@ def frictions_with_stiction(system: System) -> list[int]:
     ).tolist()
 
 
-def _frictions(system: System) -> list[tuple[set[int], int, str]]:
-    """Bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
+def _frictions(system: System) -> list[tuple[set[int], set[int], str]]:
+    """Bodies, states, and the joint or coupling whose reaction is the load (empty: none), of each friction."""
     if not system.frictions:
         return []
     record = system.record
@@ -170,7 +171,12 @@ def _frictions(system: System) -> list[tuple[set[int], int, str]]:
     for index in record.friction.columns.tolist():
         start = record.coordinates.start[index[columns.COORDINATE] :]
         ends = record.coordinates.part_marker[start[0] : start[1]]
-        loading = index[columns.JOINT]
-        bodies = set(record.markers.body[ends].tolist())
-        out.append((bodies, index[columns.STATE], "" if loading == NONE else system.joints[loading]))
+        bodies, loading = set(record.markers.body[ends].tolist()), ""
+        if index[columns.JOINT] != NONE:
+            loading = system.joints[index[columns.JOINT]]
+        elif index[columns.ROW] != NONE:
+            loading = system.row_owner[index[columns.ROW]]
+        given = system.friction_loads.get(len(out), NOTHING)
+        states = {index[columns.STATE]} - {NONE} | given.states
+        out.append((bodies | given.bodies, states, loading))
     return out

@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.analysis.inverse.actuators import Actuation
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Friction
+from nivel.machine.forces import Friction, holds_by_capacity
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result
@@ -18,7 +18,7 @@ from nivel.results.result import Result
 
 def rubs(machine: MachineRecord) -> bool:
     """Whether the machine has friction."""
-    return any(isinstance(force, Friction) for force in machine.forces)
+    return any(isinstance(force, Friction) or holds_by_capacity(force) for force in machine.forces)
 
 
 def acting_drivers(machine: MachineRecord, actuation: Actuation, *, recorded: bool) -> tuple[str, ...]:
@@ -33,7 +33,7 @@ def acting_drivers(machine: MachineRecord, actuation: Actuation, *, recorded: bo
         return tuple(str(name) for name in found)
     what = "limits" if alike and not recorded else "a recorded motion" if recorded else "actuators elsewhere"
     driven = ", ".join(str(name) for name in by_coordinate) or "nothing"
-    name = next(force.name for force in machine.forces if isinstance(force, Friction))
+    name = next(force.name for force in machine.forces if isinstance(force, Friction) or holds_by_capacity(force))
     message = (
         f"friction is loaded by the reactions, which depend on the efforts that are sought: with {what} they are not found; let drivers or "
         f"a trajectory prescribe exactly the coordinates of the actuators, without limits (drivers prescribe {driven})"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Contact, Friction
+from nivel.machine.forces import Contact, Friction, holds_by_capacity
 from nivel.machine.machine_record import MachineRecord
 
 MOST = 1500  # velocities of full matrices
@@ -21,6 +21,17 @@ def refuse_jumps(machine: MachineRecord) -> None:
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model != "lugre"
+    ]
+    faults += [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}",
+            f"a {force.type} has no derivative where it holds: couple what it holds, or leave it out",
+        )
+        for force in machine.forces
+        if holds_by_capacity(force)
     ]
     faults += [
         Fault(

@@ -304,7 +304,7 @@ def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
 
 def _has_surfaces(machine: MachineRecord) -> bool:
     """Whether something may touch: contacts, stops, ends of cylinders."""
-    return any(force.type in FOLLOWED for force in machine.forces) or any(
+    return any(force.type in FOLLOWED or getattr(force, "backlash", 0.0) for force in machine.forces) or any(
         isinstance(component, Actuator) for component in machine.hydraulics
     )
 

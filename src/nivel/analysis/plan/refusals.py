@@ -9,7 +9,7 @@ from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine.forces import Contact, Friction, Stop, is_sticking
+from nivel.machine.forces import Contact, Friction, Stop, TransmissionLoss, holds_by_capacity, is_sticking
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
@@ -122,11 +122,13 @@ def refuse_stiction_over_steps(machine: MachineRecord) -> None:
 
 def _key_of_model(force: ForceElement) -> str:
     """Where a force says how its friction goes."""
-    return "model" if isinstance(force, Friction) else "friction_model"
+    return "model" if isinstance(force, Friction) else "type" if holds_by_capacity(force) else "friction_model"
 
 
 def _instead_of_stiction(force: ForceElement) -> str:
     """What to write for friction that does not stick."""
+    if holds_by_capacity(force):
+        return "leave it out"
     return "`model: lugre`" if isinstance(force, Friction) else "`friction_model: coulomb`"
 
 
@@ -191,7 +193,11 @@ def refuse_friction_at_jumps(machine: MachineRecord) -> None:
             or (motion.interpolation == "linear" and min(corners_of(motion, end), default=end) < end)
         )
     ]
-    loaded = [force.name for force in machine.forces if isinstance(force, Friction) and force.normal_load is None]
+    loaded = [
+        force.name
+        for force in machine.forces
+        if (isinstance(force, Friction) and force.normal_load is None) or isinstance(force, TransmissionLoss)
+    ]
     if jumping and loaded:
         message = (
             f"the speed of {', '.join(jumping)} jumps, and the friction of {', '.join(loaded)} is loaded by reactions, which are impulses "

@@ -6,7 +6,7 @@ from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.plan.smooth_contacts import with_smooth_contacts
 from nivel.analysis.statics.free_coordinates import holding_free
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Contact, Friction
+from nivel.machine.forces import Contact, Friction, holds_by_capacity
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 
@@ -25,6 +25,18 @@ def refuse_friction(machine: MachineRecord) -> None:
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model != "coulomb"
+    ]
+    faults += [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}",
+            f"a {force.type} holds at rest with any effort up to its greatest one, so there are many equilibria, and the actual one depends "
+            f"on the previous motion: leave it out, couple what it holds, or simulate with a damper until the machine rests",
+        )
+        for force in machine.forces
+        if holds_by_capacity(force)
     ]
     if faults:
         raise ModelError(faults)

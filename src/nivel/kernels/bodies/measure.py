@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.bodies.combined import COMBINED, combined
 from nivel.kernels.bodies.constraint import combine
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.bodies.coordinate import measure as measure_one
@@ -31,7 +32,10 @@ def measure(machine, job, t):
         k = n if job == SHOWN else np.int64(listed[n])
         if coordinates.what[k, 0] == PATCH:
             continue  # what touches knows it, when forces act
-        if coordinates.what[k, 0] >= TURN_X:
+        if coordinates.what[k, 0] == COMBINED:
+            value, rate, bias = combined(coordinates, k)
+            coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
+        elif coordinates.what[k, 0] >= TURN_X:
             value, rate, bias = driven_turn(machine, k, t)
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         elif coordinates.what[k, 0] >= CONTACT:

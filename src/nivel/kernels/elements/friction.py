@@ -1,4 +1,5 @@
-"""Friction in joints, whose normal load is the joint's own reaction, and of patches where surfaces touch, whose load is given.
+"""Friction in joints, whose normal load is the joint's own reaction, and of patches where surfaces touch, whose load is given. Clutches,
+freewheels and losses of transmissions are frictions too: their loads are functions, efforts of couplings, or none that limits.
 
 The efforts F on the joint coordinates change the reactions, and these the efforts. Both are linear in F: with the extra rows C_f of
 the coordinates, λ = λ₀ + R F, accelerations c̈ = c̈₀ + S F, S = C_f P M⁻¹ C_fᵀ (P projects onto the constraints). R and S come from one
@@ -18,11 +19,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.analytic import absolute, real, tanh
+from nivel.kernels.algebra.analytic import absolute, maximum, real, tanh
 from nivel.kernels.bodies.patch_coordinate import KEPT, PROPOSED, RESTING, RESTS
 from nivel.kernels.core.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
 from nivel.kernels.elements.patch import OVER, limited, size_of
 from nivel.kernels.elements.touch import DRAG, GIVEN, HELD, LOST, MAGNITUDE, POWER, RUB, SLIP
+from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.solve.saddle import solve_rows
@@ -31,13 +33,22 @@ from nivel.native.function import leaf, stage
 # columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion;
 # BEARING: marker about whose point moments are taken
 # outputs: effort, power, normal load, the bristle; of a patch those of its contact. FIRST: friction with which a patch begins, COUNT: how
-# many it has: two along tangents, then maybe the spin
+# many it has: two along tangents, then maybe the spin; CAPACITY: function that is the load, or NONE; ROW: of the constraint whose effort on
+# the coordinate is the load, or NONE; WAY: ONE_WAY where no effort is negative, else NONE
 COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING, FIRST, COUNT = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+CAPACITY, ROW, WAY = 10, 11, 12
+ONE_WAY = 1
 COULOMB, STICTION, LUGRE, PATCH = 0, 1, 2, 3
+# output: the load, or of one way the rate; behind that, where the load is a function, the rate
+THIRD, FOURTH = 2, 3
+# An effort that nothing limits has this limit.
+UNLIMITED = 1e100
 # columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces; REST: a rate below it is none where drivers
 # prescribe it, known when a run starts
 KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
 ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD, REST = 7, 8, 9, 10, 11, 12
+# of one that is loaded by a row: the coefficient where power comes back to the coordinate, the row's factor of the coordinate
+BACKWARD, LEVER = 13, 14
 
 # rows of `work`, besides those of `nivel.kernels.elements.patch`; SLIDES: whether a friction with stiction is asked to hold, as it slid in
 # the accepted state is not, or cannot; WANTED: efforts of patches
@@ -160,6 +171,13 @@ def superpose(machine):
 
 
 @stage
+def transmitted(machine, k):
+    """Effort that the coordinate of friction k gives to what it is coupled with by a row of constraints, with its sign."""
+    record = record_at(machine)
+    return record.friction.number[k, LEVER] * record.constraints.lam[record.friction.columns[k, ROW]]
+
+
+@stage
 def normal_load(machine, k):
     """What presses the surfaces of friction k together [N], from the multipliers and the constant load.
 
@@ -169,6 +187,10 @@ def normal_load(machine, k):
     record = record_at(machine)
     friction, joints, constraints, markers = record.friction, record.joints, record.constraints, record.markers
     n, joint = friction.number[k], friction.columns[k, JOINT]
+    if friction.columns[k, CAPACITY] != NONE:
+        return record.outputs.value[friction.columns[k, OUTPUT] + THIRD]
+    if friction.columns[k, ROW] != NONE:
+        return absolute(transmitted(machine, k))
     load = n[LOAD]
     if joint == NONE:
         return load
@@ -196,6 +218,37 @@ def normal_load(machine, k):
     if friction.columns[k, ROTATES] == 1:
         return load + n[COLLAR] * absolute(fz)
     return load + n[SPIN_ARM] * absolute(mz)
+
+
+@stage
+def find_capacities(machine, t):
+    """Loads that are functions, none of them negative."""
+    record = record_at(machine)
+    friction, out = record.friction, record.outputs.value
+    for k in range(friction.columns.shape[0]):
+        if friction.columns[k, CAPACITY] != NONE:
+            capacity = evaluate_function(machine, friction.columns[k, CAPACITY], t)
+            out[friction.columns[k, OUTPUT] + THIRD] = maximum(capacity, 0.0)
+
+
+@stage
+def limits(machine, k, share):
+    """(least, greatest) effort of friction k, `share` its coefficient, without its viscous part.
+
+    Both ways alike ±L, one way (0, L). With the loss of a transmission, whose coordinate gives the effort s to the rest, it is -μ |s| where
+    it moves up and μ' |s| where it moves down, μ the coefficient where it then gives power and μ' where it takes it.
+    """
+    record = record_at(machine)
+    columns, n = record.friction.columns[k], record.friction.number[k]
+    largest = share * normal_load(machine, k) * n[ARM]
+    if columns[WAY] == ONE_WAY:
+        return 0.0 * largest, largest
+    if columns[ROW] != NONE:
+        back = n[BACKWARD] * normal_load(machine, k)
+        if real(transmitted(machine, k)) > 0.0:
+            return -largest, back
+        return -back, largest
+    return -largest, largest
 
 
 @stage
@@ -269,6 +322,12 @@ def driven(machine, k):
     if not share > DRIVEN:
         return np.nan
     return np.sign(rate) if np.abs(rate) > friction.number[k, REST] else 0.0
+
+
+@leaf
+def within(limit):
+    """An effort that is at its limit; not a number where there is none, as what drivers move against it cannot move."""
+    return np.nan * limit if real(limit) >= UNLIMITED else limit
 
 
 @stage
@@ -345,14 +404,12 @@ def effort(machine, k, tau, anchor):
         return sliding_effort(machine, k)
     rate = coordinates.rate[q]
     viscous = n[VISCOUS] * rate
-    load = normal_load(machine, k) * n[ARM]
-    largest = coefficient(n, rate * n[ARM]) * load
     way = driven(machine, k)
+    share = n[STATIC] if np.isnan(way) and friction.work[SLIDES, k] == HOLDS else coefficient(n, rate * n[ARM])
+    least, greatest = limits(machine, k, share)
     if not np.isnan(way):
-        return -way * largest - viscous
-    if friction.work[SLIDES, k] == HOLDS:
-        largest = n[STATIC] * load
-    return min(max(holding(machine, k, tau, anchor), -largest), largest) - viscous
+        return (0.0 if way == 0.0 else least if way > 0.0 else within(greatest)) - viscous
+    return min(max(holding(machine, k, tau, anchor), least), greatest) - viscous
 
 
 @stage
@@ -624,7 +681,13 @@ def report(machine, k, force):
     first = friction.columns[k, OUTPUT]
     power = force * record.coordinates.rate[friction.columns[k, COORDINATE]]
     record.control.power[1] -= power
-    out[first], out[first + 1], out[first + 2] = force, power, normal_load(machine, k)
+    out[first], out[first + 1] = force, power
+    if friction.columns[k, WAY] == ONE_WAY:
+        out[first + THIRD] = rate_of(record, k)
+    elif friction.columns[k, CAPACITY] != NONE:
+        out[first + FOURTH] = rate_of(record, k)
+    else:
+        out[first + THIRD] = normal_load(machine, k)
     if friction.columns[k, MODEL] == LUGRE:
         out[first + 3] = record.elements.state[friction.columns[k, STATE]]
 
@@ -639,6 +702,7 @@ def apply(machine, number, t):
     record = record_at(machine)
     friction, saddle, control = record.friction, record.saddle, record.control
     count = friction.columns.shape[0]
+    find_capacities(machine, t)
     respond(machine)
     start(machine)
     for k in range(count):

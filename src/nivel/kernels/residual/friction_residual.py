@@ -34,12 +34,16 @@ from nivel.kernels.elements.friction import (
     STATIC,
     STICTION,
     STRIBECK,
+    UNLIMITED,
     VISCOUS,
     coefficient,
     driven,
+    find_capacities,
+    limits,
     normal_load,
     report,
     sliding_effort,
+    within,
 )
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.hook import family
@@ -85,28 +89,33 @@ def is_steep(n, speed, load, mass, tau):
 
 @stage
 def greatest(machine, k, number, rate):
-    """(L, whether Stribeck's curve is too steep for the matrix there): the greatest effort of friction k without its viscous part."""
+    """(least, greatest effort of friction k without its viscous part, whether Stribeck's curve is too steep for the matrix there)."""
     record = record_at(machine)
     n, own = record.friction.number[k], record.residual
     load, speed, frozen = normal_load(machine, k) * n[ARM], rate * n[ARM], own.frozen[number]
+    steep = False
+    share = coefficient(n, speed)
     if not np.isnan(frozen):
-        return coefficient(n, frozen * n[ARM]) * load, False
-    if is_steep(n, real(speed), real(load), record.friction.mass[k], record.control.stick[0]):
-        return coefficient(n, real(speed)) * load, True
-    return coefficient(n, speed) * load, False
+        share = coefficient(n, frozen * n[ARM]) + 0.0 * speed
+    elif is_steep(n, real(speed), real(load), record.friction.mass[k], record.control.stick[0]):
+        steep = True
+        share = coefficient(n, real(speed)) + 0.0 * speed
+    least, most = limits(machine, k, share)
+    return least, most, steep
 
 
 @stage
-def find_branch(machine, k, number, wanted, limit):
-    """1 or -1 where friction k slides, whose greatest effort is then `limit`, 0 where it holds."""
+def find_branch(machine, k, number, wanted, least, most):
+    """1 or -1 where friction k slides, whose effort is then `most` or `least`, 0 where it holds."""
     record = record_at(machine)
     n, own = record.friction.number[k], record.residual
     if own.tally[TURNS] == 0.0:
         own.tally[RELEASED + number] = 0.0
     goes_on = wanted * record.friction.work[KEPT, k] > 0.0
     if own.tally[RELEASED + number] < RELEASES and not goes_on:
-        limit = n[STATIC] * real(normal_load(machine, k)) * n[ARM]
-    branch = 1.0 if wanted > limit else (-1.0 if wanted < -limit else 0.0)
+        below, above = limits(machine, k, n[STATIC])
+        least, most = real(below), real(above)
+    branch = 1.0 if wanted > most else (-1.0 if wanted < least else 0.0)
     if branch != 0.0 and own.branch[number] == 0.0:
         own.tally[RELEASED + number] += 1.0
     return branch
@@ -120,7 +129,7 @@ def hold(machine, k, place):
     q, number, span = friction.columns[k, COORDINATE], place - own.row.shape[0], own.span[0]
     force, rate = own.lam[place], record.coordinates.rate[q]
     dry, change = force + friction.number[k, VISCOUS] * rate, force - friction.anchor[k]
-    limit, steep = greatest(machine, k, number, rate)
+    least, most, steep = greatest(machine, k, number, rate)
     if span > 0.0:
         second, slowing = (rate - own.begun[number]) / span, 0.5 * (rate + own.begun[number]) if span <= tau else rate
     else:
@@ -129,14 +138,18 @@ def hold(machine, k, place):
     way = driven(machine, k)
     branch = own.bidden[number] if np.isnan(way) else -way
     if np.isnan(branch):
-        branch = find_branch(machine, k, number, real(dry - missed), real(limit))
-    row = missed if branch == 0.0 and np.isnan(way) else dry - branch * limit
+        branch = find_branch(machine, k, number, real(dry - missed), real(least), real(most))
+    row = missed if np.isnan(way) else dry
+    if branch != 0.0:
+        row = dry - (within(most) if branch > 0.0 else within(least))
     if tau == np.inf:
         # forces do not jump where speeds do, see `nivel.integrate.loop.corners`
         row = change
     own.value[own.vdot.shape[0] + record.elements.state_rate.shape[0] + 2 * own.lam.shape[0] + place] = row
     own.branch[number] = 2.0 * branch if steep else branch
-    own.limit[number], own.rate[number], friction.force[k] = real(limit), real(rate), real(force)
+    limit = max(real(most), -real(least))
+    own.limit[number] = limit if limit < UNLIMITED else 0.0
+    own.rate[number], friction.force[k] = real(rate), real(force)
     return force
 
 
@@ -208,6 +221,7 @@ def apply(machine, number, t):
     """Add the efforts of all frictions for the multipliers of the constraints to the wrenches of the bodies, and report them."""
     record = record_at(machine)
     place = record.residual.row.shape[0]
+    find_capacities(machine, t)
     for k in range(record.friction.columns.shape[0]):
         model = record.friction.columns[k, MODEL]
         if model == STICTION:

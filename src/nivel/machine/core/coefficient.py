@@ -208,3 +208,6 @@ CoordinateStiffness = Annotated[OneNumber, OfCoordinate(COORDINATE_STIFFNESS, "n
 CoordinateDamping = Annotated[OneNumber, OfCoordinate(COORDINATE_DAMPING, "not negative")]
 CoordinateIntegral = Annotated[OneNumber, OfCoordinate(COORDINATE_INTEGRAL, "not negative")]
 PositiveGain = Annotated[OneNumber, OfCoordinate(COORDINATE_DAMPING, "positive")]
+PositiveCoordinateStiffness = Annotated[OneNumber, OfCoordinate(COORDINATE_STIFFNESS, "positive")]
+NotNegativeValue = Annotated[OneNumber, OfCoordinate(COORDINATE, "not negative")]
+NotNegativeRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE, "not negative")]

@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
+from nivel.machine.forces.belt_drive import BeltDrive
 from nivel.machine.forces.between import Between, BetweenMarkers, End, Ends, GlobalPoint
 from nivel.machine.forces.bushing import Bushing
 from nivel.machine.forces.characteristic import Characteristic, EffortTable, ForceTable, TorqueTable
+from nivel.machine.forces.clutch import Brake, Clutch
 from nivel.machine.forces.contact import Contact, Material
+from nivel.machine.forces.drive_line import DriveLine
 from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
+from nivel.machine.forces.freewheel import Freewheel
 from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.hand import Hand
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
@@ -21,11 +25,13 @@ from nivel.machine.forces.motor import Motor
 from nivel.machine.forces.pair_force import PairForce
 from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.servo import Servo
+from nivel.machine.forces.shaft import Shaft
 from nivel.machine.forces.spring_damper import SpringDamper
-from nivel.machine.forces.sticking import is_sticking
+from nivel.machine.forces.sticking import holds_by_capacity, is_sticking
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
+from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.machine.given import Field
 
 FORCES: list[type[ForceElement]] = [
@@ -45,6 +51,12 @@ FORCES: list[type[ForceElement]] = [
     ThreeAxisSpring,
     Contact,
     Rope,
+    Brake,
+    Clutch,
+    Freewheel,
+    Shaft,
+    BeltDrive,
+    TransmissionLoss,
     Hand,
 ]
 
@@ -70,18 +82,23 @@ def register(kind: type[ForceElement]) -> None:
 
 __all__ = [
     "FORCES",
+    "BeltDrive",
     "Between",
     "BetweenMarkers",
+    "Brake",
     "Bushing",
     "Characteristic",
+    "Clutch",
     "Contact",
     "DcMotor",
+    "DriveLine",
     "EffortTable",
     "End",
     "Ends",
     "Force",
     "ForceElement",
     "ForceTable",
+    "Freewheel",
     "Friction",
     "GlobalPoint",
     "Hand",
@@ -93,6 +110,7 @@ __all__ = [
     "Rope",
     "Servo",
     "ServoMotor",
+    "Shaft",
     "SpringDamper",
     "Stop",
     "ThreeAxisSpring",
@@ -100,6 +118,8 @@ __all__ = [
     "TorqueSpeed",
     "TorqueTable",
     "TorsionalSpringDamper",
+    "TransmissionLoss",
+    "holds_by_capacity",
     "is_sticking",
     "register",
 ]

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+from nivel.machine.forces.clutch import Brake, Clutch
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.element import ForceElement
+from nivel.machine.forces.freewheel import Freewheel
 from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.transmission_loss import TransmissionLoss
 
 
 def is_sticking(force: ForceElement) -> bool:
     """Whether friction of the force can hold bodies at rest: its efforts are unknowns of the equations of motion."""
-    return (isinstance(force, Friction) and force.model == "stiction") or (isinstance(force, Contact) and force.sticks)
+    return (
+        (isinstance(force, Friction) and force.model == "stiction")
+        or (isinstance(force, Contact) and force.sticks)
+        or holds_by_capacity(force)
+    )
+
+
+def holds_by_capacity(force: ForceElement) -> bool:
+    """Whether it is an element of a drive train that can hold coordinates at rest: a brake, a clutch, a rigid freewheel, a loss."""
+    return isinstance(force, Brake | Clutch | TransmissionLoss) or (isinstance(force, Freewheel) and force.is_rigid)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from typing import Any, Final
 
 from nivel.machine.core.index import Index, Place, as_list, as_mapping, elements
@@ -47,6 +48,8 @@ def coordinate_faults(machine: Any, index: Index) -> Faults:
             found = yield from _find(entry(element, "coordinate"), index, None, place)
             if found is not None and section != "sensors":
                 yield from _held(found, index, place)
+            if section == "forces":
+                yield from _of_other(element, found, index, (section, at, "against"))
             if section == "drivers":
                 yield from _driven_twice(element, found, driven, (section, at))
     for at, reference in enumerate(as_list(entry(entry(machine, "simulation"), "free"))):
@@ -81,6 +84,16 @@ def _of_coupling(coupling: Any, index: Index, place: Place) -> Faults:
             yield where, f"the coordinate `{'.'.join(found)}` is coupled with itself; another one was expected"
         seen.add(found)
         yield from _held(found, index, where)
+
+
+def _of_other(force: Any, found: tuple[str, str] | None, index: Index, place: Place) -> Faults:
+    """The second coordinate of what acts between two."""
+    other = yield from _find(entry(force, "against"), index, None, place)
+    if other is None:
+        return
+    if other == found:
+        yield place, f"`{'.'.join(other)}` is the `coordinate` itself; another one was expected"
+    yield from _held(other, index, place)
 
 
 def _find(reference: Any, index: Index, kind: Kind | None, place: Place) -> Iterator[tuple[Place, str]]:
@@ -172,15 +185,16 @@ def with_whole_coordinates(data: Any) -> Any:
 
 
 def _with_whole_coordinate(element: Any, index: Index) -> Any:
-    reference = entry(element, "coordinate")
-    if not isinstance(reference, str) or "." in reference:
-        return element
-    try:
-        joint, coordinate = find(reference, index.joints)
-    except UnknownCoordinateError:
+    whole = {}
+    for key in ("coordinate", "against"):
+        reference = entry(element, key)
+        if isinstance(reference, str) and "." not in reference:
+            with suppress(UnknownCoordinateError):
+                whole[key] = ".".join(find(reference, index.joints))
+    if not whole:
         return element
     if isinstance(element, Record):
         element = {
             name: getattr(element, name) for name in (*element.model_fields_set, "type") if hasattr(element, name)
         }
-    return {**element, "coordinate": f"{joint}.{coordinate}"}
+    return {**element, **whole}

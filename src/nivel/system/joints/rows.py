@@ -217,6 +217,8 @@ def _add_basic(builder: SystemBuilder, rows: RowTable, joint: Joint, basic: Basi
         if basic.velocity:
             rows.velocity.add(row)
         rows.first_part.append(rows.combine(builder, row, terms, markers=ends, offset=given, report=report))
+        if joint.type == "screw":
+            builder.transmissions[joint.name] = row, dict(terms)
         return
     if isinstance(basic, PerpendicularDistance):
         first, second = views[basic.seen_from]
@@ -253,6 +255,7 @@ def add_couplings(builder: SystemBuilder, rows: RowTable) -> None:
             (f"coupling.{coupling.name}.effort", effort, f"effort of {coupling.name} on its first coordinate")
         )
         scaled = [(coordinate, factor / leading) for coordinate, factor in terms]
+        builder.transmissions[coupling.name] = row, {each: factor for each, factor in scaled if factor}
         rows.combine(builder, row, scaled, offset=offset, curve=curve, report=(output, 0))
 
 

@@ -15,7 +15,7 @@ from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Fra
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
 from nivel.machine.bodies.inertia import mass_of
-from nivel.machine.forces import Friction
+from nivel.machine.forces import Friction, TransmissionLoss
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
@@ -66,6 +66,7 @@ def tree_of(machine: MachineRecord, settings: SimulationSettings, *, heavy_first
         for force in machine.forces
         if isinstance(force, Friction) and force.normal_load is None
     }
+    loading |= {force.coupling for force in machine.forces if isinstance(force, TransmissionLoss)}
     weight = [mass_of(body) for body in machine.bodies]
     return spanning_tree(len(machine.bodies), edges, {*settings.cut, *loading}, weight, heavy_first=heavy_first)
 

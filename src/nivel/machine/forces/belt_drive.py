@@ -1,0 +1,43 @@
+"""Elastic belts and chains on two pulleys or sprockets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+from typing import Annotated, ClassVar, Literal
+
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Damping, NotNegativeForce, NotNegativeLength, PositiveNumber, Truth
+from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
+from nivel.machine.units.quantity import PositiveLength, Quantity
+from nivel.machine.uses.coordinate_reference import CoordinateReference
+
+PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
+PositiveAngle = Annotated[OneNumber, Quantity("angle", positive=True)]
+
+
+class BeltDrive(ForceElement):
+    """Two elastic strands between two pulleys, which never push: a belt that slips (Euler, Eytelwein), a toothed belt, or a chain."""
+
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "slip_rate", "slip", "first_tension", "second_tension")
+
+    type: Literal["belt-drive"] = "belt-drive"
+    coordinate: CoordinateReference = Field(description="angle of the first pulley")
+    against: CoordinateReference = Field(description="angle of the second one")
+    radii: TwoNumbers[PositiveLength] = Field(description="of the pulleys, or of the pitch circles")
+    crossed: Truth = Field(default=False, description="the belt crosses itself: the pulleys turn opposite ways")
+    stiffness: PositiveStiffness = Field(description="of each strand")
+    damping: Damping = Field(default=0.0, description="of both strands together")
+    pretension: NotNegativeForce = Field(default=0.0, description="of each strand, without torque")
+    slack: NotNegativeLength = Field(default=0.0, description="of each strand, as of a chain that sags")
+    friction: Maybe[PositiveNumber] = Field(
+        default=None, description="coefficient of friction on the pulleys", absent="none: teeth, it does not slip"
+    )
+    wrap: PositiveAngle = Field(default=pi, description="angle over which it touches the pulley on which it slips")
+
+    def problems(self) -> Iterator[Problem]:
+        if self.slack and self.pretension:
+            yield superfluous("slack", "goes without `pretension`: what sags is not tight")
+        if self.friction is not None and not self.pretension:
+            yield Problem((), "`pretension` is missing: a belt that is not tight has no friction")

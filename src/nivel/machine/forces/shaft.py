@@ -1,0 +1,27 @@
+"""A torsional shaft, or any spring and damper between two joint coordinates, with play."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+from nivel.machine.core.coefficient import (
+    CoordinateDamping,
+    CoordinateValue,
+    NotNegativeValue,
+    PositiveCoordinateStiffness,
+)
+from nivel.machine.forces.drive_line import DriveLine
+from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.given import Field
+
+
+class Shaft(DriveLine):
+    """Effort stiffness · twist + damping · rate, with twist = coordinate - ratio · against - free_value; none within the play."""
+
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "twist", "rate")
+
+    type: Literal["shaft"] = "shaft"
+    stiffness: PositiveCoordinateStiffness
+    damping: CoordinateDamping = Field(default=0.0)
+    free_value: CoordinateValue = Field(default=0.0, description="of the difference, where the effort is zero")
+    backlash: NotNegativeValue = Field(default=0.0, description="play, from flank to flank")

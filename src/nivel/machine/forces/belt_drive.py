@@ -28,7 +28,7 @@ class BeltDrive(ForceElement):
     radii: TwoNumbers[PositiveLength] = Field(description="of the pulleys, or of the pitch circles")
     crossed: Truth = Field(default=False, description="the belt crosses itself: the pulleys turn opposite ways")
     stiffness: PositiveStiffness = Field(description="of each strand")
-    damping: Damping = Field(default=0.0, description="of both strands together")
+    damping: Damping = Field(default=0.0, description="of each strand")
     pretension: NotNegativeForce = Field(default=0.0, description="of each strand, without torque")
     slack: NotNegativeLength = Field(default=0.0, description="of each strand, as of a chain that sags")
     friction: Maybe[PositiveNumber] = Field(

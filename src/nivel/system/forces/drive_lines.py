@@ -13,10 +13,6 @@ from nivel.machine.forces import BeltDrive, Brake, Clutch, Freewheel, Shaft, Tra
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
-from nivel.system.signals.state_facts import StateFact
-
-# what a slip of a belt or an elastic freewheel is measured by, at least [m or rad]
-SLIP_SCALE = 1e-3
 
 
 def _difference(builder: SystemBuilder, force: Clutch | Freewheel | Shaft) -> tuple[int, bool]:
@@ -67,9 +63,7 @@ def add_freewheel(builder: SystemBuilder, force: Freewheel) -> None:
     way = ("run", _units(angle), "way that it ran ahead")
     first = force_outputs(builder, force.name, *efforts, rate, way)
     low = -math.inf if force.capacity is None else -force.capacity / force.stiffness
-    fact = StateFact(f"{force.name}.run", _units(angle), f"way that {force.name} ran ahead", 0.0, SLIP_SCALE)
-    columns = [first, coordinate, builder.own_state(fact), 0]
-    builder.elements.add(belt_drive, columns, [force.stiffness, force.damping, 0.0, low, 0.0])
+    builder.elements.add(belt_drive, [first, coordinate, 0], [force.stiffness, force.damping, 0.0, low, 0.0], 1)
 
 
 def add_shaft(builder: SystemBuilder, force: Shaft) -> None:
@@ -107,10 +101,9 @@ def add_belt_drive(builder: SystemBuilder, force: BeltDrive) -> None:
     if force.friction is not None:
         m = math.exp(force.friction * force.wrap)
         end = force.pretension * (m - 1.0) / (m + 1.0) / force.stiffness
-    fact = StateFact(f"{force.name}.slip", "m", f"slip of {force.name}", 0.0, SLIP_SCALE)
     pretension = force.pretension - force.stiffness * force.slack
     numbers = [force.stiffness, force.damping, pretension, -end, end]
-    builder.elements.add(belt_drive, [first, coordinate, builder.own_state(fact), 1], numbers)
+    builder.elements.add(belt_drive, [first, coordinate, 1], numbers, 1)
 
 
 def add_transmission_loss(builder: SystemBuilder, force: TransmissionLoss) -> None:

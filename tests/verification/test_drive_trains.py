@@ -233,8 +233,8 @@ def test_chain_with_slack_pulls_one_strand():
 
 
 HELD = {
-    "clutch": {"type": "clutch", "coordinate": "p", "against": "q", "ratio": 0.6, "capacity": "2 + sin(s.displacement) + base.vx*s.displacement_rate",
-               "static_ratio": 1.3, "stribeck_rate": 0.5},
+    "clutch": {"type": "clutch", "coordinate": "p", "against": "q", "ratio": 0.6,
+               "capacity": "2 + sin(s.displacement) + base.vx*s.displacement_rate", "static_ratio": 1.3, "stribeck_rate": 0.5},
     "brake": {"type": "brake", "coordinate": "s", "capacity": "3 + 0.2*p.angle"},
     "freewheel": {"type": "freewheel", "coordinate": "p", "against": "q"},
     "loss": {"type": "transmission-loss", "coupling": "g", "coordinate": "p", "efficiency": 0.6},

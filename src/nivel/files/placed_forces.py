@@ -194,7 +194,9 @@ def _of_drive_line(force: DriveLine, scene: Scene) -> Changes:
     if force.against is not None and scene.is_opposite(force.against) != turned:
         changes["ratio"] = -force.ratio
     if turned and isinstance(force, Freewheel):
-        raise NotRepresentableError("a freewheel on a coordinate whose sign is reversed by the placement is not supported")
+        raise NotRepresentableError(
+            "a freewheel on a coordinate whose sign is reversed by the placement is not supported"
+        )
     if turned and isinstance(force, Shaft):
         changes["free_value"] = -force.free_value + 0.0
     return changes

@@ -16,7 +16,6 @@ from nivel.system.joints.rows import RowTable
 from nivel.system.system import Equations
 from nivel.system.tables import index_array, padded
 
-
 # entries of the rows of frictions
 COLUMNS: Final = WAY + 1
 NUMBERS: Final = LEVER + 1

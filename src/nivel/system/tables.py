@@ -98,7 +98,9 @@ class CoordinateTable:
     rails: dict[int, Rail] = field(default_factory=dict)  # of sliders
     wheels: dict[int, Wheel] = field(default_factory=dict)  # of what rolls
     targets: dict[int, Target] = field(default_factory=dict)  # of driven orientations
-    sums: dict[int, tuple[tuple[int, float], ...]] = field(default_factory=dict)  # of combined ones: coordinates, factors
+    sums: dict[int, tuple[tuple[int, float], ...]] = field(
+        default_factory=dict
+    )  # of combined ones: coordinates, factors
     active: set[int] = field(default_factory=set)
     _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
 
@@ -175,7 +177,9 @@ class CoordinateTable:
         of what is combined."""
         if coordinate in self.sums:
             terms = self.sums[coordinate]
-            return tuple(n for each, factor in terms for n in (factor, float(each), *[0.0] * (len(self.markers(each)) - 2)))
+            return tuple(
+                n for each, factor in terms for n in (factor, float(each), *[0.0] * (len(self.markers(each)) - 2))
+            )
         if coordinate in self.rails:
             return 0.0, *self.rails[coordinate].stations
         if coordinate in self.targets:

@@ -20,7 +20,8 @@ Read = Callable[[str], Array | None]  # a variable of the result by name (n, …
 
 # coordinates of joints along or about the z axis of the first marker
 ALONG_Z: Final = {"angle": "torque", "displacement": "force"}
-ON_COORDINATES: Final = ("motor", "servo", "dc-motor", "servo-motor", "joint-spring-damper", "stop", "friction", "brake", "clutch", "freewheel")
+DRIVES: Final = ("motor", "servo", "dc-motor", "servo-motor")
+ON_COORDINATES: Final = (*DRIVES, "joint-spring-damper", "stop", "friction", "brake", "clutch", "freewheel")
 LARGEST: Final = 1e30  # [N or N m] beyond it nothing is drawn
 BETWEEN: Final = ("spring-damper", "pair-force")
 

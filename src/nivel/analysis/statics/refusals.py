@@ -32,8 +32,8 @@ def refuse_friction(machine: MachineRecord) -> None:
             0,
             0,
             f"forces.{force.name}",
-            f"a {force.type} holds at rest with any effort up to its greatest one, so there are many equilibria, and the actual one depends "
-            f"on the previous motion: leave it out, couple what it holds, or simulate with a damper until the machine rests",
+            f"a {force.type} holds at rest with any effort up to its greatest one, so there are many equilibria, and the actual one "
+            f"depends on the previous motion: leave it out, couple what it holds, or simulate with a damper until the machine rests",
         )
         for force in machine.forces
         if holds_by_capacity(force)

@@ -17,7 +17,8 @@ from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
 
-# columns of `columns`; outputs: effort, power, rate of the slip, slip; with TENSIONS 1 those of both strands, and the effort is that which resists
+# columns of `columns`; outputs: effort, power, rate of the slip, slip; with TENSIONS 1 the effort that resists,
+# and the tensions of both strands
 OUTPUT, COORDINATE, TENSIONS = 0, 1, 2
 # columns of `number`
 STIFFNESS, DAMPING, PRETENSION, LOW, HIGH = 0, 1, 2, 3, 4

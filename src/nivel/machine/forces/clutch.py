@@ -53,5 +53,7 @@ class Clutch(DriveLine):
 def problems_of_ratio(static_ratio: float) -> Iterator[Problem]:
     """What is wrong with the ratio of static to kinetic friction."""
     if static_ratio < 1.0:
-        message = f"`static_ratio` {static_ratio:g} is smaller than one; static friction is at least as strong as kinetic"
+        message = (
+            f"`static_ratio` {static_ratio:g} is smaller than one; static friction is at least as strong as kinetic"
+        )
         yield Problem(("static_ratio",), message)

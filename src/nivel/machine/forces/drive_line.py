@@ -22,4 +22,6 @@ class DriveLine(ForceElement):
 
     def problems(self) -> Iterator[Problem]:
         if self.ratio == 0.0:
-            yield Problem(("ratio",), "`ratio` is zero: the other coordinate has no part in it; a `brake` has one coordinate")
+            yield Problem(
+                ("ratio",), "`ratio` is zero: the other coordinate has no part in it; a `brake` has one coordinate"
+            )

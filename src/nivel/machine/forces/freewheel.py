@@ -21,7 +21,8 @@ class Freewheel(DriveLine):
 
     type: Literal["freewheel"] = "freewheel"
     against: Maybe[CoordinateReference] = Field(  # type: ignore[assignment]
-        default=None, description="coordinate that takes the first one along; without it: a backstop, it never goes backwards"
+        default=None,
+        description="coordinate that takes the first one along; without it: a backstop, it never goes backwards",
     )
     capacity: Maybe[PositiveEffort] = Field(default=None, description="effort beyond which it slips", absent="none")
     stiffness: Maybe[PositiveCoordinateStiffness] = Field(

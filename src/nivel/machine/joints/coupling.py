@@ -143,7 +143,7 @@ class LinearCoupling(Checked):
 
 
 # interpolations of tables that are smooth enough: of the second derivative, which accelerations follow, none jumps
-SMOOTH: Final = ("cubic", "quintic")
+SMOOTH: Final = ("cubic", "quintic", "periodic")
 
 
 class FunctionCoupling(Checked):

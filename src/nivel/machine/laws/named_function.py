@@ -3,6 +3,7 @@
     functions:
       bump(x): 5 cm * exp(-(x/20 cm)^2)
       torque_curve: {points: [0, 100, 300], values: [50 N m, 80 N m, 20 N m], interpolation: monotone}
+      torque_map: {points: [0, 100, 300], across: [0, 1], values: [[-5, -8, -20], [50, 80, 20]]}
 
 They may use parameters and each other, in any order. Where an expression calls one, its body is put in.
 """
@@ -18,7 +19,7 @@ from pydantic import ValidationError
 from nivel.machine.laws.table import read_table
 from nivel.machine.units.arithmetic import NOT_FOR_PARAMETERS, RESERVED, bind, given
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.quantity import ANY, FAULT, shown
+from nivel.machine.units.quantity import ANY, FAULT, listed, shown
 from nivel.machine.units.tree import (
     ExpressionError,
     FaultyParameterError,
@@ -26,6 +27,7 @@ from nivel.machine.units.tree import (
     Lookup,
     Node,
     Number,
+    Operation,
     Parameters,
     Signal,
     calls,
@@ -34,6 +36,7 @@ from nivel.machine.units.unit import UNITS
 
 _HEAD: Final = re.compile(r"([^\W\d]\w*)\s*(?:\(\s*([^()]*?)\s*\))?")
 _OF_CURVE: Final = "argument"
+_ACROSS: Final = "second"
 Place = tuple[str | int, ...]
 Faults = dict[Place, str]
 
@@ -54,7 +57,7 @@ def resolve_functions(
         done[name] = None
         try:
             if isinstance(value, Mapping):
-                done[name] = _curve(value, parameters)
+                done[name] = _map(value, parameters) if "across" in value else _curve(value, parameters)
             else:
                 trees[name] = (key, arguments, _body(value), value if isinstance(value, str) else "")
         except ExpressionError as problem:
@@ -109,6 +112,23 @@ def _curve(value: Mapping[str, object], parameters: Parameters) -> Function:
     table = read_table({**value, "of": _OF_CURVE}, ANY, parameters, (_OF_CURVE,))
     points, values = tuple(map(float, table.times)), tuple(map(float, table.values))
     return Function((_OF_CURVE,), Lookup(Signal(_OF_CURVE), table.interpolation, points, values))
+
+
+def _map(value: Mapping[str, object], parameters: Parameters) -> Function:
+    """A map of two arguments: a curve of the first one at each point `across` of the second, and straight lines from curve to curve."""
+    rows, across = listed(value.get("values")), value["across"]
+    if not isinstance(rows, list | tuple) or not all(isinstance(listed(row), list | tuple) for row in rows):
+        raise ExpressionError("with `across` the `values` are a list for each of its points, `[[1, 2, 3], [4, 5, 6]]`")
+    places = read_table({"of": _OF_CURVE, "points": across, "values": [0.0] * len(rows)}, ANY, parameters, (_OF_CURVE,))
+    rest = {key: each for key, each in value.items() if key not in ("across", "values")}
+    curves = [_curve({**rest, "values": row}, parameters).body for row in rows]
+    points, body = tuple(map(float, places.times)), None
+    for k, curve in enumerate(curves):
+        share = Lookup(Signal(_ACROSS), "linear", points, tuple(float(k == at) for at in range(len(points))))
+        term = Operation("*", share, curve)
+        body = term if body is None else Operation("+", body, term)
+    assert body is not None  # a table has a point
+    return Function((_OF_CURVE, _ACROSS), body)
 
 
 def _resolve(

@@ -14,7 +14,15 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.dimension import KINDS
-from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, Interpolation, interpolated, pieces
+from nivel.machine.units.interpolation import (
+    FEWEST,
+    INTERPOLATIONS,
+    PERIODIC,
+    Interpolation,
+    interpolated,
+    misses_its_period,
+    pieces,
+)
 from nivel.machine.units.measure import signal_dimensions
 from nivel.machine.units.quantity import ANY, Kind, expression_fault, fault, listed, read_quantity, reported, shown
 from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters
@@ -69,7 +77,7 @@ class Table:
 
     def ends_before(self, time: float) -> bool:
         """Whether the last point lies before `time` [s], by more than round-off."""
-        return self.times[-1] < time * (1.0 - 1e-12)
+        return self.interpolation != PERIODIC and self.times[-1] < time * (1.0 - 1e-12)
 
     def written(self) -> dict[str, Any]:
         """The table as a mapping of a machine file."""
@@ -170,8 +178,11 @@ def _faults_of_columns(
             return [_line((first, at), fault(f"{first} increase; {order}"))]
     fewest = FEWEST[interpolation]
     if len(points) < fewest:
-        wanted = "three" if fewest == 3 else "two"
+        wanted = {2: "two", 3: "three", 4: "four"}[fewest]
         return [_line((first,), fault(f"a {interpolation} table needs at least {wanted} {first}, got {len(points)}"))]
+    if misses_its_period(interpolation, values):
+        ends = f"got {values[0]:g} and {values[-1]:g}"
+        return [_line(("values",), fault(f"a periodic table ends with the value with which it begins; {ends}"))]
     return []
 
 

@@ -220,10 +220,16 @@ _LAW: Final = {
 }
 
 
-# of a named function that is a curve
+_COLUMNS: Final = {"type": "array", "items": {"anyOf": [*_QUANTITY["anyOf"], _COLUMN]}}
+# of a named function that is a curve, or with `across` a map of two arguments
 CURVE: Final = {
     "type": "object",
-    "properties": {"points": _COLUMN, "values": _COLUMN, "interpolation": {"enum": list(INTERPOLATIONS)}},
+    "properties": {
+        "points": _COLUMN,
+        "values": _COLUMNS,
+        "across": _COLUMN,
+        "interpolation": {"enum": list(INTERPOLATIONS)},
+    },
     "required": ["points", "values"],
     "additionalProperties": False,
 }

@@ -15,7 +15,7 @@ from itertools import pairwise
 from typing import Final, SupportsFloat
 
 from nivel.machine.units.functions import FUNCTIONS
-from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated
+from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated, misses_its_period
 from nivel.machine.units.slips import spelled
 from nivel.machine.units.tree import (
     COMPARISONS,
@@ -143,7 +143,12 @@ def _bind_lookup(arguments: tuple[Node, ...], parameters: Parameters, local: Col
         raise ExpressionError(f"the points x0, x1, … of `{LOOKUP}` increase")
     if len(points) < FEWEST[word]:
         raise ExpressionError(f"a {word} `{LOOKUP}` needs at least {FEWEST[word]} points, got {len(points)}")
-    return Lookup(bind(argument, parameters, local), word, points, tuple(values[1::2]), int(order or 0))
+    heights = tuple(values[1::2])
+    if misses_its_period(word, heights):
+        raise ExpressionError(
+            f"a periodic `{LOOKUP}` ends with the value with which it begins, {heights[0]:g}, got {heights[-1]:g}"
+        )
+    return Lookup(bind(argument, parameters, local), word, points, heights, int(order or 0))
 
 
 def _hinting_at_hyphen(problem: UnknownNameError, node: Operation) -> ExpressionError:

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from nivel.machine.units.functions import FUNCTIONS, FunctionKind
-from nivel.machine.units.interpolation import curve_of
+from nivel.machine.units.interpolation import PERIODIC, curve_of
 from nivel.machine.units.intervals import Array, Interval, operated, products
 from nivel.machine.units.tree import OPERATORS, TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time
 
@@ -107,6 +107,8 @@ def _bounds_of_call(kind: FunctionKind, arguments: list[Interval]) -> Interval:
 
 def _values_of_curve(curve: Lookup, x: Array) -> Array:
     points, coefficients, before, behind = curve_of(curve.kind, curve.points, curve.values, curve.order)
+    if curve.kind == PERIODIC:
+        x = points[0] + np.mod(x - points[0], points[-1] - points[0])
     inner = np.full_like(x, before)
     if len(coefficients):
         k = np.clip(np.searchsorted(points, x, side="right") - 1, 0, len(coefficients) - 1)
@@ -117,6 +119,8 @@ def _values_of_curve(curve: Lookup, x: Array) -> Array:
 def _bounds_of_curve(curve: Lookup, low: Array, high: Array) -> Interval:
     """Of what each piece is over the part of the interval that lies in it."""
     points, coefficients, before, behind = curve_of(curve.kind, curve.points, curve.values, curve.order)
+    if curve.kind == PERIODIC:  # all that it ever is
+        low, high = np.full_like(low, points[0]), np.full_like(high, points[-1])
     least, largest = np.full_like(low, np.inf), np.full_like(high, -np.inf)
     for k, piece in enumerate(coefficients):
         inside = (low <= points[k + 1]) & (high >= points[k])

@@ -14,6 +14,7 @@ from typing import Final
 
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.functions import FUNCTIONS, read
+from nivel.machine.units.interpolation import SMOOTH
 from nivel.machine.units.tree import (
     COMPARISONS,
     LOGICAL,
@@ -82,9 +83,9 @@ class _Derivative:
             case Operation(symbol, left, right):
                 return self._of_operation(symbol, left, right)
             case Lookup(argument, kind, points, values, order):
-                if kind != "quintic":
+                if kind not in SMOOTH:
                     raise ExpressionError(
-                        f"a {kind} curve has corners, at its ends at least; {self._what} must be smooth: take quintic"
+                        f"a {kind} curve has corners, at its ends at least; {self._what} must be smooth: take quintic, or periodic"
                     )
                 return times(Lookup(argument, kind, points, values, order + 1), self.of(argument))
             case Call(function, arguments):

@@ -10,9 +10,12 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-Interpolation = Literal["linear", "cubic", "monotone", "quintic"]
-INTERPOLATIONS: Final = ("linear", "cubic", "monotone", "quintic")
-FEWEST: Final = {"linear": 1, "cubic": 3, "monotone": 2, "quintic": 2}  # points
+Interpolation = Literal["linear", "cubic", "monotone", "quintic", "periodic"]
+INTERPOLATIONS: Final = ("linear", "cubic", "monotone", "quintic", "periodic")
+PERIODIC: Final = "periodic"
+# whose speeds and accelerations jump nowhere, at no end
+SMOOTH: Final = ("quintic", PERIODIC)
+FEWEST: Final = {"linear": 1, "cubic": 3, "monotone": 2, "quintic": 2, "periodic": 4}  # points
 STRAIGHT, CURVED = 4, 6  # coefficients of a piece, up to cubic and of a quintic
 
 
@@ -21,7 +24,7 @@ def pieces(kind: str, points: Sequence[float], values: Sequence[float]) -> NDArr
 
     linear: straight lines. cubic: a natural spline, not bent at its ends. monotone: cubic pieces with one slope at a point that neither
     rise nor fall where the values do not (Fritsch & Butland 1984). quintic: a spline with four continuous derivatives, of which the first
-    and the second are zero at both ends.
+    and the second are zero at both ends. periodic: a spline with two continuous derivatives, at the seam too, which goes on for ever.
 
     returns (n - 1, 4), of a quintic (n - 1, 6); SI
     """
@@ -35,6 +38,9 @@ def pieces(kind: str, points: Sequence[float], values: Sequence[float]) -> NDArr
 
     if kind == "cubic":
         curve = CubicSpline(x, y, bc_type="natural").c
+    elif kind == PERIODIC:
+        y[-1] = y[0]
+        curve = CubicSpline(x, y, bc_type="periodic").c
     elif kind == "monotone":
         curve = PchipInterpolator(x, y).c
     else:
@@ -49,6 +55,11 @@ def _between(x: NDArray[np.float64], curve: object) -> NDArray[np.float64]:
     return coefficients[:, [int(np.flatnonzero(knots == point)[-1]) for point in x[:-1]]]
 
 
+def misses_its_period(kind: str, values: Sequence[float]) -> bool:
+    """Whether a periodic curve does not end with the value with which it begins."""
+    return kind == PERIODIC and abs(values[-1] - values[0]) > 1e-9 * max(map(abs, values))
+
+
 def differentiated(coefficients: NDArray[np.float64], order: int) -> NDArray[np.float64]:
     """Coefficients (n - 1, 6) of the derivative of this order."""
     out = np.zeros((coefficients.shape[0], CURVED))
@@ -59,7 +70,9 @@ def differentiated(coefficients: NDArray[np.float64], order: int) -> NDArray[np.
 
 
 def interpolated(kind: str, points: Sequence[float], values: Sequence[float], x: float, order: int = 0) -> float:
-    """Value at x of the curve through the points, or of its derivative; beyond the ends the end values hold."""
+    """Value at x of the curve through the points, or of its derivative; beyond the ends the end values hold, unless it is periodic."""
+    if kind == PERIODIC:
+        x = points[0] + (x - points[0]) % (points[-1] - points[0])
     if x < points[0]:
         return float(values[0]) if order == 0 else 0.0
     if x >= points[-1]:
@@ -73,8 +86,11 @@ def curve_of(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
     """Points, coefficients (n - 1, 6) of the pieces between them, and what holds before the first and from the last point on, of a curve or
     of its derivative."""
+    curve = _curve(kind, tuple(points), tuple(values), order)
     before, behind = (values[0], values[-1]) if order == 0 else (0.0, 0.0)
-    return np.array(points), _curve(kind, tuple(points), tuple(values), order), before, behind
+    if kind == PERIODIC:
+        before = behind = float(curve[0, 0])
+    return np.array(points), curve, before, behind
 
 
 @lru_cache(maxsize=100)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import FUNCTIONS, inner_parts, is_truth
+from nivel.machine.units.interpolation import SMOOTH
 from nivel.machine.units.tree import (
     COMPARISONS,
     TIME,
@@ -32,7 +33,7 @@ def sides(node: Node, counts: Callable[..., bool], *, curves: bool) -> Iterator[
     match node:
         case Operation(symbol, left, right) if symbol in COMPARISONS and counts(left, right):
             yield left, right
-        case Lookup(argument, kind, points, _, _) if curves and counts(argument) and kind != "quintic":
+        case Lookup(argument, kind, points, _, _) if curves and counts(argument) and kind not in SMOOTH:
             yield from ((argument, Number(point)) for point in points)
         case Call(function, arguments):
             own = FUNCTIONS[function].sides

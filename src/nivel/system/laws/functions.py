@@ -17,6 +17,7 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
+from nivel.machine.units.interpolation import SMOOTH
 from nivel.machine.units.linear_function import LinearFunction, linear_function
 from nivel.machine.units.tree import TIME as TIME_SYMBOL
 from nivel.system.laws.laws import law_address
@@ -71,7 +72,7 @@ class FunctionTable:
         Raises ModelError where a law cannot be compiled.
         """
         match function:
-            case Table() if function.interpolation == "quintic":
+            case Table() if function.interpolation in SMOOTH:
                 make = curve_motion_program if motion else curve_program
                 program = make(function.interpolation, function.times, function.values)
                 return self._append(CODE, [function.of], find, address=run.address, program=program)

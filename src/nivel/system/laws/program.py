@@ -19,7 +19,7 @@ from nivel.kernels.record.function import NEAR
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.functions import FUNCTIONS, is_truth
-from nivel.machine.units.interpolation import differentiated, pieces
+from nivel.machine.units.interpolation import PERIODIC, differentiated, pieces
 from nivel.machine.units.sides import is_of_time_alone, jumps
 from nivel.machine.units.tree import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time, signals
 
@@ -45,6 +45,13 @@ def expression_program(
     program = _Program(signals, beyond=beyond and jumps(expression.tree, is_of_time_alone))
     program.end(program.place_of(expression.tree))
     return program.row()
+
+
+def _in_period(argument: Node, points: Sequence[float]) -> Node:
+    """The argument of a periodic curve less whole periods, so that it is between its points."""
+    begin, period = Number(points[0]), Number(points[-1] - points[0])
+    whole = Call("floor", (Operation("/", Operation("-", argument, begin), period),))
+    return Operation("-", argument, Operation("*", period, whole))
 
 
 @dataclass(frozen=True)
@@ -132,8 +139,9 @@ class _Program:
                 return self.place_of(Operation("<", ZERO, Call(function, (left, right))))
             case Operation(symbol, left, right):
                 return self._operation(OPERATIONS[symbol], self.place_of(left), self.place_of(right))
-            case Lookup(argument):
-                return self._operation(kernel.CURVE, self.place_of(argument), self._curve(node))
+            case Lookup(argument, kind, points):
+                within = _in_period(argument, points) if kind == PERIODIC else argument
+                return self._operation(kernel.CURVE, self.place_of(within), self._curve(node))
             case Call("if", (condition, yes, no)):
                 return self._choice(self.place_of(condition), self.place_of(yes), self.place_of(no))
             case Call(function, (first, *others)):
@@ -200,6 +208,8 @@ class _Program:
         points, values = curve.points, curve.values
         coefficients = differentiated(pieces(curve.kind, points, values), curve.order)
         before, behind = (values[0], values[-1]) if curve.order == 0 else (0.0, 0.0)
+        if curve.kind == PERIODIC:
+            before = behind = coefficients[0, 0]
         numbers = np.concatenate([[len(points), before, behind], points, coefficients.ravel()])
         self._numbers += numbers[::-1].tolist()  # numbers stand in the row backwards
         return -len(self._numbers)

@@ -21,7 +21,7 @@ def _difference(builder: SystemBuilder, force: Clutch | Freewheel | Shaft) -> tu
     angle = is_angle(builder, first)
     if force.against is None:
         return first, angle
-    second = builder.coordinate(force.against)
+    second = builder.coordinate(str(force.against))
     return builder.coordinates.combined(((first, 1.0), (second, -force.ratio))), angle
 
 

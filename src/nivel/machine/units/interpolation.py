@@ -24,7 +24,7 @@ def pieces(kind: str, points: Sequence[float], values: Sequence[float]) -> NDArr
 
     linear: straight lines. cubic: a natural spline, not bent at its ends. monotone: cubic pieces with one slope at a point that neither
     rise nor fall where the values do not (Fritsch & Butland 1984). quintic: a spline with four continuous derivatives, of which the first
-    and the second are zero at both ends. periodic: a spline with two continuous derivatives, at the seam too, which goes on for ever.
+    and the second are zero at both ends. periodic: a spline with two continuous derivatives, at the seam too, which goes on without end.
 
     returns (n - 1, 4), of a quintic (n - 1, 6); SI
     """

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from circuits import BAR, LITRE_PER_MINUTE, circuit, density, history
 from nivel.api import load
-from test_characteristics import K, RATED, ramp, root, step
+from test_characteristics import RATED, K, ramp, root, step
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "hydraulics" / "harvester-crane.yaml"
 END = 0.4
@@ -40,13 +40,13 @@ def rates(t, y):
         return 0.5 * (density(a) + density(b)) * size * root(a - b)
 
     out, taken, loads = [], 0.0, 0.0
-    for u, m, c, its, (_, load) in zip(wishes(t), (m1, m2), (c1, c2), x, OPEN.values(), strict=True):
+    for u, m, c, its, (_, resisting) in zip(wishes(t), (m1, m2), (c1, c2), x, OPEN.values(), strict=True):
         metered = flow(K * opening(u), line, m)
         between = flow(2 * K * its, m, c)
-        left = flow(4 * K * opening(u), c, load)
+        left = flow(4 * K * opening(u), c, resisting)
         out += [((metered - between), m, INNER), ((between - left), c, INNER)]
         taken += metered
-        felt = TANK + step(ramp(u - 0.05) / 0.05) * (load - TANK)
+        felt = TANK + step(ramp(u - 0.05) / 0.05) * (resisting - TANK)
         loads = higher(loads, felt)
     pump = density(TANK) * 45 * LITRE_PER_MINUTE
     spilled = flow(K * step((line - TANK - RELIEF) / (10 * BAR)), line, TANK)

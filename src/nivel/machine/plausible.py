@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from nivel.machine.circuit_remarks import circuit_remarks
 from nivel.machine.core.record import Record
 from nivel.machine.given import Shown, Usual
 from nivel.machine.hydraulics import Actuator, Component, Volume
@@ -40,6 +41,8 @@ def remarks(machine: MachineRecord) -> Iterator[Remark]:
             yield from _of_fields(element, f"{section}.{element.name}")
     yield from _of_volumes(machine)
     yield from _unfillable(machine)
+    for place, message in circuit_remarks(machine.hydraulics):
+        yield Remark(f"hydraulics.{place}", message, math.inf)
 
 
 @cache

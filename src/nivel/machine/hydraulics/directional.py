@@ -12,6 +12,7 @@ from nivel.machine.core.coefficient import Frequency, Leakage, PositiveNumber, S
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Rated, problem_of_share
+from nivel.machine.hydraulics.usual import SPOOL_FREQUENCY
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, fault
 
@@ -78,7 +79,9 @@ class DirectionalValve(Rated):
     )
     rounding: Share = Field(default=0.02, description="share of the stroke over which an edge begins to open")
     centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 or 5/3 valve")
-    frequency: Maybe[Frequency] = Field(default=None, description="natural frequency of the spool; default: no lag")
+    frequency: Maybe[Frequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag", usual=SPOOL_FREQUENCY
+    )
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     rate_limit: Maybe[Rate] = Field(default=None, description="greatest speed of the spool, full strokes per second")
     leakage: Leakage = Field(default=0.0, description="of each edge")

@@ -10,7 +10,7 @@ from nivel.machine.core.coefficient import Leakage, NotNegativeDuration, Pressur
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field
 from nivel.machine.hydraulics.component import Rated, problem_of_share
-from nivel.machine.hydraulics.usual import DIFFERENCE, VOLUME
+from nivel.machine.hydraulics.usual import DIFFERENCE, LAG, VOLUME
 from nivel.machine.hydraulics.valves import VaryingPressure
 from nivel.machine.laws.time_function import OneFunction, varying
 
@@ -37,7 +37,7 @@ class FlowControl(Rated):
     setting: Setting = Field(default=1.0, description="opening of the orifice from 0 to 1")
     margin: Pressure = Field(default=7e5, description="difference of pressure that is held over the orifice")
     opening_range: Pressure = Field(default=2e5, description="of the compensator, from closed to fully open")
-    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the compensator; 0: none")
+    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the compensator; 0: none", usual=LAG)
     free_return: Truth = Field(default=False, description="whether a check valve lets fluid pass from A to P")
     leakage: Leakage = Field(default=0.0)
     inner_volume: Volume = Field(default=INNER_VOLUME, description="between compensator and orifice", usual=VOLUME)
@@ -75,7 +75,7 @@ class FlowDivider(Rated):
     opening_range: Pressure = Field(
         default=1e5, description="difference of pressure over which the spool moves from end to end", usual=DIFFERENCE
     )
-    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the spool; 0: none")
+    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the spool; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
     inner_volume: Volume = Field(default=INNER_VOLUME, description="behind each orifice", usual=VOLUME)
 
@@ -99,7 +99,7 @@ class PriorityValve(Rated):
     opening_range: Pressure = Field(
         default=4e5, description="over which the flow passes from CF to EF", usual=DIFFERENCE
     )
-    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the spool; 0: none")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the spool; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
 
 
@@ -114,5 +114,5 @@ class ShuttleValve(Rated):
     opening_range: Pressure = Field(
         default=0.5e5, description="difference of pressure over which it changes sides", usual=DIFFERENCE
     )
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)

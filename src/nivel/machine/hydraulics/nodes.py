@@ -13,7 +13,7 @@ from nivel.machine.core.coefficient import Volume as VolumeSize
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.hydraulics.component import Component
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, PRESSURE, VOLUME, WALL_MODULUS
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
 
@@ -94,7 +94,7 @@ class LoadSensing(Component):
 
     type: Literal["load-sensing"] = "load-sensing"
     valves: Annotated[ManyNames[Name], BeforeValidator(listed)] = Field(description="directional valves of 4/3 ways")
-    lag: Duration = Field(default=0.01, description="time constant")
+    lag: Duration = Field(default=0.01, description="time constant", usual=LAG)
     opens_within: Share = Field(default=0.05, description="opening of a valve at which its load is wholly sensed")
 
     def problems(self) -> Iterator[Problem]:

@@ -20,7 +20,7 @@ from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
 from nivel.machine.hydraulics.flow_valves import INNER_VOLUME
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, PRESSURE, VOLUME
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME
 from nivel.machine.hydraulics.valves import VaryingPressure
 
 CHECK_OPENS_AT, CHECK_RANGE = 0.5e5, 3e5  # Pa, of check valves within other valves
@@ -40,7 +40,7 @@ class UnloadingValve(Rated):
         description="with LS: difference of P and LS; with X: that of X and the air", usual=PRESSURE
     )
     opening_range: Pressure = Field(default=3e5, description="from there to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:
@@ -62,7 +62,7 @@ class SequenceValve(Rated):
     type: Literal["sequence-valve"] = "sequence-valve"
     opens_at: VaryingPressure = Field(description="pressure of P above that of the drain", usual=PRESSURE)
     opening_range: Pressure = Field(default=10e5, description="from there to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=LAG)
     free_return: Truth = Field(default=False, description="whether a check valve lets fluid pass from A to P")
     leakage: Leakage = Field(default=0.0)
 
@@ -87,7 +87,7 @@ class _Piloted(Rated):
         default=2e5, description="difference of pressure at which the main stage begins to move", usual=DIFFERENCE
     )
     opening_range: Pressure = Field(default=3e5, description="from there to the other end of its stroke")
-    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the main stage; 0: none")
+    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the main stage; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
     inner_volume: Volume = Field(default=INNER_VOLUME, description="of the spring chamber", usual=VOLUME)
 
@@ -137,7 +137,7 @@ class CartridgeValve(Rated):
     area_share: Share = Field(default=0.5, description="area of A over that of X; 1: B does not act")
     opens_at: NotNegativePressure = Field(default=2e5, description="of its spring, on the area of X", usual=DIFFERENCE)
     opening_range: Pressure = Field(default=3e5, description="from there to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
 
 
@@ -161,7 +161,7 @@ class CrossPortRelief(Rated):
     type: Literal["cross-port-relief"] = "cross-port-relief"
     opens_at: VaryingPressure = Field(description="difference of pressure of both lines", usual=PRESSURE)
     opening_range: Pressure = Field(default=20e5, description="from there to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the relief valves; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the relief valves; 0: none", usual=LAG)
     check_flow: Maybe[VolumeFlow] = Field(
         default=None, description="of the anti-cavitation valves; default `flow`", usual=FLOW
     )
@@ -203,5 +203,5 @@ class BrakeValve(Rated):
     type: Literal["brake-valve"] = "brake-valve"
     opens_at: VaryingPressure = Field(default=10e5, description="of the pilot, above the air", usual=PRESSURE)
     opening_range: Pressure = Field(default=15e5, description="from there to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.02, description="time constant of the spool; 0: none")
+    lag: NotNegativeDuration = Field(default=0.02, description="time constant of the spool; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)

@@ -20,7 +20,7 @@ from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.component import Rated, problem_of_share
 from nivel.machine.hydraulics.flow_valves import INNER_VOLUME
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, VOLUME
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, SPOOL_FREQUENCY, VOLUME
 from nivel.machine.hydraulics.valves import VaryingPressure
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity
@@ -68,7 +68,9 @@ class Section(Rated):
         default=0.05, description="share of the stroke before an edge opens"
     )
     rounding: Proportion = Field(default=0.02, description="share of the stroke over which an edge begins to open")
-    frequency: Maybe[Frequency] = Field(default=None, description="natural frequency of the spool; default: no lag")
+    frequency: Maybe[Frequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag", usual=SPOOL_FREQUENCY
+    )
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     margin: VaryingPressure = Field(
         default=7e5, description="of pre: held over the spool; of post: above LS; 0 of post with `saturation_share`"
@@ -82,7 +84,7 @@ class Section(Rated):
     compensator_flow: Maybe[VolumeFlow] = Field(
         default=None, description="of it, fully open, at `pressure_drop`; default twice `flow`", usual=FLOW
     )
-    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the compensator; 0: none")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the compensator; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0, description="of each edge")
     inner_volume: Volume = Field(default=INNER_VOLUME, description="between spool and compensator", usual=VOLUME)
 

@@ -25,7 +25,7 @@ from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Given, ManyNumbers, ManyRecords, Maybe, OneNumber, OneRecord
 from nivel.machine.hydraulics.component import Component, problem_of_share
 from nivel.machine.hydraulics.curve import Curve, CurveOf, SomeCurve
-from nivel.machine.hydraulics.usual import CURRENT, DIFFERENCE, SPOOL_STROKE
+from nivel.machine.hydraulics.usual import CURRENT, DIFFERENCE, SPOOL_FREQUENCY, SPOOL_STROKE
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Angle, Duration, PositiveLength, Quantity, Whole, fault, listed
@@ -220,7 +220,9 @@ class SpoolValve(Component):
     stroke: Maybe[PositiveLength] = Field(
         default=None, description="from the middle to the full stroke, of notches and springs", usual=SPOOL_STROKE
     )
-    frequency: Maybe[Frequency] = Field(default=None, description="natural frequency of the spool; default: no lag")
+    frequency: Maybe[Frequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag", usual=SPOOL_FREQUENCY
+    )
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     dead_band: Annotated[OneNumber, Quantity("number")] = Field(
         default=0.0, description="share of the command that does nothing"

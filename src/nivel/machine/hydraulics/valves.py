@@ -18,7 +18,7 @@ from nivel.machine.core.coefficient import (
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, PRESSURE
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE
 from nivel.machine.laws.time_function import OneFunction, varying
 
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
@@ -41,7 +41,7 @@ class CheckValve(Rated):
         default=3e5, description="difference of pressure from there to fully open", usual=DIFFERENCE
     )
     pilot_ratio: Maybe[PositiveNumber] = Field(default=None, description="area of the pilot over that of the seat")
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -67,7 +67,7 @@ class ReliefValve(Rated):
     type: Literal["relief-valve"] = "relief-valve"
     opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open", usual=PRESSURE)
     opening_range: Pressure = Field(description="difference of pressure from there to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -94,7 +94,7 @@ class CounterbalanceValve(Rated):
     )
     pilot_ratio: PositiveNumber = Field(default=3.0, description="R")
     vented: Truth = Field(default=False, description="whether the pressure at V does not act on it")
-    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none", usual=LAG)
     check_flow: Maybe[VolumeFlow] = Field(default=None, description="of the check valve; default `flow`", usual=FLOW)
     check_pressure_drop: Maybe[Pressure] = Field(
         default=None, description="of the check valve; default `pressure_drop`", usual=DIFFERENCE
@@ -124,7 +124,7 @@ class ReducingValve(Rated):
     opening_range: Pressure = Field(
         default=5e5, description="pressure below that at which it is fully open", usual=DIFFERENCE
     )
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)
 
     @classmethod
@@ -147,5 +147,5 @@ class Compensator(Rated):
     type: Literal["compensator"] = "compensator"
     margin: VaryingPressure = Field(default=7e5, description="held between A and LS", usual=DIFFERENCE)
     opening_range: Pressure = Field(default=6e5, description="from closed to fully open", usual=DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none", usual=LAG)
     leakage: Leakage = Field(default=0.0)

@@ -1,0 +1,247 @@
+"""Connections and settings of circuits that are right by themselves and fit badly together: what is reversed, what leads nowhere, what one
+setting makes of another one."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+from nivel.machine.hydraulics import (
+    Accumulator,
+    Actuator,
+    CheckValve,
+    Compensator,
+    Component,
+    CounterbalanceValve,
+    DirectionalValve,
+    FlowSource,
+    LoadSensing,
+    PilotReducingValve,
+    Pump,
+    ReducingValve,
+    ReliefValve,
+    Section,
+    SpoolValve,
+    Tank,
+    Volume,
+)
+from nivel.machine.hydraulics.machines import RotaryMachine
+
+Said = Iterator[tuple[str, str]]
+LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns
+BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
+
+
+@dataclass(frozen=True)
+class Circuit:
+    """The components of a machine, and what meets at their nodes."""
+
+    components: tuple[Component, ...]
+
+    @cached_property
+    def low(self) -> frozenset[str]:
+        """Tanks of low pressure."""
+        tanks = (each for each in self.components if isinstance(each, Tank))
+        return frozenset(each.name for each in tanks if isinstance(each.pressure, float | int) and each.pressure <= LOW)
+
+    @cached_property
+    def pumped(self) -> dict[str, Component]:
+        """The nodes into which pumps deliver."""
+        return {each.ports[each.delivers]: each for each in self.components if each.delivers in each.ports}
+
+    @cached_property
+    def chambers(self) -> frozenset[str]:
+        """The nodes that are chambers of actuators, or lines of motors."""
+        out: set[str] = set()
+        for each in self.components:
+            if isinstance(each, Actuator):
+                out |= {each.ports.get(chamber, f"{each.name}.{chamber}") for chamber in each.chambers}
+            elif isinstance(each, RotaryMachine) and not isinstance(each, Pump):
+                out |= {each.ports[port] for port in "AB" if port in each.ports}
+        return frozenset(out)
+
+    @cached_property
+    def flowing(self) -> Counter[str]:
+        """How many ports through which fluid flows meet at each node."""
+        ports = ((each, port, node) for each in self.components for port, node in each.ports.items())
+        return Counter(node for each, port, node in ports if port not in each.sensing)
+
+    @cached_property
+    def settings(self) -> dict[str, tuple[ReliefValve, float]]:
+        """The lowest constant setting of a relief valve at each node, absolute at a tank of low pressure [Pa]."""
+        out: dict[str, tuple[ReliefValve, float]] = {}
+        for each in self.components:
+            if isinstance(each, ReliefValve) and isinstance(each.opens_at, float | int):
+                known = out.get(each.ports["P"])
+                if known is None or each.opens_at < known[1]:
+                    out[each.ports["P"]] = each, float(each.opens_at)
+        return out
+
+
+def circuit_remarks(components: tuple[Component, ...]) -> Said:
+    """(name of a component, with the key after a point where it is one; what is to be said of it)."""
+    circuit = Circuit(components)
+    for each in components:
+        yield from _reversed_pump(circuit, each)
+        yield from _reversed_valve(circuit, each)
+        yield from _leads_nowhere(circuit, each)
+        yield from _against_relief(circuit, each)
+        yield from _of_load_sensing(circuit, each)
+
+
+def _swapped(a: str, b: str, component: Component) -> str:
+    return f"{{{a}: {component.ports[b]}, {b}: {component.ports[a]}}}"
+
+
+def _reversed_pump(circuit: Circuit, each: Component) -> Said:
+    if not isinstance(each, Pump | FlowSource):
+        return
+    a, b = each.ports["A"], each.ports["B"]
+    if b in circuit.low and a not in circuit.low:
+        what = f"the pump is reversed: it takes fluid from `{a}` and delivers it into the tank `{b}`"
+        yield each.name, f"{what}; A is its suction side: write `ports: {_swapped('A', 'B', each)}`"
+    elif a in circuit.low:
+        key = "speed" if isinstance(each, Pump) else "flow"
+        given = each.speed if isinstance(each, Pump) else each.flow
+        if isinstance(given, float | int) and given < 0.0:
+            yield (
+                f"{each.name}.{key}",
+                f"the pump turns backwards and delivers into the tank `{a}`: write `{key}` without a minus",
+            )
+        if isinstance(given, float | int) and given == 0.0:
+            yield (
+                f"{each.name}.{key}",
+                f"the pump stands still; write for example `{key}: {'1500 rpm' if key == 'speed' else '40 L/min'}`",
+            )
+
+
+def _reversed_valve(circuit: Circuit, each: Component) -> Said:
+    ports, name = each.ports, each.name
+    if isinstance(each, DirectionalValve | Section | SpoolValve) and "P" in ports and "T" in ports:
+        if ports["P"] in circuit.low and ports["T"] not in circuit.low:
+            what = f"P is connected to the tank `{ports['P']}` and T to `{ports['T']}`"
+            yield name, f"the valve is reversed: {what}; write {_swapped('P', 'T', each)} in its `ports`"
+        tank = next((x for x in circuit.components if x.name == ports["T"]), None)
+        if (
+            isinstance(tank, Tank)
+            and isinstance(tank.pressure, float | int)
+            and tank.pressure > LOW
+            and tank.fluid is None
+        ):
+            what = f"T leads to `{tank.name}`, which has {tank.pressure / BAR:.4g} bar"
+            yield name, f"{what}; a return line has a tank of low pressure: write `{{type: tank, pressure: 2 bar}}`"
+    if isinstance(each, ReliefValve) and ports["P"] in circuit.low and ports["T"] not in circuit.low:
+        what = f"it would open from the tank `{ports['P']}` to `{ports['T']}`"
+        yield name, f"the relief valve is reversed: {what}; write `ports: {_swapped('P', 'T', each)}`"
+    if isinstance(each, CheckValve) and "X" not in ports and ports["B"] in circuit.pumped:
+        behind = {*circuit.low, *circuit.pumped}
+        what = f"it lets fluid pass from `{ports['A']}` to the pump line `{ports['B']}` alone"
+        if ports["A"] not in behind:
+            yield name, f"the check valve is reversed: {what}; write `ports: {_swapped('A', 'B', each)}`"
+    if isinstance(each, CounterbalanceValve) and ports["V"] in circuit.chambers and ports["L"] not in circuit.chambers:
+        what = f"L is the side of the load, and `{ports['V']}` at V is a chamber"
+        yield name, f"the valve is reversed: {what}; write {_swapped('L', 'V', each)} in its `ports`"
+    if isinstance(each, CounterbalanceValve) and ports["X"] == ports["L"]:
+        yield name, "its pilot X is its own load L; connect X to the other side of the actuator, such as `X: lift.B`"
+
+
+def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
+    if isinstance(each, Volume) and circuit.flowing[each.name] == 1 and each.start is None:
+        other = next(
+            x for x in circuit.components if each.name in {n for p, n in x.ports.items() if p not in x.sensing}
+        )
+        if isinstance(other, Actuator):
+            return
+        what = f"`{other.name}` alone is connected to the volume `{each.name}`, which leads nowhere"
+        yield each.name, f"{what}; name `{each.name}` in the `ports` of a second component"
+
+
+def _against_relief(circuit: Circuit, each: Component) -> Said:
+    if isinstance(each, Pump | FlowSource) and each.ports["B"] in circuit.settings:
+        relief, setting = circuit.settings[each.ports["B"]]
+        given = _flow_of(each)
+        passes = relief.conductance * math.sqrt(setting + relief.opening_range)
+        if given > 1.05 * passes > 0.0:
+            rated = f"flow: {math.ceil(given / LITRE_PER_MINUTE * 1.2)} L/min, pressure_drop: {setting / BAR:.4g} bar"
+            what = f"it passes {passes / LITRE_PER_MINUTE:.3g} L/min where it is wholly open"
+            yield (
+                f"{relief.name}.flow",
+                (
+                    f"{what}, and `{each.name}` delivers {given / LITRE_PER_MINUTE:.3g} L/min: the pressure rises beyond its "
+                    f"setting; write for example `{rated}`"
+                ),
+            )
+        if isinstance(each, Pump) and each.cut_off is not None and each.cut_off >= setting:
+            yield (
+                f"{each.name}.cut_off",
+                (
+                    f"`{relief.name}` opens at {setting / BAR:.4g} bar, before the `cut_off` of {each.cut_off / BAR:.4g} bar; "
+                    f"write for example `cut_off: {0.9 * setting / BAR:.4g} bar`"
+                ),
+            )
+    if isinstance(each, Accumulator) and each.ports["A"] in circuit.settings:
+        relief, setting = circuit.settings[each.ports["A"]]
+        if each.precharge >= setting:
+            yield (
+                f"{each.name}.precharge",
+                (
+                    f"`{relief.name}` opens at {setting / BAR:.4g} bar, below the precharge of {each.precharge / BAR:.4g} bar: it stays "
+                    f"empty; write for example `precharge: {0.6 * setting / BAR:.4g} bar`"
+                ),
+            )
+    if isinstance(each, ReducingValve | PilotReducingValve) and each.ports["P"] in circuit.settings:
+        relief, setting = circuit.settings[each.ports["P"]]
+        if isinstance(each.pressure, float | int) and each.pressure >= setting:
+            yield (
+                f"{each.name}.pressure",
+                (
+                    f"`{relief.name}` keeps P below {setting / BAR:.4g} bar, and it would reduce to {each.pressure / BAR:.4g} bar: it is "
+                    f"always open; write for example `pressure: {0.5 * setting / BAR:.4g} bar`"
+                ),
+            )
+
+
+def _flow_of(each: Pump | FlowSource) -> float:
+    """[m³/s] of a pump at a constant speed; 0 where it varies."""
+    if isinstance(each, FlowSource):
+        return float(each.flow) if isinstance(each.flow, float | int) else 0.0
+    setting = each.setting if isinstance(each.setting, float | int) else 1.0
+    return each.displacement * each.speed * setting if isinstance(each.speed, float | int) else 0.0
+
+
+def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
+    if isinstance(each, LoadSensing):
+        if not any(each.name in other.ports.values() for other in circuit.components):
+            yield (
+                each.name,
+                f"nothing reads this signal; name it in the `ports` of a pump or a compensator: `LS: {each.name}`",
+            )
+        heard = set(each.valves)
+        pumps = [x for x in circuit.components if isinstance(x, Pump) and x.ports.get("LS") == each.name]
+        lines = {pump.ports["B"] for pump in pumps}
+        behind = {x.ports["A"] for x in circuit.components if isinstance(x, Compensator) and x.ports["P"] in lines}
+        for valve in circuit.components:
+            if not isinstance(valve, DirectionalValve | Section) or valve.name in heard:
+                continue
+            if valve.ports.get("P") in lines | behind and {"A", "B", "T"} <= {*valve.ports}:
+                said = ", ".join([*each.valves, valve.name])
+                what = f"takes from the line of the load-sensing pump, and `{each.name}` does not know its load"
+                yield valve.name, f"it {what}; write `valves: [{said}]` there"
+    if isinstance(each, Pump) and each.margin is not None:
+        for other in circuit.components:
+            holds = isinstance(other, Compensator) or (isinstance(other, Section) and other.compensation == "pre")
+            if not holds or other.ports.get("LS") != each.ports.get("LS") or getattr(other, "saturation_share", None):
+                continue
+            margin = other.margin  # type: ignore[attr-defined]
+            if isinstance(margin, float | int) and margin >= each.margin:
+                yield (
+                    f"{other.name}.margin",
+                    (
+                        f"the pump stands {each.margin / BAR:.4g} bar above LS, and the compensator would hold {margin / BAR:.4g} bar of "
+                        f"it: it is always open; write for example `margin: {0.4 * each.margin / BAR:.3g} bar`"
+                    ),
+                )

@@ -82,7 +82,7 @@ CASES = {
     ),
     "a turning cylinder": ("speed: 1500 rpm", "coordinate: hinge.angel", "did you mean `angle`?"),
     "two fluids": ("hydraulics:", "fluids: {a: {}, b: {}}\nhydraulics:", "`fluid` is missing: there are `a`, `b`"),
-    "a fluid without air": ("hydraulics:", "fluids: {a: {air: 1e-9}}\nhydraulics:", "a liquid would bear tension"),
+    "a fluid without air": ("hydraulics:", "fluids: {a: {air: 1e-9}}\nhydraulics:", "or 0, was expected"),
     "an efficiency without its point": (
         "speed: 1500 rpm",
         "speed: 1500 rpm, volumetric_efficiency: 0.9",

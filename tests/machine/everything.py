@@ -395,7 +395,19 @@ EVERYTHING = {
             "gamepad": {"axis": 0, "dead_zone": 0.1},
         },
     ],
-    "fluids": [{"name": "oil", "density": "870 kg/m^3", "air": 0.004, "viscosity": "32e-6 m^2/s"}],
+    "fluids": [
+        {
+            "name": "oil",
+            "density": "870 kg/m^3",
+            "air": 0.004,
+            "viscosity": "32e-6 m^2/s",
+            "grade": "HLP 32",
+            "temperature": "333 K",
+            "dissolved_air": 0.08,
+            "saturation_pressure": "1 bar",
+            "vapour_pressure": "20 mbar",
+        }
+    ],
     "hydraulics": [
         {"name": "tank", "type": "tank", "pressure": "2 bar"},
         {"name": "supply", "type": "volume", "volume": "1 L", "wall_modulus": "1 GPa", "start": "90 bar"},

@@ -1,10 +1,10 @@
-"""The law of density of a liquid with undissolved air: one function v(p) = ρ₀/ρ; bulk modulus and energy follow from it.
+"""The law of density of a liquid with air and vapour: one function v(p) = ρ₀/ρ; bulk modulus and energy follow from it.
 
-    v(p) = (1 - α) L^(-1/β') + α (pa/p)^(1/n)        L = 1 + β' (p - pa)/β₀        β = ρ dp/dρ = -v/v'
+    v(p) = (1 - α) L^(-1/β') + (α + α_d (1 - p/p_s)) (pa/p)^(1/n) + (p_v/p)^m        L = 1 + β' (p - pa)/β₀        β = ρ dp/dρ = -v/v'
 
-α is the volume fraction of the air at atmospheric pressure pa, which is carried along and polytropic; β₀ + β' (p - pa) is the bulk modulus
-of the liquid. As the pressure goes to zero the air takes any volume, so that a volume that is emptied cavitates by the same law, and keeps
-its mass. Enthalpy h = ∫ dp/ρ from pa.
+α is the volume fraction of the air at atmospheric pressure pa that is always there, and polytropic. α_d is dissolved from the saturation
+pressure p_s on and comes out below it as Henry's law says, at once. Liquid turns to vapour at the pressure p_v: m is large. β₀ + β' (p - pa)
+is the bulk modulus of the liquid. A volume that is emptied cavitates by the same law, and keeps its mass. Enthalpy h = ∫ dp/ρ from pa.
 """
 
 from __future__ import annotations
@@ -17,8 +17,27 @@ ATMOSPHERE = 101325.0  # [Pa]
 # columns of `Circuit.fluid`: fraction of air, bulk modulus [Pa] of the liquid at pa, its slope, polytropic exponent, ρ₀ [kg/m³],
 # kinematic viscosity [m²/s]
 AIR, MODULUS, SLOPE, EXPONENT, DENSITY, VISCOSITY = 0, 1, 2, 3, 4, 5
+# and behind the constants of gases: α_d, p_s [Pa], p_v [Pa], growth of the viscosity with the pressure (Barus) [1/Pa]
+DISSOLVED, SATURATION, VAPOUR, BARUS = 10, 11, 12, 13
+STEEP = 20.0  # m: within a tenth of p_v the volume grows eightfold
 # Newton's iteration of the pressure ends at a change of this share: the error is then its square, and one more step follows.
 EXACT, MOST = 1e-5, 100
+
+
+@leaf
+def work_of_air(n, begin, end):
+    """∫ (pa/p)^(1/n) dp [Pa]."""
+    if n == 1.0:
+        return ATMOSPHERE * np.log(end / begin)
+    power = 1.0 - 1.0 / n
+    return ATMOSPHERE / power * ((end / ATMOSPHERE) ** power - (begin / ATMOSPHERE) ** power)
+
+
+@leaf
+def work_of_share(n, begin, end):
+    """∫ p (pa/p)^(1/n) dp [Pa²]."""
+    power = 2.0 - 1.0 / n
+    return ATMOSPHERE * ATMOSPHERE / power * ((end / ATMOSPHERE) ** power - (begin / ATMOSPHERE) ** power)
 
 
 @leaf
@@ -39,4 +58,15 @@ def specific_volume(f, p):
         air_energy = ATMOSPHERE * n / (n - 1.0) * (p / ATMOSPHERE * air - 1.0)
     value = (1.0 - alpha) * liquid + alpha * air
     derivative = -(1.0 - alpha) * liquid / (modulus * L) - alpha * air / (n * p)
-    return value, derivative, (1.0 - alpha) * energy + alpha * air_energy
+    energy = (1.0 - alpha) * energy + alpha * air_energy
+    if p < f[SATURATION] and f[DISSOLVED] > 0.0:
+        free, saturation = 1.0 - p / f[SATURATION], f[SATURATION]
+        value += f[DISSOLVED] * free * air
+        derivative -= f[DISSOLVED] * air * (free / (n * p) + 1.0 / saturation)
+        energy += f[DISSOLVED] * (work_of_air(n, saturation, p) - work_of_share(n, saturation, p) / saturation)
+    if f[VAPOUR] > 0.0:
+        vapour = (f[VAPOUR] / p) ** STEEP
+        value += vapour
+        derivative -= STEEP * vapour / p
+        energy -= (p * vapour - ATMOSPHERE * (f[VAPOUR] / ATMOSPHERE) ** STEEP) / (STEEP - 1.0)
+    return value, derivative, energy

@@ -3,52 +3,113 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import CoreSchema
 
 from nivel.machine.core.checked import Checked, Problem
-from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
+from nivel.machine.core.coefficient import (
+    Exponent,
+    NotNegative,
+    NotNegativeNumber,
+    Pressure,
+    Temperature,
+    Truth,
+    Viscosity,
+)
 from nivel.machine.core.record import Name, entry
-from nivel.machine.given import Field, OneNumber
-from nivel.machine.hydraulics.usual import BULK_MODULUS, GAS_DENSITY, LIQUID_DENSITY, TEMPERATURE, VISCOSITY
+from nivel.machine.given import Field, Maybe, OneNumber
+from nivel.machine.hydraulics.grades import GRADES, Liquid
+from nivel.machine.hydraulics.usual import (
+    BULK_MODULUS,
+    GAS_DENSITY,
+    LIQUID_DENSITY,
+    PRESSURE,
+    TEMPERATURE,
+    VAPOUR,
+    VISCOSITY,
+)
 from nivel.machine.units.quantity import Density, Quantity
 
+ATMOSPHERE = 101325.0  # Pa
+LOW_VAPOUR = 100.0  # Pa, of liquids without air that do not say
 AIR_DENSITY = 1.2  # kg/m³ at atmospheric pressure
 LEAST_AIR, MOST_AIR = 1e-4, 0.2
 REFERENCE_PRESSURE, REFERENCE_TEMPERATURE = 1e5, 293.15  # Pa, K: of ISO 8778, to which sonic conductances refer
+MINERAL = Liquid(870.0, 1.5e9, 10.0, 46e-6, 0.0)  # without a grade
+GradeName = Literal["HLP 32", "HLP 46", "HLP 68", "HVLP 32", "HVLP 46", "HVLP 68", "HEES 46", "HFC 46"]
 MOST_RATIO = 5.0 / 3.0  # of c_p over c_v, of gases of one atom
 
 
 class Fluid(Checked):
-    """Constants of the law of density in `docs/hydraulics.md`. The defaults are those of a mineral oil at 40 °C."""
+    """Constants of the law of density in `docs/hydraulics.md`, or a grade at a temperature. The defaults are those of a mineral oil at 40 °C."""
 
     collection: ClassVar[str] = "fluids"
 
     name: Name
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
-    density: Density = Field(default=870.0, description="of the liquid at atmospheric pressure", usual=LIQUID_DENSITY)
-    bulk_modulus: Pressure = Field(
-        default=1.5e9, description="of the liquid at atmospheric pressure", usual=BULK_MODULUS
+    grade: GradeName | None = Field(default=None, description="a fluid by name; other keys that are given go before it")
+    temperature: Temperature = Field(
+        default=313.15, description="at which a `grade` has its constants", usual=TEMPERATURE
     )
-    bulk_modulus_slope: NotNegativeNumber = Field(default=10.0, description="what it grows by with the pressure")
-    air: Annotated[OneNumber, Quantity("number", positive=True)] = Field(
+    density: Maybe[Density] = Field(
+        default=None, description="of the liquid at atmospheric pressure; default 870 kg/m³", usual=LIQUID_DENSITY
+    )
+    bulk_modulus: Maybe[Pressure] = Field(
+        default=None, description="of the liquid at atmospheric pressure; default 1.5 GPa", usual=BULK_MODULUS
+    )
+    bulk_modulus_slope: Maybe[NotNegativeNumber] = Field(
+        default=None, description="what it grows by with the pressure; default 10"
+    )
+    air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
         default=0.005, description="undissolved air: its share of the volume at atmospheric pressure"
     )
     gas_exponent: Exponent = Field(default=1.4, description="polytropic exponent of the air: 1.4 fast, 1 slow")
-    viscosity: Viscosity = Field(default=46e-6, description="kinematic", usual=VISCOSITY)
+    dissolved_air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
+        default=0.0, description="volume at atmospheric pressure of the air that comes out below `saturation_pressure`"
+    )
+    saturation_pressure: Pressure = Field(
+        default=101325.0, description="absolute, from which on that air is dissolved", usual=PRESSURE
+    )
+    vapour_pressure: Maybe[Pressure] = Field(
+        default=None, description="absolute, at which the liquid boils; default: only the air cavitates", usual=VAPOUR
+    )
+    viscosity: Maybe[Viscosity] = Field(default=None, description="kinematic; default 46 mm²/s", usual=VISCOSITY)
+    pressure_viscosity: Maybe[NotNegativeNumber] = Field(
+        default=None, description="of lines: Barus's α in 1/Pa, with which the viscosity grows as exp(α p); default 0"
+    )
+
+    @property
+    def liquid(self) -> Liquid:
+        """What is given, then what the grade says, then the defaults."""
+        base = MINERAL if self.grade is None else GRADES[self.grade].at(self.temperature)
+        keys = [each.name for each in fields(Liquid)]
+        return replace(base, **{key: getattr(self, key) for key in keys if getattr(self, key) is not None})
 
     @property
     def mixed_density(self) -> float:
         """[kg/m³] of liquid and air at atmospheric pressure."""
-        return (1.0 - self.air) * self.density + self.air * AIR_DENSITY
+        return (1.0 - self.air) * self.liquid.density + self.air * AIR_DENSITY
+
+    @property
+    def least_pressure(self) -> float:
+        """[Pa] at which it turns to vapour; of a liquid without air in any case, so that it bears no tension. 0: not at all."""
+        return self.vapour_pressure or (LOW_VAPOUR if self.air < LEAST_AIR else 0.0)
 
     def problems(self) -> Iterator[Problem]:
-        if not LEAST_AIR <= self.air <= MOST_AIR:
-            asked = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume was expected, got {self.air:g}"
-            yield Problem(("air",), f"{asked}; without any, a liquid would bear tension")
-        if self.bulk_modulus < 1e7:
+        if not (self.air == 0.0 or LEAST_AIR <= self.air <= MOST_AIR):
+            asked = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume, or 0, was expected, got {self.air:g}"
+            yield Problem(("air",), asked)
+        if self.dissolved_air > MOST_AIR:
+            yield Problem(
+                ("dissolved_air",), f"up to {MOST_AIR:g} of the volume was expected, got {self.dissolved_air:g}"
+            )
+        if self.vapour_pressure is not None and self.vapour_pressure >= 0.5 * ATMOSPHERE:
+            told = f"a pressure below 0.5 bar was expected, got {self.vapour_pressure:g} Pa"
+            yield Problem(("vapour_pressure",), f"{told}; what boils at the air is no liquid")
+        if self.bulk_modulus is not None and self.bulk_modulus < 1e7:
             yield Problem(
                 ("bulk_modulus",), f"a liquid has a bulk modulus of about 1.5 GPa, got {self.bulk_modulus:g} Pa"
             )

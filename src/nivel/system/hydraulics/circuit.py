@@ -15,7 +15,7 @@ from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]
 ROOM = 5  # columns of `Circuit.room`
-FLUID = 10  # columns of `Circuit.fluid`
+FLUID = 14  # columns of `Circuit.fluid`
 
 
 def tangent_tables(

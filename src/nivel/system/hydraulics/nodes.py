@@ -30,7 +30,7 @@ from nivel.machine.hydraulics.fluid import OIL, REFERENCE_PRESSURE, REFERENCE_TE
 from nivel.machine.uses.hydraulic_uses import makers
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.restitution import damping_of_restitution
-from nivel.system.hydraulics.circuit import FLUID, Node
+from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.fluid_law import density_and_modulus
 from nivel.system.located import located
 from nivel.system.signals.state_facts import Coupled, StateFact
@@ -40,6 +40,7 @@ TYPICAL = 1e7
 TYPICAL_OF_GAS = 5e5
 Swept = dict[str, float]  # what pistons leave open in each node at half their strokes [m³]
 NodeMaker = Callable[[SystemBuilder, Any, Swept], Iterator[Node]]
+NO_GAS = (0.0, 0.0, 0.0, 0.0)  # constants of gases, of a liquid
 RIGID = (0.0, 0.0, 0.0, 1.0, 1.0)  # of `Circuit.room`: no volume, no wall, no gas
 
 
@@ -55,10 +56,11 @@ def fluid_constants(fluid: Fluid | Gas) -> tuple[float, ...]:
         density = ATMOSPHERE / (fluid.gas_constant * fluid.temperature)
         reference = REFERENCE_PRESSURE / (fluid.gas_constant * math.sqrt(REFERENCE_TEMPERATURE))
         of_gas = (fluid.gas_constant, fluid.heat_capacity_ratio, fluid.temperature, reference)
-        return (1.0, ATMOSPHERE, 0.0, 1.0, density, 0.0, *of_gas)
-    modulus, slope = fluid.bulk_modulus, fluid.bulk_modulus_slope
-    of_liquid = (fluid.air, modulus, slope, fluid.gas_exponent, fluid.mixed_density, fluid.viscosity)
-    return (*of_liquid, *[0.0] * (FLUID - len(of_liquid)))
+        return (1.0, ATMOSPHERE, 0.0, 1.0, density, 0.0, *of_gas, 0.0, 0.0, 0.0, 0.0)
+    liquid = fluid.liquid
+    of_liquid = (fluid.air, liquid.bulk_modulus, liquid.bulk_modulus_slope, fluid.gas_exponent)
+    released = (fluid.dissolved_air, fluid.saturation_pressure, fluid.least_pressure, liquid.pressure_viscosity)
+    return (*of_liquid, fluid.mixed_density, liquid.viscosity, *NO_GAS, *released)
 
 
 def add_nodes(builder: SystemBuilder, makers: Mapping[str, NodeMaker]) -> None:

@@ -508,6 +508,18 @@ EVERYTHING = {
             "inertia": True,
         },
         {
+            "name": "long",
+            "type": "line",
+            "ports": {"A": "line", "B": "supply"},
+            "diameter": "16 mm",
+            "diameter_B": "12 mm",
+            "length": 20,
+            "segments": 4,
+            "expansion": {"pressures": ["100 bar", "200 bar"], "volumes": ["4 cm^3/m", "6 cm^3/m"]},
+            "bends": 1.2,
+            "start": "80 bar",
+        },
+        {
             "name": "ram",
             "type": "cylinder",
             "markers": ["tip", {"body": "a"}],

@@ -3,8 +3,9 @@
     v(p) = (1 - α) L^(-1/β') + (α + α_d (1 - p/p_s)) (pa/p)^(1/n) + (p_v/p)^m        L = 1 + β' (p - pa)/β₀        β = ρ dp/dρ = -v/v'
 
 α is the volume fraction of the air at atmospheric pressure pa that is always there, and polytropic. α_d is dissolved from the saturation
-pressure p_s on and comes out below it as Henry's law says, at once. Liquid turns to vapour at the pressure p_v: m is large. β₀ + β' (p - pa)
-is the bulk modulus of the liquid. A volume that is emptied cavitates by the same law, and keeps its mass. Enthalpy h = ∫ dp/ρ from pa.
+pressure p_s on and comes out below it as Henry's law says, at once. Liquid turns to vapour at the pressure p_v: m is large. β₀ and β' are
+the bulk modulus of the liquid and its growth with p - pa. A volume that is emptied cavitates by the same law, and keeps its mass.
+Enthalpy h = ∫ dp/ρ from pa.
 """
 
 from __future__ import annotations

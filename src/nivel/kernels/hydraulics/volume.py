@@ -1,7 +1,7 @@
 """Pressures of the nodes of a circuit: volumes, given pressures, and pressures that are signals.
 
 The state of a volume is the mass m of its fluid; its pressure is the root of m v(p)/ρ₀ = V + V_e(p). V is what pistons leave open and a
-constant part, V_e what elastic walls, (p - pa) C, and the gas of an accumulator make room for. Energy stored:
+constant part, V_e what elastic walls, (p - pa) C or a curve, and the gas of an accumulator make room for. Energy stored:
 
     E = m h - (p - pa) (V + V_e) + ∫ (p - pa) dV_e
 
@@ -32,6 +32,8 @@ VOLUME, GIVEN, SIGNAL = 0, 1, 2
 # columns of `Circuit.room`: constant volume [m³], room that elastic walls make [m³/Pa]; gas of an accumulator: volume [m³], precharge [Pa],
 # exponent
 FIXED, COMPLIANCE, GAS, PRECHARGE, EXPONENT = 0, 1, 2, 3, 4
+# and of a hose with a curve the number of its points, then MOST_POINTS pairs: pressure [Pa], room that it makes [m³] from pa on
+POINTS, FIRST_POINT, MOST_POINTS = 5, 6, 6
 # columns of `Circuit.known`: mass [kg] and volume [m³] without V_e, pressure, v and its derivative, ρ₀ h, V_e and its derivative
 MASS, OPEN, PRESSURE, VALUE, RATE, ENERGY, EXTRA, GIVE = 0, 1, 2, 3, 4, 5, 6, 7
 # Gas comes to rest on its inlet within this share of its volume, or that of the dead volume where it is less.
@@ -48,9 +50,28 @@ def rest_width(n):
 
 
 @leaf
+def hose_room(n, p):
+    """(V [m³], dV/dp, ∫ (p - pa) dV [J]) of the curve of a hose: straight lines from none at pa through its points, and on beyond."""
+    pressure, volume, stored, slope = ATMOSPHERE, 0.0, 0.0, 0.0
+    for k in range(int(n[POINTS])):
+        end, grown = n[FIRST_POINT + 2 * k], n[FIRST_POINT + 2 * k + 1]
+        slope = (grown - volume) / (end - pressure)
+        if p <= end or k + 1 == int(n[POINTS]):
+            break
+        stored += 0.5 * slope * ((end - ATMOSPHERE) ** 2 - (pressure - ATMOSPHERE) ** 2)
+        pressure, volume = end, grown
+    stored += 0.5 * slope * ((p - ATMOSPHERE) ** 2 - (pressure - ATMOSPHERE) ** 2)
+    return volume + slope * (p - pressure), slope, stored
+
+
+@leaf
 def room(n, p):
     """(V_e [m³], dV_e/dp) at the real pressure p."""
     volume, slope = n[COMPLIANCE] * (p - ATMOSPHERE), n[COMPLIANCE]
+    if n[POINTS] > 0.0:
+        grown, more, _ = hose_room(n, p)
+        volume += grown
+        slope += more
     if n[GAS] > 0.0:
         left, width = (n[PRECHARGE] / p) ** (1.0 / n[EXPONENT]), rest_width(n)
         if p >= n[PRECHARGE]:
@@ -66,6 +87,8 @@ def room(n, p):
 def energy_of_room(n, p):
     """∫ (p - pa) dV_e [J]: of walls from atmospheric pressure to p, of gas from its precharge."""
     stored = 0.5 * n[COMPLIANCE] * (p - ATMOSPHERE) ** 2
+    if n[POINTS] > 0.0:
+        stored += hose_room(n, p)[2]
     if n[GAS] > 0.0:
         pressed = np.log(p / n[PRECHARGE]) / n[EXPONENT]  # -ln(1 - y)
         if p >= n[PRECHARGE]:

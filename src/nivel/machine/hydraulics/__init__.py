@@ -21,6 +21,7 @@ from nivel.machine.hydraulics.directional import DirectionalValve
 from nivel.machine.hydraulics.flow_valves import FlowControl, FlowDivider, PriorityValve, ShuttleValve
 from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
 from nivel.machine.hydraulics.machines import Engine, FlowSource, HydraulicMotor, Pump
+from nivel.machine.hydraulics.maps import HoseExpansion
 from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
 from nivel.machine.hydraulics.pressure_valves import (
     BrakeValve,
@@ -31,7 +32,7 @@ from nivel.machine.hydraulics.pressure_valves import (
     SequenceValve,
     UnloadingValve,
 )
-from nivel.machine.hydraulics.restrictions import Orifice, Pipe
+from nivel.machine.hydraulics.restrictions import Line, Orifice, Pipe
 from nivel.machine.hydraulics.sections import Section
 from nivel.machine.hydraulics.spool_valve import Edge, Notch, Solenoid, SpoolValve, Switching
 from nivel.machine.hydraulics.valves import (
@@ -49,6 +50,7 @@ COMPONENTS: list[type[Component]] = [
     LoadSensing,
     Orifice,
     Pipe,
+    Line,
     CheckValve,
     ReliefValve,
     CounterbalanceValve,
@@ -123,9 +125,11 @@ __all__ = [
     "FlowSource",
     "Fluid",
     "Gas",
+    "HoseExpansion",
     "HydraulicComponent",
     "HydraulicCylinder",
     "HydraulicMotor",
+    "Line",
     "LoadSensing",
     "Notch",
     "Orifice",

@@ -44,7 +44,10 @@ MOST_RATIO = 5.0 / 3.0  # of c_p over c_v, of gases of one atom
 
 
 class Fluid(Checked):
-    """Constants of the law of density in `docs/hydraulics.md`, or a grade at a temperature. The defaults are those of a mineral oil at 40 °C."""
+    """Constants of the law of density in `docs/hydraulics.md`, or a grade at a temperature.
+
+    The defaults are those of a mineral oil at 40 °C.
+    """
 
     collection: ClassVar[str] = "fluids"
 

@@ -1,18 +1,20 @@
-"""Tables of pumps, motors and engines: efficiencies, greatest settings over pressure, torque over speed."""
+"""Tables of machines and hoses: efficiencies, greatest settings over pressure, torque over speed, growth over pressure."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Checked, Problem
-from nivel.machine.core.coefficient import Numbers, Pressure, Torques
+from nivel.machine.core.coefficient import Numbers, Pressure, Torques, Volume
 from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.units.quantity import Quantity, listed
 
+Area = Annotated[OneNumber, Quantity("area", positive=True)]
+MOST_POINTS = 6  # of the growth of a hose
 Pressures = Annotated[ManyNumbers[Pressure], BeforeValidator(listed)]
 Speeds = Annotated[
     ManyNumbers[Annotated[OneNumber, Quantity("angular velocity", positive=True)]], BeforeValidator(listed)
@@ -90,3 +92,31 @@ class EfficiencyMap(Checked):
             yield from _as_many(key, getattr(self, key), over, count)
             if any(not 0.0 < each <= 1.0 for each in getattr(self, key)):
                 yield Problem((key,), "efficiencies above 0 and up to 1 were expected")
+
+
+class HoseExpansion(Checked):
+    """What a hose grows by over the pressure above that of the air: straight lines from none, and on beyond the last point."""
+
+    pressures: Pressures = Field(description="above that of the air, increasing")
+    volumes: ManyNumbers[Any]
+
+    def problems(self) -> Iterator[Problem]:
+        yield from _rising("pressures", self.pressures)
+        yield from _as_many("volumes", self.volumes, "`pressures`", len(self.pressures))
+        yield from _rising("volumes", self.volumes)
+        if not 1 <= len(self.pressures) <= MOST_POINTS:
+            yield Problem(("pressures",), f"1 to {MOST_POINTS} points were expected, got {len(self.pressures)}")
+
+
+class VolumeExpansion(HoseExpansion):
+    """Growth of a whole volume."""
+
+    volumes: Annotated[ManyNumbers[Volume], BeforeValidator(listed)] = Field(description="that it grows by")
+
+
+class LengthExpansion(HoseExpansion):
+    """Growth of each length of a hose, as catalogues state it."""
+
+    volumes: Annotated[ManyNumbers[Area], BeforeValidator(listed)] = Field(
+        description="that each length grows by: cm^3/m"
+    )

@@ -7,12 +7,13 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from nivel.machine.core.checked import Problem
+from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
 from nivel.machine.core.coefficient import Volume as VolumeSize
 from nivel.machine.core.record import Name
-from nivel.machine.given import Field, ManyNames, Maybe
+from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
 from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.maps import VolumeExpansion
 from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
@@ -35,6 +36,9 @@ class Volume(Component):
         description="pressure over the relative growth of the volume; default: rigid walls",
         usual=WALL_MODULUS,
     )
+    expansion: Maybe[OneRecord[VolumeExpansion]] = Field(
+        default=None, description="growth of the volume over the pressure, of a hose, in place of `wall_modulus`"
+    )
     heat_conductance: Maybe[ThermalConductance] = Field(
         default=None, description="of gases: heat through the walls over the difference of temperature; default: none"
     )
@@ -42,6 +46,11 @@ class Volume(Component):
         default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
     )
     fluid: Name | None = Field(default=None, description="default: the only one")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.expansion is not None and self.wall_modulus is not None:
+            yield superfluous("wall_modulus", "is of walls that grow evenly; `expansion` is a curve; give one of them")
 
 
 class Tank(Component):

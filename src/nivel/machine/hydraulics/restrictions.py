@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from math import pi
+from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Leakage, Pressure, Share, Truth
-from nivel.machine.given import Field, Maybe
+from nivel.machine.core.coefficient import Leakage, NotNegativeNumber, Pressure, Share, Truth
+from nivel.machine.core.record import Name, entry
+from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.hydraulics.component import Component, Rating, problem_of_share
-from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, PIPE_LENGTH
+from nivel.machine.hydraulics.maps import LengthExpansion
+from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, PIPE_LENGTH, PRESSURE, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.quantity import PositiveLength
+from nivel.machine.units.quantity import PositiveLength, Whole
 
+MOST_SEGMENTS = 100
 Opening = Annotated[OneFunction, varying("number")]
 
 
@@ -63,3 +67,54 @@ class Pipe(Component):
     diameter: PositiveLength = Field(usual=BORE)
     length: PositiveLength = Field(usual=PIPE_LENGTH)
     inertia: Truth = Field(default=False, description="whether the flow has inertia: a state")
+
+
+class Line(Component):
+    """A long pipe or hose in segments, each a volume, with inertia and friction that depends on the frequency between them.
+
+    `segments` volumes NAME.1 … lie between A and B; the first and the last flow pass half of one.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("A", "B")
+    passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
+    nodes: ClassVar[tuple[str, ...]] = (".1",)
+    late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B")
+
+    type: Literal["line"] = "line"
+    diameter: PositiveLength = Field(usual=BORE)
+    diameter_B: Maybe[PositiveLength] = Field(
+        default=None, description="at B, where it changes evenly along the line", usual=BORE
+    )
+    length: PositiveLength = Field(usual=PIPE_LENGTH)
+    segments: Whole = Field(default=10, description="number of its volumes, up to 100")
+    unsteady_friction: Truth = Field(default=True, description="whether friction depends on the frequency (Zielke)")
+    bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
+    wall_modulus: Maybe[Pressure] = Field(default=None, description="as of a volume", usual=WALL_MODULUS)
+    expansion: Maybe[OneRecord[LengthExpansion]] = Field(
+        default=None, description="growth of a hose over the pressure, in place of `wall_modulus`"
+    )
+    start: Maybe[Pressure] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
+    )
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+    def diameter_at(self, share: float) -> float:
+        """[m] at a share of the length from A."""
+        return self.diameter + share * ((self.diameter_B or self.diameter) - self.diameter)
+
+    @property
+    def areas_of_segments(self) -> list[float]:
+        """[m²] in the middle of each."""
+        return [0.25 * pi * self.diameter_at((k + 0.5) / self.segments) ** 2 for k in range(self.segments)]
+
+    @classmethod
+    def nodes_in(cls, data: Any) -> tuple[str, ...]:
+        count = entry(data, "segments")
+        return tuple(f".{k + 1}" for k in range(count if isinstance(count, int) else 10))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if not 1 <= self.segments <= MOST_SEGMENTS:
+            yield Problem(("segments",), f"1 to {MOST_SEGMENTS} segments were expected, got {self.segments}")
+        if self.expansion is not None and self.wall_modulus is not None:
+            yield superfluous("wall_modulus", "is of walls that grow evenly; `expansion` is a curve; give one of them")

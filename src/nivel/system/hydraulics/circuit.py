@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics.volume import VOLUME
+from nivel.kernels.hydraulics.volume import FIRST_POINT, MOST_POINTS, VOLUME
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit
 from nivel.system.signals.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]
-ROOM = 5  # columns of `Circuit.room`
+ROOM = FIRST_POINT + 2 * MOST_POINTS  # columns of `Circuit.room`
 FLUID = 14  # columns of `Circuit.fluid`
+
+
+def filled_room(room: Sequence[float]) -> list[float]:
+    """A row of `Circuit.room` of these numbers, behind which there are none."""
+    return [*room, *[0.0] * (ROOM - len(room))]
 
 
 def tangent_tables(
@@ -124,7 +130,7 @@ class CircuitTable:
         return Circuit(
             node=index_array(flowing, 3),
             fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), FLUID),
-            room=np.array([node.room for node in nodes], dtype=float).reshape(count, ROOM),
+            room=np.array([filled_room(node.room) for node in nodes], dtype=float).reshape(count, ROOM),
             secant=np.zeros(1, dtype=np.uint32),
             guard=np.zeros(2),
             kept=work(),

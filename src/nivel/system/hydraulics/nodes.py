@@ -18,7 +18,9 @@ from nivel.machine.hydraulics import (
     Component,
     Fluid,
     Gas,
+    HoseExpansion,
     HydraulicCylinder,
+    Line,
     LoadSensing,
     RotaryActuator,
     Tank,
@@ -41,6 +43,7 @@ TYPICAL_OF_GAS = 5e5
 Swept = dict[str, float]  # what pistons leave open in each node at half their strokes [m³]
 NodeMaker = Callable[[SystemBuilder, Any, Swept], Iterator[Node]]
 NO_GAS = (0.0, 0.0, 0.0, 0.0)  # constants of gases, of a liquid
+NO_ACCUMULATOR = (0.0, 1.0, 1.0)  # GAS, PRECHARGE, EXPONENT of `Circuit.room`
 RIGID = (0.0, 0.0, 0.0, 1.0, 1.0)  # of `Circuit.room`: no volume, no wall, no gas
 
 
@@ -102,8 +105,28 @@ def _know_pressures(builder: SystemBuilder, component: Component) -> None:
 
 def volume_nodes(builder: SystemBuilder, component: Volume, swept: Swept) -> Iterator[Node]:
     """The node that a volume is."""
-    room = (component.volume, _compliance(component.volume, component.wall_modulus), 0.0, 1.0, 1.0)
+    compliance = _compliance(component.volume, component.wall_modulus)
+    room = (component.volume, compliance, *NO_ACCUMULATOR, *hose_points(component.expansion, 1.0))
     yield _volume(builder, component, component.name, "", room, component.start, swept)
+
+
+def hose_points(expansion: HoseExpansion | None, length: float) -> list[float]:
+    """POINTS … of `Circuit.room`: the growth of a hose of this length [m], or of a whole one."""
+    if expansion is None:
+        return []
+    pairs = zip(expansion.pressures, expansion.volumes, strict=True)
+    points = [number for p, volume in pairs for number in (p + ATMOSPHERE, volume * length)]
+    return [float(len(expansion.pressures)), *points]
+
+
+def line_nodes(builder: SystemBuilder, component: Line, swept: Swept) -> Iterator[Node]:
+    """The volumes of the segments of a line."""
+    length = component.length / component.segments
+    for k, area in enumerate(component.areas_of_segments):
+        size = area * length
+        curve = hose_points(component.expansion, length)
+        room = (size, _compliance(size, component.wall_modulus), *NO_ACCUMULATOR, *curve)
+        yield _volume(builder, component, f"{component.name}.{k + 1}", f"_{k + 1}", room, component.start, swept)
 
 
 def accumulator_nodes(builder: SystemBuilder, component: Accumulator, swept: Swept) -> Iterator[Node]:

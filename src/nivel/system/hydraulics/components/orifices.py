@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 
-from nivel.kernels.hydraulics import pipe, restriction
+from nivel.kernels.hydraulics import line, pipe, restriction
+from nivel.kernels.hydraulics.fluid import DENSITY, MODULUS, VISCOSITY
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.kernels.hydraulics.tangent import PIPE, RESTRICT
 from nivel.kernels.record.record import NONE
-from nivel.machine.hydraulics import Orifice, Pipe
+from nivel.machine.hydraulics import Line, Orifice, Pipe
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.kind import ComponentKind
+from nivel.system.hydraulics.nodes import line_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
 from nivel.system.signals.state_facts import StateFact
 
@@ -66,7 +68,44 @@ def add_pipe(builder: SystemBuilder, component: Pipe) -> None:
     builder.elements.add(pipe.apply, columns, [resistance, critical, area / component.length, density])
 
 
+def add_line(builder: SystemBuilder, component: Line) -> None:
+    """The flows between A, the segments and B."""
+    name, count = component.name, component.segments
+    nodes = [component.ports["A"], *(f"{name}.{k + 1}" for k in range(count)), component.ports["B"]]
+    fluid = builder.circuit.fluids[builder.circuit.nodes[nodes[1]].fluid]
+    density, viscosity = fluid[DENSITY], fluid[VISCOSITY]
+    terms = _friction_terms(component, fluid) if component.unsteady_friction else 0
+    for k in range(count + 1):
+        begin, end = max(0.0, (k - 0.5) / count), min(1.0, (k + 0.5) / count)
+        d, length = component.diameter_at(0.5 * (begin + end)), (end - begin) * component.length
+        ending = {0: "A", count: "B"}.get(k, str(k))
+        first = builder.outputs.add((f"hydraulics.{name}.flow_{ending}", "m^3/s", f"flow at {ending} of {name}"))
+        area = 0.25 * math.pi * d**2
+        critical = CRITICAL_REYNOLDS * viscosity * area / d
+        words = f"mass flow at {ending} of {name}"
+        state = builder.own_state(StateFact(f"{name}.mass_flow_{ending}", "kg/s", words, 0.0, density * critical))
+        words = f"friction at {ending} of {name}"
+        parts = [
+            builder.own_state(StateFact(f"{name}.friction_{ending}_{i + 1}", "m^3/s", words, 0.0, critical))
+            for i in range(terms)
+        ]
+        numbers = [128.0 * viscosity * length / (math.pi * d**4), critical, area / length, density]
+        numbers += [0.5 * component.bends * (end - begin) / area**2, 16.0 * viscosity * length / (d**2 * area)]
+        numbers += [4.0 * viscosity / d**2, 1e-3 * critical]
+        columns = [first, builder.node(nodes[k]), builder.node(nodes[k + 1]), state, parts[0] if parts else 0, terms]
+        builder.elements.add(line.apply, columns, numbers)
+
+
+def _friction_terms(component: Line, fluid: tuple[float, ...]) -> int:
+    """How many exponentials are slower than the segments can vibrate, and the next one."""
+    length, d = component.length / component.segments, component.diameter
+    fastest = 2.0 * math.sqrt(fluid[MODULUS] / fluid[DENSITY]) / length
+    slower = [rate for rate in line.RATES if rate * 4.0 * fluid[VISCOSITY] / d**2 < fastest]
+    return min(len(slower) + 1, len(line.RATES))
+
+
 KINDS = (
+    ComponentKind(Line, add_line, (line.apply,), symbols.pipe, {line.apply: line.add_slopes}, line_nodes),
     ComponentKind(Orifice, add_orifice, (restriction.apply,), symbols.orifice, {restriction.apply: RESTRICT}),
     ComponentKind(Pipe, add_pipe, (pipe.apply,), symbols.pipe, {pipe.apply: PIPE}),
 )

@@ -53,7 +53,7 @@ class Fluid(Checked):
 
     name: Name
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
-    grade: GradeName | None = Field(default=None, description="a fluid by name; other keys that are given go before it")
+    grade: GradeName | None = Field(default=None, description="a fluid by name; values that are given override its own")
     temperature: Temperature = Field(
         default=313.15, description="at which a `grade` has its constants", usual=TEMPERATURE
     )

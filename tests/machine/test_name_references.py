@@ -165,15 +165,15 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"forces": ({**CONTACT, "body": "plain", "plane": "base"},)},
-            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, box, cylinder, extrusion or mesh",
+            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, capsule, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "body": "pipe", "plane": "base"},)},
-            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, box, cylinder, extrusion or mesh",
+            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, box, cylinder, extrusion or mesh",
         ),
         (
-            {"forces": ({**CONTACT, "bodies": ("rod", "slab")},)},
-            "forces.c.bodies: `rod` a sphere and `slab` a box: two spheres can touch, or two of box, extrusion, mesh",
+            {"forces": ({**CONTACT, "bodies": ("rod", "slab"), "foundation_modulus": 1e8},)},
+            "forces.c.foundation_modulus: is for two of box, cylinder, extrusion, mesh; what touches a sphere or capsule takes",
         ),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "tip"},)}, "forces.c.plane: the plane is on `rod` itself"),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "flor"},)}, "forces.c.plane: there is no marker `flor`"),

@@ -100,6 +100,23 @@ ON = ("c", "", [-0.5, 0.9, 0.4])
 ON_FLOOR = {**CONTACT, "body": "c", "plane": "floor"}
 MOUNT = {"type": "bushing", **BETWEEN, "stiffness": [4, 6, 8, 0.5, 0.8, 0.6], "damping": [1, 2, 1, 0.1, 0.2, 0.1]}
 
+OTHERS = {
+    "box": {"type": "box", "size": [0.6, 0.5, 0.4]},
+    "cylinder": {"type": "cylinder", "radius": 0.3, "length": 0.5},
+    "capsule": {"type": "capsule", "radius": 0.3, "length": 0.5},
+    "prism": {"type": "extrusion", "outline": PRISM, "length": 0.5},
+}
+
+
+def round_pair(first, second, apart, contact=CONTACT):
+    """Body c, with the first shape, and a block with the second one, which touch."""
+    more = {
+        **shape("c", first["type"], **{k: v for k, v in first.items() if k != "type"})["bodies"],
+        "block": {"shape": second, "mass": 0.5, "position": [-0.4, 0.6, 1.9]},
+    }
+    return Case({**contact, "bodies": ["c", "block"]}, ("c", "block", apart), True, {"bodies": more})
+
+
 LEVER = {"range": [-1, 1], "signal": {"times": [0, 1], "values": [0.1, 0.5]}}
 CASES = {
     "spring": Case({"type": "spring-damper", **BETWEEN, "stiffness": 80, "free_length": 0.3, "damping": 2, "preload": 5}),
@@ -161,6 +178,14 @@ CASES = {
     "spheres": Case({**CONTACT, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
                     {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
                                 "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
+    "capsule": Case(ON_FLOOR, ON, True, shape("c", "capsule", radius=0.2, length=0.5)),
+    "capsule, sticks": Case(ON_FLOOR_STICKING, ON, True, shape("c", "capsule", radius=0.2, length=0.5)),
+    **{f"sphere and {name}": round_pair({"type": "sphere", "radius": 0.35}, other, [-0.5, -0.3, 0.1])
+       for name, other in OTHERS.items()},
+    **{f"capsule and {name}": round_pair({"type": "capsule", "radius": 0.2, "length": 0.5}, other, [-0.45, -0.25, 0.15])
+       for name, other in OTHERS.items()},
+    "box and capsule, stick": round_pair({"type": "box", "size": [0.5, 0.6, 0.4]}, {"type": "capsule", "radius": 0.25, "length": 0.6},
+                                         [-0.4, -0.25, 0.2], STICKING),
     "hulls": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3,
                    "friction_model": "coulomb", "friction_transition_speed": 0.8,
                    "bodies": ["c", "block"]}, ("c", "block", [-0.38, -0.25, 0.1]), True,

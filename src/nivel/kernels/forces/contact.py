@@ -28,8 +28,8 @@ from nivel.native.function import stage
 # the other sphere; LAW: of the normal force, or NONE; COUNT: points that may touch; PATCH: first friction of a patch, or NONE, AXES:
 # how many it has, COORDINATE: the first of these; SURFACE: the columns of a surface that moves over its body
 OUTPUT, KIND, MARKER, OTHER, LAW, COUNT, PATCH, AXES, COORDINATE, SURFACE = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
-# a law reads overlap and rate of its point among the outputs
-SPHERE, BOX, CYLINDER, SPHERES, HULL, CAPSULE, ELLIPSOID = 0, 1, 2, 3, 4, 5, 6
+# a law reads overlap and rate of its point among the outputs; ROUND: two bodies of `nivel.kernels.forces.round_contact`
+SPHERE, BOX, CYLINDER, SPHERES, HULL, CAPSULE, ELLIPSOID, ROUND = 0, 1, 2, 3, 4, 5, 6, 7
 # columns of `number`; SIZE: radius; half lengths; radius and half length; semi-axes; the two radii; RADIUS: of a ball about the marker that
 # holds the shape, of two spheres 0. Then work: a point, a normal, sums over the points (force, moments of first and second order, force
 # times velocity of the point; friction on the first body; sum of the sizes of friction, power lost, power of the moving surface, power,
@@ -240,6 +240,9 @@ def speed_of_point(machine, k, n):
     )
     i, j, kind, p = columns[MARKER], columns[OTHER], columns[KIND], numbers[POINT:NORMAL]
     w, W = bodies.omega[markers.body[i]], bodies.omega[markers.body[j]]
+    if kind == ROUND:
+        v, u = velocity_at(bodies, markers.body[i], p), velocity_at(bodies, markers.body[j], p)
+        return 0.5 * (v[0] + u[0]), 0.5 * (v[1] + u[1]), 0.5 * (v[2] + u[2])
     normal, o = (numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]), markers.r[j]
     r = markers.r[i, 0], markers.r[i, 1], markers.r[i, 2]
     if kind == CAPSULE:
@@ -323,7 +326,7 @@ def find_patch(machine, k):
     d, reach = middle_of(sums)
     n = numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]
     t, u = axis(markers.A[j], 0), axis(markers.A[j], 1)
-    if columns[KIND] == SPHERES:
+    if columns[KIND] in (SPHERES, ROUND):
         t, u = tangents(markers.A[j], n)
     p, pdot = plus(markers.r[columns[MARKER]], d), (sums[5] / load, sums[6] / load, sums[7] / load)
     o = 0.0 * load
@@ -360,12 +363,10 @@ def is_far(machine, k):
 
 
 @stage
-def look(machine, k, n, t):
-    """Find point n of contact k, and push where it touches."""
+def press(machine, k, n, depth, rate, t):
+    """Push at point n of contact k, where it touches."""
     record = record_at(machine)
     elements, followed, numbers = record.elements, record.watched.followed[0], record.elements.number[k]
-    depth = find_point(machine, k, n)
-    rate = approach(machine, k)
     if real(depth) > real(numbers[DEEPEST]):
         numbers[DEEPEST], numbers[ITS_RATE] = depth, rate
     elements.depth[k, n] = depth
@@ -416,6 +417,7 @@ def apply(machine, number, t):
         begin_contact(machine, k, t)
         if not is_far(machine, k):
             for n in range(elements.columns[k, COUNT]):
-                look(machine, k, n, t)
+                depth = find_point(machine, k, n)
+                press(machine, k, n, depth, approach(machine, k), t)
         report_contact(machine, k)
     return OK

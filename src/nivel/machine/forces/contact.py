@@ -1,4 +1,4 @@
-"""Contact of a body with a plane, of two spheres, or of two convex hulls."""
+"""Contact of a body with a plane, or of two bodies."""
 
 from __future__ import annotations
 
@@ -28,8 +28,9 @@ from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import listed
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
-HULLS: Final = ("box", "extrusion", "mesh")  # that touch each other, with their convex hulls
-SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder", "extrusion", "mesh")
+HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
+ROUND: Final = ("sphere", "capsule")  # that touch everything at the nearest points
+SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
 
 
 class Material(Record):
@@ -44,9 +45,9 @@ class Material(Record):
 class Contact(ForceElement):
     """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, or by a `law`; with Coulomb friction.
 
-    A `body` with the shape sphere, box, cylinder, extrusion or mesh on a `plane`; two `bodies`, both spheres; or two `bodies` of the shapes
-    box, extrusion and mesh, which touch with their convex hulls and press by `foundation_modulus` · depth on every point of the area
-    where they touch.
+    A `body` with the shape sphere, capsule, box, cylinder, extrusion or mesh on a `plane`; two `bodies`, of which one is a sphere or a
+    capsule, at the nearest points; or two `bodies` of the shapes box, cylinder, extrusion and mesh, which touch with their convex hulls
+    and press by `foundation_modulus` · depth on every point of the area where they touch.
     """
 
     outputs: ClassVar[tuple[str, ...]] = (
@@ -57,14 +58,15 @@ class Contact(ForceElement):
 
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
-        default=None, description="that touches the `plane`; its shape is sphere, box, cylinder, extrusion or mesh"
+        default=None,
+        description="that touches the `plane`; its shape is sphere, capsule, box, cylinder, extrusion or mesh",
     )
     plane: Maybe[MarkerPlace] = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"
     )
     bodies: Maybe[TwoNames[BodyName]] = Field(
         default=None,
-        description="two spheres, or two of the shapes box, extrusion and mesh, in place of `body` and `plane`",
+        description="two bodies with a shape, in place of `body` and `plane`",
     )
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
     stiffness: Maybe[PowerStiffness] = Field(default=None, description="force by depth ** exponent")
@@ -73,7 +75,7 @@ class Contact(ForceElement):
     )
     foundation_modulus: Maybe[FoundationModulus] = Field(
         default=None,
-        description="pressure by depth where two bodies of the shapes box, extrusion and mesh touch, in place of `stiffness`",
+        description="pressure by depth where two bodies of the shapes box, cylinder, extrusion and mesh touch, in place of `stiffness`",
     )
     damping: Maybe[DampingPerLoad] = Field(
         default=None,
@@ -176,9 +178,7 @@ class Contact(ForceElement):
             )
         if self.stiffness is None and self.materials is None:
             message = "`stiffness` is missing: a contact needs a `stiffness`, a `law` or, of spheres, two `materials`"
-            hulls = (
-                "; two boxes, extrusions or meshes need a `foundation_modulus`, as in `foundation_modulus: 1e10 N/m^3`"
-            )
+            hulls = "; two boxes, cylinders, extrusions or meshes need a `foundation_modulus`, as in `foundation_modulus: 1e10 N/m^3`"
             yield Problem((), message + (hulls if self.bodies is not None else ""))
         if self.stiffness is not None and self.materials is not None:
             yield superfluous("materials", "stands in place of `stiffness`; give one of them")

@@ -10,7 +10,7 @@ from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
 from nivel.machine.forces import Contact
-from nivel.machine.forces.contact import HULLS, SHAPES_ON_PLANE
+from nivel.machine.forces.contact import HULLS, ROUND, SHAPES_ON_PLANE
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters
@@ -159,28 +159,25 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
-    """Two spheres, or two hulls: what the first is, the second must be."""
+    """Two bodies with shapes: those of a round one have a stiffness, two hulls a foundation."""
     pair = as_list(entry(contact, "bodies"))
     shapes = [index.bodies.get(body, "") if isinstance(body, str) else "" for body in pair]
-    hulls = any(each in HULLS for each in shapes)
-    known = hulls or "sphere" in shapes
-    allowed = HULLS if hulls else ("sphere",) if known else ("sphere", *HULLS)
-    if hulls and "sphere" in shapes:
-        said = " and ".join(f"`{body}` a {shape}" for body, shape in zip(pair, shapes, strict=True))
-        yield (*place, "bodies"), f"{said}: two spheres can touch, or two of {', '.join(HULLS)}"
-        return
     for at, name in enumerate(pair):
-        yield from _of_shape(name, index, allowed, (*place, "bodies", at))
-    if hulls and all(each in HULLS for each in shapes):
+        yield from _of_shape(name, index, SHAPES_ON_PLANE, (*place, "bodies", at))
+    if not shapes or not all(each in SHAPES_ON_PLANE for each in shapes):
+        return
+    if all(each in HULLS for each in shapes):
         for key in ("stiffness", "materials", "law"):
             if entry(contact, key) is not None:
                 message = f"`{key}` is not for two of {', '.join(HULLS)}: give `foundation_modulus: 1e10 N/m^3`, pressure by depth"
                 yield (*place, key), message
-    elif pair and known and entry(contact, "foundation_modulus") is not None:
-        yield (
-            (*place, "foundation_modulus"),
-            f"is for two of {', '.join(HULLS)}; two spheres take a `stiffness`",
-        )
+        return
+    if entry(contact, "foundation_modulus") is not None:
+        message = f"is for two of {', '.join(HULLS)}; what touches a {' or '.join(ROUND)} takes a `stiffness`"
+        yield (*place, "foundation_modulus"), message
+    if entry(contact, "materials") is not None and shapes != ["sphere", "sphere"]:
+        message = "`materials` give the stiffness of spheres on planes and of two spheres (Hertz): give the `stiffness`"
+        yield (*place, "materials"), message
 
 
 def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -> Faults:

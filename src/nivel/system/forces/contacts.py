@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces import bushing, contact, hull_contact
+from nivel.kernels.forces import bushing, contact, hull_contact, round_contact, surface_distance
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.body import Body
-from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces import Bushing, Contact, Material, Stop
@@ -30,7 +30,7 @@ from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
 
 # Points of a shape that may touch, where they are more than one.
-POINTS = {contact.BOX: 8, contact.CYLINDER: 8}
+POINTS = {contact.BOX: 8, contact.CYLINDER: 8, contact.CAPSULE: 2}
 MOST_CORNERS = 1000
 
 
@@ -69,12 +69,17 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     if force.foundation_modulus is not None:
         _add_hulls(builder, force, first)
         return
+    more: list[float] = []
+    several = False
     if force.bodies is not None:
         bodies = [builder.machine.body_named[name] for name in force.bodies]
-        kind = contact.SPHERES
         markers = [_shape_marker(builder, body) for body in bodies]
-        size = [_radius(body) for body in bodies]
-        curvature = sum(1.0 / radius for radius in size)
+        if all(isinstance(body.shape, Sphere) for body in bodies):
+            kind, size = contact.SPHERES, [_radius(body) for body in bodies]
+            curvature = sum(1.0 / radius for radius in size)
+        else:
+            kind, size, curvature = contact.ROUND, [], 0.0
+            more, several = _round_numbers(bodies)
     else:
         assert force.body is not None  # the record was checked
         assert force.plane is not None
@@ -93,15 +98,18 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers.append(0.0 if force.bodies is not None else _ball(builder.machine.body_named[str(force.body)]))
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
-    points = POINTS.get(kind, 1)
+    numbers += more
+    points = 2 if several else POINTS.get(kind, 1)
     if kind == contact.HULL:
         corners = _corners(builder.machine.body_named[str(force.body)])
         numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
     patch = [NONE, 0, 0]
     if force.sticks:
         patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
-    columns = [first, kind, *markers, law, points, *patch, *_surface(builder, force, markers[1])]
-    builder.elements.add(contact.apply, columns, numbers, points, tuple(range(points)))
+    frame = markers[1] if force.bodies is None else builder.frame(force.bodies[1])
+    columns = [first, kind, *markers, law, points, *patch, *_surface(builder, force, frame)]
+    family = round_contact.apply if kind == contact.ROUND else contact.apply
+    builder.elements.add(family, columns, numbers, points, tuple(range(points)))
 
 
 def tangent_stiffness(machine: MachineRecord, force: Contact | Stop, load: float) -> float | None:
@@ -170,6 +178,8 @@ def _ball(body: Body) -> float:
             return 0.5 * math.hypot(*box_size(body.shape))
         case Cylinder():
             return math.hypot(body.shape.radius, 0.5 * length(body.shape))
+        case Capsule():
+            return body.shape.radius + 0.5 * length(body.shape)
         case Extrusion() | Mesh():
             return float(np.linalg.norm(_corners(body), axis=1).max())
     raise ValueError(f"body {body.name} has no shape that can touch")
@@ -189,6 +199,8 @@ def _shape(contact: Any, body: Body) -> tuple[int, list[float]]:
             return contact.BOX, [0.5 * side for side in box_size(body.shape)]
         case Cylinder():
             return contact.CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+        case Capsule():
+            return contact.CAPSULE, [body.shape.radius, 0.5 * length(body.shape)]
         case Extrusion() | Mesh():
             return contact.HULL, [1.0]  # its size is that of its corners
     raise ValueError(f"body {body.name} has no shape that can touch")
@@ -216,19 +228,56 @@ def _corners(body: Body) -> NDArray[np.float64]:
     return corners
 
 
+def _round_numbers(bodies: Sequence[Body]) -> tuple[list[float], bool]:
+    """Numbers of `nivel.kernels.forces.round_contact` for two bodies of which one is a sphere or a capsule, and whether it lies on two
+    points."""
+    # a sphere before a capsule: it has one point
+    first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
+    if first is None:
+        first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Capsule))
+    own, other = bodies[first].shape, bodies[1 - first]
+    assert isinstance(own, Sphere | Capsule)  # the record was checked
+    half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
+    core, (kind, numbers) = 0.0, _distance_numbers(other)
+    if isinstance(other.shape, Capsule):
+        core = other.shape.radius
+    ball = own.radius + half + _ball(other)
+    several = half > 0.0 and not isinstance(other.shape, Capsule)
+    return [float(first), own.radius, half, core, ball, float(kind), *numbers], several
+
+
+def _distance_numbers(body: Body) -> tuple[int, list[float]]:
+    """Kind and numbers of a shape for `nivel.kernels.forces.surface_distance`, in the axes of its marker."""
+    match body.shape:
+        case Box():
+            return surface_distance.BOX, [0.5 * side for side in box_size(body.shape)]
+        case Cylinder():
+            return surface_distance.CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+        case Capsule():
+            return surface_distance.SEGMENT, [0.5 * length(body.shape)]
+        case Extrusion() | Mesh():
+            hull = hull_of(body)
+            corners, faces = hull.corners + hull.middle, hull.faces.copy()
+            faces[:, 3] += faces[:, :3] @ hull.middle
+            ends = corners[hull.edges].reshape(-1, 6)
+            counts = [float(len(each)) for each in (corners, faces, ends)]
+            return surface_distance.HULL, [*counts, *corners.ravel(), *faces.ravel(), *ends.ravel()]
+    raise ValueError(f"body {body.name} has no shape that can touch")
+
+
 def _shape_marker(builder: SystemBuilder, body: Body) -> int:
     """Marker at the centre of the shape, z along a cylinder; at the body frame of a hull, whose corners are given there."""
     shape = body.shape
     if isinstance(shape, Extrusion | Mesh):
         return builder.place((body.name, np.zeros(3), np.eye(3)))
-    assert isinstance(shape, Sphere | Box | Cylinder)  # the record was checked
+    assert isinstance(shape, Sphere | Box | Cylinder | Capsule)  # the record was checked
     axes = np.eye(3)
-    if isinstance(shape, Cylinder):
+    if isinstance(shape, Cylinder | Capsule):
         axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])
     return builder.place((body.name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))
 
 
 KINDS = (
     ForceKind(Bushing, add_bushing, (bushing.apply,)),
-    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply)),
+    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply, round_contact.apply)),
 )

@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.kernels.forces.hull_pair import NUMBERS
 from nivel.machine.bodies.body import Body
-from nivel.machine.bodies.shape import Box, Extrusion, Mesh
-from nivel.machine.bodies.solids import box_size, extrusion_corners, mesh_surface
+from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
+from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.forces import Contact
 
 Array = NDArray[np.float64]
 # Triangles whose normals agree to this are one face.
 FLAT = 1e-6
+# of the prism that stands for a cylinder where it touches a solid: its radius is within 0.3 % of the cylinder's everywhere
+SIDES = 32
 # Faces are compared in pairs, so that many of them take long.
 MOST_FACES = 200
 
@@ -37,7 +39,7 @@ class Hull:
 
 
 def hull_of(body: Body) -> Hull:
-    """The convex hull of a box, an extrusion or a mesh. Raises ModelError for a flat one, or one of too many faces."""
+    """The convex hull of a box, a cylinder, an extrusion or a mesh. Raises ModelError for a flat one, or one of too many faces."""
     from scipy.spatial import ConvexHull, QhullError
 
     points = _points(body)
@@ -65,11 +67,25 @@ def _points(body: Body) -> Array:
         case Box() as box:
             signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
             return np.array(box.centre or (0.0, 0.0, 0.0)) + 0.5 * signs * np.array(box_size(box))
+        case Cylinder() as cylinder:
+            return _prism(cylinder)
         case Extrusion() as prism:
             return extrusion_corners(prism)
         case Mesh() as mesh:
             return mesh_surface(mesh)[0]
     raise ValueError(f"body {body.name} has no hull")
+
+
+def _prism(cylinder: Cylinder) -> Array:
+    """Corners of the regular prism of SIDES sides that has the volume of a cylinder."""
+    turn = 2.0 * np.pi / SIDES
+    angles, radius = turn * np.arange(SIDES), cylinder.radius * np.sqrt(turn / np.sin(turn))
+    circle, half = radius * np.column_stack([np.cos(angles), np.sin(angles)]), 0.5 * length(cylinder)
+    along = "xyz".index(cylinder.along or "x")
+    points = np.zeros((2, SIDES, 3))
+    points[:, :, (along + 1) % 3], points[:, :, (along + 2) % 3] = circle[:, 0], circle[:, 1]
+    points[0, :, along], points[1, :, along] = -half, half
+    return points.reshape(-1, 3) + np.array(cylinder.centre or (0.0, 0.0, 0.0))
 
 
 def _distinct(normals: Array) -> Array:

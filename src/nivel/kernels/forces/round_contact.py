@@ -1,0 +1,126 @@
+"""Contact of a sphere or a capsule with another convex shape, at the points that are nearest to each other.
+
+What touches is a segment, or a point, with a radius. Its depth at a point is the radius less the signed distance of that point from the
+other shape (`nivel.kernels.forces.surface_distance`). The force is along the gradient of that distance, so it has a potential. A capsule
+touches with its deepest point, and, where the other shape has flat sides, with that end which is less deep: then it lies on a side with
+both ends, and both forces are continuous whatever it does.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import axis, minus
+from nivel.kernels.forces.contact import (
+    COUNT,
+    DEEPEST,
+    ITS_RATE,
+    MARKER,
+    NORMAL,
+    NUMBERS,
+    OTHER,
+    POINT,
+    SUMS,
+    begin_contact,
+    press,
+    report_contact,
+    velocity_at,
+)
+from nivel.kernels.forces.surface_distance import nearest_of_segment, surface_distance
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.native.function import stage
+
+# numbers behind those of `nivel.kernels.forces.contact`; SWAPPED: 1 where the round body is the second one; RADIUS, HALF: of it; CORE:
+# radius of the other capsule; BALL: sum of radii of balls about both markers; SHAPE: of the other one, then its numbers
+SWAPPED, RADIUS, HALF, CORE, BALL, SHAPE, NUMBERS_OF_SHAPE = 0, 1, 2, 3, 4, 5, 6
+# Bodies are far from each other where their balls are apart by this share of the radii.
+FAR = 0.25
+
+
+@stage
+def seen(A, d):
+    """Aᵀ d."""
+    return dot(axis(A, 0), d), dot(axis(A, 1), d), dot(axis(A, 2), d)
+
+
+@stage
+def is_far(machine, k):
+    """Whether the balls around both bodies are far from each other, and were: then their distance stands for that of all points."""
+    record = record_at(machine)
+    markers, elements, followed = record.markers, record.elements, record.watched.followed[0]
+    columns, numbers = elements.columns[k], elements.number[k]
+    i, j, reach = columns[MARKER], columns[OTHER], numbers[NUMBERS + BALL]
+    d = minus(markers.r[i], markers.r[j])
+    squared = dot(d, d)
+    if not real(squared) > ((1.0 + FAR) * real(reach)) ** 2:
+        return False
+    if followed == 1:
+        for m in range(columns[COUNT]):
+            if elements.memory[k, m] > 0.0:
+                return False
+    distance = np.sqrt(squared)
+    gap = distance - reach
+    numbers[DEEPEST], numbers[ITS_RATE] = -gap, -dot(d, minus(markers.rdot[i], markers.rdot[j])) / distance
+    for m in range(columns[COUNT]):
+        elements.depth[k, m], elements.proposal[k, m] = -gap, 0.0 * gap
+        if followed == 1:
+            elements.depth_rate[k, m] = numbers[ITS_RATE]
+    return True
+
+
+@stage
+def find_round_point(machine, k, n):
+    """Where point n of contact k may touch and the normal there, left in the numbers; returns (depth, its rate)."""
+    record = record_at(machine)
+    markers, bodies, columns, numbers = (
+        record.markers,
+        record.bodies,
+        record.elements.columns[k],
+        record.elements.number[k],
+    )
+    more = numbers[NUMBERS:]
+    is_swapped = real(more[SWAPPED]) == 1.0
+    i, j = (columns[OTHER], columns[MARKER]) if is_swapped else (columns[MARKER], columns[OTHER])
+    kind, shape, half = np.int64(real(more[SHAPE])), more[NUMBERS_OF_SHAPE:], more[HALF]
+    A, r = markers.A[j], markers.r[j]
+    x, a = seen(A, minus(markers.r[i], r)), seen(A, axis(markers.A[i], 2))
+    if n == 0:
+        t = nearest_of_segment(kind, x, a, half, shape)
+    else:
+        up = surface_distance(kind, (x[0] + half * a[0], x[1] + half * a[1], x[2] + half * a[2]), shape)[0]
+        down = surface_distance(kind, (x[0] - half * a[0], x[1] - half * a[1], x[2] - half * a[2]), shape)[0]
+        t = half if real(up) > real(down) else -half
+    y = x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]
+    distance, g0, g1, g2 = surface_distance(kind, y, shape)
+    depth = more[RADIUS] + more[CORE] - distance
+    # in the middle of the overlap
+    below = more[RADIUS] - 0.5 * depth
+    p, normal = numbers[POINT:NORMAL], numbers[NORMAL:SUMS]
+    sign = -1.0 if is_swapped else 1.0
+    for b in range(3):
+        along = A[b, 0] * g0 + A[b, 1] * g1 + A[b, 2] * g2
+        p[b] = r[b] + A[b, 0] * y[0] + A[b, 1] * y[1] + A[b, 2] * y[2] - below * along
+        normal[b] = sign * along
+    v = velocity_at(bodies, markers.body[columns[MARKER]], p)
+    u = velocity_at(bodies, markers.body[columns[OTHER]], p)
+    return depth, -dot(normal, minus(v, u))
+
+
+@family
+def apply(machine, number, t):
+    """All contacts of a round body with another one."""
+    elements = record_at(machine).elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        begin_contact(machine, k, t)
+        if not is_far(machine, k):
+            for m in range(elements.columns[k, COUNT]):
+                # the deepest point last: its normal is that of the contact
+                n = np.int64(elements.columns[k, COUNT]) - 1 - m
+                depth, rate = find_round_point(machine, k, n)
+                press(machine, k, n, depth, rate, t)
+        report_contact(machine, k)
+    return OK

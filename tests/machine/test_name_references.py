@@ -172,8 +172,8 @@ def test_the_machine_of_these_tests_is_right():
             "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, box, cylinder, extrusion or mesh",
         ),
         (
-            {"forces": ({**CONTACT, "bodies": ("rod", "slab"), "foundation_modulus": 1e8},)},
-            "forces.c.foundation_modulus: is for two of box, cylinder, extrusion, mesh; what touches a sphere or capsule takes",
+            {"forces": ({**CONTACT, "bodies": ("rod", "pipe")},)},
+            "forces.c.bodies.1: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, box, cylinder, extrusion",
         ),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "tip"},)}, "forces.c.plane: the plane is on `rod` itself"),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "flor"},)}, "forces.c.plane: there is no marker `flor`"),

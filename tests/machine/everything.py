@@ -131,6 +131,14 @@ EVERYTHING = {
     ],
     "drivers": [
         {"name": "drive", "coordinate": "hinge", "value": "2*pi*time"},
+        {"name": "feed", "marker": "eye", "along": "x", "speed": {"times": [0, 1], "values": [0, "5 mm/s"]}},
+        {
+            "name": "haul",
+            "marker": "tip",
+            "about": "x",
+            "acceleration": "2 rad/s^2 * cos(time)",
+            "start_speed": "3 rpm",
+        },
         {"name": "lift", "marker": "tip", "along": "z", "relative_to": "base", "value": MOTION},
         {
             "name": "swing",

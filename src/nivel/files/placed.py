@@ -27,6 +27,7 @@ from nivel.machine import (
 )
 from nivel.machine.core.record import entry
 from nivel.machine.forces import Ends
+from nivel.machine.joints.driver import MOTIONS
 
 
 def placed_component(component: Any, scene: Scene) -> Any:
@@ -110,8 +111,11 @@ def placed_driver(driver: Driver, scene: Scene) -> Driver:
     Raises NotRepresentableError.
     """
     if driver.coordinate is not None:
-        assert driver.value is not None  # the record was checked
-        return driver.replace(value=negative(driver.value)) if scene.is_opposite(driver.coordinate) else driver
+        if not scene.is_opposite(driver.coordinate):
+            return driver
+        given = {name: function for name in MOTIONS if (function := getattr(driver, name)) is not None}
+        turned = {name: negative(function) for name, function in given.items()}
+        return driver.replace(**turned, start_speed=-driver.start_speed + 0.0)
     if driver.is_pose and scene.placement.mirrored:
         raise NotRepresentableError(
             "the driven pose of a marker has no mirror image: drive the marker of the part as placed"

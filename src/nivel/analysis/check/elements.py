@@ -48,6 +48,10 @@ def driver_in_words(driver: Driver) -> str:
             else f"{driver.marker} about {driver.about} of {seen}"
         )
     placed = "as placed + change of " if driver.from_start else ""
+    if driver.speed is not None:
+        return f"{driver.name}: {driven}, speed = {function_in_words(driver.speed)}"
+    if driver.acceleration is not None:
+        return f"{driver.name}: {driven}, acceleration = {function_in_words(driver.acceleration)}"
     assert driver.value is not None  # the record was checked
     return f"{driver.name}: {driven} = {placed}{function_in_words(driver.value)}"
 

@@ -11,6 +11,7 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.forces import Contact, Friction, Stop, TransmissionLoss, holds_by_capacity, is_sticking
 from nivel.machine.forces.element import ForceElement
+from nivel.machine.joints.driver import RATES
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
@@ -178,6 +179,8 @@ def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table |
     """The functions by which drivers move a machine, each with its place in the file: `drivers.lift.value`, or the list where it stands."""
     for driver in machine.drivers:
         for place, function in functions_in(driver):
+            if place in RATES:
+                continue
             yield f"drivers.{driver.name}.{place if place == 'value' else place.rpartition('.')[0] or place}", function
 
 

@@ -44,6 +44,7 @@ Bound = Literal["", "positive", "not negative"]
 # kinds of what belongs to a coordinate: where it is a length, where it is an angle
 COORDINATE: Final = ("length", "angle")
 COORDINATE_RATE: Final = ("velocity", "angular velocity")
+COORDINATE_ACCELERATION: Final = ("acceleration", "angular acceleration")
 COORDINATE_EFFORT: Final = ("force", "torque")
 COORDINATE_STIFFNESS: Final = ("stiffness", "torsional stiffness")
 COORDINATE_INTEGRAL: Final = ("stiffness per time", "torsional stiffness per time")
@@ -210,4 +211,5 @@ CoordinateIntegral = Annotated[OneNumber, OfCoordinate(COORDINATE_INTEGRAL, "not
 PositiveGain = Annotated[OneNumber, OfCoordinate(COORDINATE_DAMPING, "positive")]
 PositiveCoordinateStiffness = Annotated[OneNumber, OfCoordinate(COORDINATE_STIFFNESS, "positive")]
 NotNegativeValue = Annotated[OneNumber, OfCoordinate(COORDINATE, "not negative")]
+CoordinateRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE)]
 NotNegativeRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE, "not negative")]

@@ -8,18 +8,21 @@ from typing import Annotated, ClassVar, Final, Literal
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
-from nivel.machine.core.coefficient import Truth
+from nivel.machine.core.coefficient import CoordinateRate, Truth
 from nivel.machine.core.record import GROUND, Name
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.joints.driven_orientation import DrivenOrientation
-from nivel.machine.laws.coordinate_function import CoordinateMotion
-from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, varying
+from nivel.machine.laws.coordinate_function import CoordinateAcceleration, CoordinateMotion, CoordinateSpeed
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, signals_of, varying
 from nivel.machine.units.quantity import listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind, kind_of
 
 LengthMotion = Annotated[OneFunction, varying("length", smooth=True)]
 # keys of a driver of one motion, which a whole pose has no use for
-OF_ONE_MOTION: Final = ("coordinate", "along", "about", "value")
+RATES: Final = ("speed", "acceleration")
+MOTIONS: Final = ("value", *RATES)
+OF_ONE_MOTION: Final = ("coordinate", "along", "about", "value", "speed", "acceleration")
 
 
 class Driver(Checked):
@@ -39,6 +42,14 @@ class Driver(Checked):
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
     value: Maybe[CoordinateMotion] = Field(default=None, description="length or angle, a function of time")
+    speed: Maybe[CoordinateSpeed] = Field(
+        default=None,
+        description="in place of `value`: rate, a function of time; the coordinate begins where it is placed",
+    )
+    acceleration: Maybe[CoordinateAcceleration] = Field(
+        default=None, description="in place of `value`: a function of time; the coordinate begins where it is placed"
+    )
+    start_speed: CoordinateRate = Field(default=0.0, description="with `acceleration`: rate at t = 0")
     position: Annotated[Maybe[ThreeFunctions[LengthMotion]], BeforeValidator(listed)] = Field(
         default=None,
         description="of the marker's point from that of `relative_to`, along its axes: three functions of time",
@@ -77,8 +88,12 @@ class Driver(Checked):
         if self.is_pose:
             yield from self._problems_of_pose()
             return
-        if self.value is None and (self.coordinate, self.along, self.about) != (None, None, None):
+        given = [name for name in MOTIONS if getattr(self, name) is not None]
+        if not given and (self.coordinate, self.along, self.about) != (None, None, None):
             yield Problem((), "`value` is missing: the driven length or angle, a function of time")
+        for name in given[1:]:
+            yield superfluous(name, f"stands in place of `{given[0]}`; give one of them")
+        yield from self._problems_of_rates()
         if self.coordinate is not None:
             for name in ("marker", "along", "about", "relative_to"):
                 if getattr(self, name) is not None:
@@ -96,6 +111,22 @@ class Driver(Checked):
             yield superfluous("about", "stands in place of `along`; give one of them")
         if self.marker is not None and self.relative_to == self.marker:
             yield Problem(("relative_to",), "a marker does not move relative to itself")
+
+    def _problems_of_rates(self) -> Iterator[Problem]:
+        for name in RATES:
+            function = getattr(self, name)
+            if function is not None and signals_of(function):
+                symbol = signals_of(function)[0]
+                message = f"`{symbol}` is only known while the machine moves; a driver depends on `time` alone"
+                yield Problem((name,), message)
+            if isinstance(function, PythonLaw):
+                yield Problem((name,), "a function in Python drives by its `value`, rate and acceleration")
+            if function is not None and self.from_start:
+                yield superfluous(
+                    "from_start", f"goes with `value`; with `{name}` the coordinate begins where it is placed"
+                )
+        if self.start_speed and self.acceleration is None:
+            yield superfluous("start_speed", "belongs to an `acceleration`, and none is given")
 
     def _problems_of_pose(self) -> Iterator[Problem]:
         for name in OF_ONE_MOTION:

@@ -11,7 +11,13 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from nivel.machine.core.coefficient import COORDINATE, COORDINATE_EFFORT, COORDINATE_RATE, kind_for
+from nivel.machine.core.coefficient import (
+    COORDINATE,
+    COORDINATE_ACCELERATION,
+    COORDINATE_EFFORT,
+    COORDINATE_RATE,
+    kind_for,
+)
 from nivel.machine.laws.time_function import OneFunction, TimeFunction, Varying, written
 
 
@@ -48,5 +54,6 @@ class OfCoordinateFunction:
 CoordinateLaw = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT, local=("value", "rate"))]
 CoordinateEffortFunction = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT)]
 CoordinateSpeed = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_RATE)]
+CoordinateAcceleration = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_ACCELERATION)]
 CoordinatePosition = Annotated[OneFunction, OfCoordinateFunction(COORDINATE)]
 CoordinateMotion = Annotated[OneFunction, OfCoordinateFunction(COORDINATE, smooth=True)]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
 from nivel.machine.core.record import Record
-from nivel.machine.joints.driver import Driver
+from nivel.machine.joints.driver import RATES, Driver
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.signals.state import State
@@ -58,7 +58,8 @@ def _of_part(section: str, part: Record) -> Iterator[MachineFunction]:
     name = str(getattr(part, "name", None) or section)
     sampling = Sampling(part.every or 0.0) if isinstance(part, State) and part.update is not None else None
     for place, function in functions_in(part):
-        yield MachineFunction(f"{name}.{place}", section, name, function, isinstance(part, Driver), sampling)
+        moves = isinstance(part, Driver) and place not in RATES
+        yield MachineFunction(f"{name}.{place}", section, name, function, moves, sampling)
 
 
 def _of_block(section: str, block: Block) -> Iterator[MachineFunction]:

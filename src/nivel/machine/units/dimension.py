@@ -79,6 +79,7 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "angular velocity": ("an angular velocity", "rad/s", dimension(rad=1, s=-1)),
     "rate": ("a rate", "1/s", dimension(s=-1)),
     "frequency": ("a frequency", "Hz", dimension(cycle=1, s=-1)),
+    "angular acceleration": ("an angular acceleration", "rad/s^2", dimension(rad=1, s=-2)),
     "acceleration": ("an acceleration", "m/s^2", dimension(m=1, s=-2)),
     "density": ("a density", "kg/m^3", dimension(kg=1, m=-3)),
     "inertia": ("a moment of inertia", "kg*m^2", dimension(kg=1, m=2)),

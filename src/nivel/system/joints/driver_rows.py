@@ -12,6 +12,7 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.joints.composition import AXES
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.rows import RowTable, units_of
+from nivel.system.laws.integrated import integrated
 from nivel.system.located import located
 from nivel.system.tables import Target
 
@@ -38,11 +39,23 @@ def _add_driver(builder: SystemBuilder, rows: RowTable, driver: Driver) -> None:
         (f"driver.{driver.name}.effort", effort, f"effort of {driver.name} on its coordinate"),
         (f"driver.{driver.name}.power", "W", f"power of {driver.name} into the machine"),
     )
-    assert driver.value is not None  # the record was checked
-    with located(f"drivers.{driver.name}.value"):
-        function = builder.function(driver.value, motion=True)
-    offset = None if driver.from_start else 0.0
+    function = _motion(builder, driver)
+    offset = 0.0 if driver.value is not None and not driver.from_start else None
     rows.combine(builder, row, [(coordinate, 1.0)], offset=offset, function=function, report=(output, 1))
+
+
+def _motion(builder: SystemBuilder, driver: Driver) -> int:
+    """The function that the coordinate follows, or its change since t = 0."""
+    end = builder.machine.simulation.duration
+    if driver.value is not None:
+        with located(f"drivers.{driver.name}.value"):
+            return builder.function(driver.value, motion=True)
+    if driver.speed is not None:
+        with located(f"drivers.{driver.name}.speed"):
+            return builder.functions.add_way(*integrated(driver.speed, 1, end))
+    assert driver.acceleration is not None  # the record was checked
+    with located(f"drivers.{driver.name}.acceleration"):
+        return builder.functions.add_way(*integrated(driver.acceleration, 2, end, driver.start_speed))
 
 
 def _driven(builder: SystemBuilder, driver: Driver) -> int:

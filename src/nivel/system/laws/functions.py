@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.kernels.record.function import CODE, CONSTANT, HELD, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.record.program import run
@@ -28,6 +29,7 @@ from nivel.system.laws.program import (
     expression_program,
     motion_program,
     switching_program,
+    way_program,
 )
 from nivel.system.signals.units import Unit, unit_of
 from nivel.system.tables import Array, index_array
@@ -119,6 +121,12 @@ class FunctionTable:
     def add_table(self, knots: Sequence[float], coefficients: Array) -> int:
         """Index of a new table that goes on beyond its ends; `coefficients` (n, 4) as `Functions.coefficients`."""
         return self._append(TABLE_EXTENDED, [], _nothing, table=(knots, coefficients.tolist()))
+
+    def add_way(self, points: NDArray[np.float64], pieces: NDArray[np.float64]) -> int:
+        """Index of a motion given as polynomials (n - 1, 6) of time between points, with its derivatives."""
+        return self._append(
+            CODE, [TIME_SYMBOL], _nothing, address=run.address, program=way_program(points.tolist(), pieces)
+        )
 
     def add_spline(self, table: Table, order: int, find: Find) -> int:
         """Index of the derivative of this order (0: the value) of a cubic table, which goes on straight beyond its ends: a natural spline

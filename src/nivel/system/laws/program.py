@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.kernels.record import program as kernel
 from nivel.kernels.record.function import NEAR
@@ -85,6 +86,17 @@ def curve_motion_program(kind: str, points: Sequence[float], values: Sequence[fl
     program, argument = _Program([TIME]), Time()
     curves = [Lookup(argument, kind, tuple(points), tuple(values), order) for order in range(3)]
     value, first, second = (program.place_of(curve) for curve in curves)
+    program.leave(1, first)
+    program.leave(2, second)
+    program.end(value)
+    return program.row()
+
+
+def way_program(points: Sequence[float], pieces: NDArray[np.float64]) -> list[float]:
+    """The program of polynomials (n - 1, 6) of time between points, with two derivatives as in `motion_program`."""
+    program = _Program([TIME])
+    time = program.place_of(Time())
+    value, first, second = (program.place_of_pieces(time, points, differentiated(pieces, order)) for order in range(3))
     program.leave(1, first)
     program.leave(2, second)
     program.end(value)
@@ -213,6 +225,12 @@ class _Program:
         numbers = np.concatenate([[len(points), before, behind], points, coefficients.ravel()])
         self._numbers += numbers[::-1].tolist()  # numbers stand in the row backwards
         return -len(self._numbers)
+
+    def place_of_pieces(self, argument: int, points: Sequence[float], pieces: NDArray[np.float64]) -> int:
+        """Place of the value of polynomials between points."""
+        numbers = np.concatenate([[len(points), pieces[0, 0], 0.0], points, pieces.ravel()])
+        self._numbers += numbers[::-1].tolist()
+        return self._operation(kernel.CURVE, argument, -len(self._numbers))
 
     def _operation(self, operation: int, first: int, second: int | None = None) -> int:
         place = self._cell(0.0)

@@ -19,13 +19,19 @@ class Library(NamedTuple):
 
 
 LIBRARIES: Final = {
+    "asammdf": Library("asammdf", "measured"),
+    "asyncua": Library("asyncua", "opcua"),
     "control": Library("python-control", "control"),
     "gymnasium": Library("gymnasium", "gym"),
     "gmsh": Library("gmsh", "flex"),
     "imageio_ffmpeg": Library("ffmpeg", "film"),
     "matplotlib": Library("matplotlib", "plot"),
+    "mcap.reader": Library("mcap", "measured"),
+    "mcap.writer": Library("mcap", "measured"),
+    "mcap_ros2.decoder": Library("mcap-ros2-support", "measured"),
     "meshio": Library("meshio", "flex"),
     "mujoco": Library("mujoco-core", "robots"),
+    "paho.mqtt.client": Library("paho-mqtt", "mqtt"),
     "pandas": Library("pandas", ""),
     "pyarrow.parquet": Library("pyarrow", "measured"),
     "PIL": Library("pillow", "film"),

@@ -1,6 +1,7 @@
 """Measured tables: CSV of any length, MAT and Parquet, with units and time offsets; results in the same forms."""
 
 import importlib
+import json
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from click.testing import CliRunner
 from scipy.io import loadmat, savemat
 
 import nivel
+from needing import needs
 from nivel.cli import main
 from nivel.files import parse_machine
 from nivel.files.input_table import read_input_table
@@ -109,3 +111,89 @@ def test_without_pyarrow_the_message_says_what_brings_it(tmp_path, monkeypatch):
     (tmp_path / "log.parquet").write_bytes(b"PAR1")
     with pytest.raises(nivel.ModelError, match=r"Parquet files need pyarrow: pip install 'nivel\[measured\]'"):
         table(tmp_path, "{csv: log.parquet}")
+
+
+def recording(folder):
+    """An MDF4 file with two groups that have times of their own."""
+    asammdf = needs("asammdf")
+    file = asammdf.MDF(version="4.10")
+    for times, name, values, unit in ((T, "boom", Y, "deg"), (2 * T, "spindle", Y / 10, "")):
+        file.append([asammdf.Signal(samples=values, timestamps=times, name=name, unit=unit)])
+    file.save(folder / "log.mf4", overwrite=True)
+    file.close()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_signals_of_mdf_files_have_their_own_times_and_units(tmp_path):
+    recording(tmp_path)
+    found = table(tmp_path, "{csv: log.mf4, column: boom, time_offset: 1 s}")
+    assert found.times == pytest.approx(T + 1)
+    assert found.values == pytest.approx(np.deg2rad(Y))
+    assert read_input_table(tmp_path / "log.mf4", "spindle").times == pytest.approx(2 * T)
+    with pytest.raises(nivel.ModelError, match=r"`column` is missing: it has the signals `boom`, `spindle`"):
+        table(tmp_path, "{csv: log.mf4}")
+    with pytest.raises(nivel.ModelError, match=r"the signal `bom` is not known; did you mean `boom`"):
+        table(tmp_path, "{csv: log.mf4, column: bom}")
+
+
+STRING = b"string data"
+IMU = b"float64 rate\nfloat32[2] force\n"
+
+
+def bag(path):
+    """Messages in JSON, those of ROS 2, and texts, from the time 5 s on."""
+    writer, ros = needs("mcap.writer"), needs("mcap_ros2.writer")
+    with path.open("wb") as file:
+        out = writer.Writer(file)
+        out.start()
+        schema = out.register_schema("joint", "jsonschema", b"{}")
+        channel = out.register_channel("/joint", "json", schema)
+        for t, y in zip(T, Y, strict=True):
+            content = json.dumps({"angle": float(y), "name": "boom", "rates": [1, float(y)]}).encode()
+            out.add_message(channel, log_time=int((5 + t) * 1e9), data=content, publish_time=0)
+        out.finish()
+    with path.with_name("ros.mcap").open("wb") as file:
+        out = ros.Writer(file)
+        schema = out.register_msgdef("rig/Imu", IMU.decode())
+        for t, y in zip(T, Y, strict=True):
+            message = {"rate": float(y), "force": [0.0, 2.0]}
+            out.write_message("/imu", schema, message, log_time=int((5 + t) * 1e9), publish_time=0)
+        out.finish()
+
+
+def test_numbers_of_messages_of_mcap_files_are_signals(tmp_path):
+    bag(tmp_path / "log.mcap")
+    for column in ("/joint.angle", "'/joint.rates[1]'"):
+        found = table(tmp_path, f"{{csv: log.mcap, column: {column}, units: deg}}")
+        assert found.times == pytest.approx(T)
+        assert found.values == pytest.approx(np.deg2rad(Y))
+    assert table(tmp_path, "{csv: ros.mcap, column: /imu.rate}").values == pytest.approx(Y)
+    assert table(tmp_path, "{csv: ros.mcap, column: '/imu.force[1]'}").values == pytest.approx([2, 2, 2])
+    with pytest.raises(nivel.ModelError, match=r"the signal `/joint.angel` is not known; did you mean `/joint.angle`"):
+        table(tmp_path, "{csv: log.mcap, column: /joint.angel}")
+    for name, magic in (("log.mcap", "MCAP"), ("log.mf4", "MDF")):
+        if name == "log.mf4":
+            (tmp_path / name).write_bytes(b"MDF     4.10    " + bytes(100))
+        done = CliRunner().invoke(main, ["run", str(tmp_path / name)])
+        assert done.exit_code == 2
+        said = " ".join(done.output.split())
+        assert f"this is a recording ({magic}), not a machine file; a machine reads a signal: `{{csv: " in said
+        (tmp_path / name).write_bytes((tmp_path / name).read_bytes()[:30])
+        with pytest.raises(nivel.ModelError, match="damaged"):
+            table(tmp_path, f"{{csv: {name}, column: x}}")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_results_are_written_as_recordings_and_read_back(tmp_path, monkeypatch):
+    needs("asammdf", "mcap")
+    monkeypatch.chdir(tmp_path)
+    machine = parse_machine(START % "3*time")
+    result = nivel.Machine.from_record(machine).simulate(out="r.nc", verify=False)
+    expected = result.array("boom.angle")
+    for option, column in (("mdf", "boom.angle"), ("mcap", "/nivel.boom.angle")):
+        done = CliRunner().invoke(main, ["export", "r.nc", f"--{option}", "--select", "boom"])
+        assert done.exit_code == 0, done.output
+        suffix = {"mdf": "mf4", "mcap": "mcap"}[option]
+        found = table(tmp_path, f"{{csv: r.{suffix}, column: {column}}}")
+        np.testing.assert_allclose(found.times, result.time, atol=1e-9)
+        np.testing.assert_array_equal(found.values, expected)

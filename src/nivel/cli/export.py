@@ -94,6 +94,22 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
     metavar="[FILE]",
     help="Write a Parquet table with units; default: NAME.parquet in the working directory.",
 )
+@click.option(
+    "--mdf",
+    "mdf",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write an MDF4 file with units; default: NAME.mf4 in the working directory.",
+)
+@click.option(
+    "--mcap",
+    "mcap",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write an MCAP file, a message for each frame; default: NAME.mcap in the working directory.",
+)
 @override_option
 def command(
     source: str,
@@ -110,6 +126,8 @@ def command(
     film: str | None,
     mat: str | None,
     parquet: str | None,
+    mdf: str | None,
+    mcap: str | None,
     overrides: dict[str, str],
 ) -> None:
     """Write a result as a table or an animation, or a machine as a C library, an FMU or a model of another program.
@@ -124,9 +142,10 @@ def command(
     An MJCF or URDF file has the rigid part of the machine. The list of what was left out is printed and stands in its comments.
     """
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
-    if sum(each is not None for each in (target, folder, unit, mjcf, urdf, film, mat, parquet)) > 1:
+    tables = {".mat": mat, ".parquet": parquet, ".mf4": mdf, ".mcap": mcap}
+    if sum(each is not None for each in (target, folder, unit, mjcf, urdf, film, *tables.values())) > 1:
         raise click.UsageError(
-            "one of --csv, --mat, --parquet, --gltf, --c, --fmu, --mjcf and --urdf is written at a time"
+            "one of --csv, --mat, --parquet, --mdf, --mcap, --gltf, --c, --fmu, --mjcf and --urdf is written at a time"
         )
     if unit is None and (fmi or parameters):
         raise click.UsageError("--fmi and --parameter belong to --fmu")
@@ -148,8 +167,8 @@ def command(
         if names:
             raise click.UsageError("--select belongs to --csv, --c and --fmu")
         _write_film(source, film, force)
-    elif mat is not None or parquet is not None:
-        _write_binary(source, mat, parquet, names, force)
+    elif any(each is not None for each in tables.values()):
+        _write_binary(source, tables, names, force)
     else:
         _write_table(source, target, names, force)
 
@@ -212,16 +231,17 @@ def _write_film(result: str, film: str, force: bool) -> None:
     click.echo(f"glTF: {path}", err=True)
 
 
-def _write_binary(result: str, mat: str | None, parquet: str | None, names: list[str], force: bool) -> None:
+def _write_binary(result: str, tables: dict[str, str | None], names: list[str], force: bool) -> None:
     from nivel.files.target import check_target
     from nivel.results import Result
-    from nivel.results.frames.binary_table import write_mat, write_parquet
+    from nivel.results.frames.binary_table import write_mat, write_mcap, write_mdf, write_parquet
 
-    given, suffix = (mat, ".mat") if mat is not None else (parquet or BESIDE, ".parquet")
+    given, suffix = next((given, suffix) for suffix, given in tables.items() if given is not None)
     path = Path(Path(result).with_suffix(suffix).name) if given == BESIDE else Path(given)
     opened = Result.open(result)
     check_target(path, "table", force=force, sources=[Path(result)])
-    (write_parquet if mat is None else write_mat)(opened, path, names)
+    writers = {".mat": write_mat, ".parquet": write_parquet, ".mf4": write_mdf, ".mcap": write_mcap}
+    writers[suffix](opened, path, names)
     click.echo(f"table: {path}", err=True)
 
 

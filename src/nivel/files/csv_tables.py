@@ -66,7 +66,7 @@ def read_csv_tables(tree: Tree, sources: Sources) -> None:
 
 def column_values(content: str | bytes, file: str, column: object, units: object) -> list[Any]:
     """The numbers of one column, as of a table. Raises CsvError."""
-    given = _Rows(content, least=1) if isinstance(content, str) else _Measured(content, file)
+    given = _Rows(content, least=1) if isinstance(content, str) else _Measured(content, file, column)
     name = given.names[0] if column is None and len(given.names) == 1 else column
     if name is None:
         listing = ", ".join(f"`{each}`" for each in given.names)
@@ -94,7 +94,7 @@ def _fill(table: dict[str, Any], content: str | bytes, file: str) -> None:
     for key in table:
         if key not in KEYS:
             raise CsvError(unknown_word(str(key), KEYS, "key"), str(key))
-    given = _Rows(content) if isinstance(content, str) else _Measured(content, file)
+    given = _Rows(content) if isinstance(content, str) else _Measured(content, file, table.get("column"))
     names = given.names
     first = table.get("time", names[0])
     chosen = table.get("column", names[1] if len(names) == 2 else None)
@@ -181,9 +181,9 @@ class _Rows:
 class _Measured:
     """The columns of a binary file. Raises CsvError."""
 
-    def __init__(self, content: bytes, file: str) -> None:
+    def __init__(self, content: bytes, file: str, column: object = None) -> None:
         try:
-            self.found = measured_columns(content, file)
+            self.found = measured_columns(content, file, None if column is None else str(column))
         except MeasuredError as problem:
             raise CsvError(f"`{file}`: {problem}") from None
         self.names = list(self.found)

@@ -25,7 +25,7 @@ HEAD: Final = re.compile(r"\s*(?P<name>[^\[\(]*?)\s*(?:[\[\(](?P<unit>[^\]\)]*)[
 
 
 def read_input_table(path: str | PathLike[str], name: str) -> Table:
-    """The table of the input `name` in a CSV, MAT or Parquet file.
+    """The table of the input `name` in a CSV, MAT or Parquet file, or a recording (MDF4, MCAP).
 
     A CSV file has a line of names, each with a unit in brackets or without, SI then, and lines of numbers.
     Raises ModelError with every fault, each with its line.
@@ -61,7 +61,7 @@ def read_input_table(path: str | PathLike[str], name: str) -> Table:
 def _measured_table(file: str, name: str) -> Table:
     """The table in a binary file: its first column is the time, which is called so or `t`."""
     try:
-        found = measured_columns(read_bytes(file), file)
+        found = measured_columns(read_bytes(file), file, name)
     except MeasuredError as problem:
         raise ModelError(Fault(file, 0, 0, file, str(problem))) from None
     names = list(found)

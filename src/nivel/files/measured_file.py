@@ -1,4 +1,4 @@
-"""Columns of binary tables: MATLAB's MAT files and Parquet files."""
+"""Columns of binary tables: MATLAB's MAT files, Parquet files, and signals of recordings."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.extras import needed
+from nivel.files import recording_file
 
-KINDS: Final = (".mat", ".parquet")
+KINDS: Final = (".mat", ".parquet", *recording_file.KINDS)
 MOST_ROWS: Final = 20_000_000  # of a table
 UNIT_KEYS: Final = (b"unit", b"units")  # of the metadata of a field
 
@@ -21,10 +22,19 @@ class MeasuredError(Exception):
     """Why a file gives no table, in words."""
 
 
-def measured_columns(content: bytes, file: str) -> dict[str, tuple[NDArray[np.float64], str]]:
-    """The columns of numbers of a file, with their units where it has any. Raises MeasuredError."""
+def measured_columns(
+    content: bytes, file: str, column: str | None = None
+) -> dict[str, tuple[NDArray[np.float64], str]]:
+    """The columns of numbers of a file, with their units where it has any; of a recording the times and values of one signal.
+
+    column : which one, where there are several. Raises MeasuredError.
+    """
+    suffix = FilePath(file).suffix.lower()
     try:
-        found = _mat(content) if FilePath(file).suffix.lower() == ".mat" else _parquet(content)
+        if suffix in recording_file.KINDS:
+            found = _of_recording(content, file, column)
+        else:
+            found = _mat(content) if suffix == ".mat" else _parquet(content)
     except ModelError as error:
         raise MeasuredError(error.faults[0].message) from None
     except (ValueError, TypeError, KeyError, OSError, NotImplementedError, EOFError, IndexError, MemoryError) as error:
@@ -38,6 +48,19 @@ def measured_columns(content: bytes, file: str) -> dict[str, tuple[NDArray[np.fl
     if max(lengths) > MOST_ROWS:
         raise MeasuredError(f"{max(lengths)} rows; up to {MOST_ROWS} are read")
     return found
+
+
+def _of_recording(content: bytes, file: str, column: str | None) -> dict[str, tuple[NDArray[np.float64], str]]:
+    try:
+        return recording_file.signal_columns(content, file, column)
+    except ModelError:
+        raise
+    except ValueError as problem:
+        raise MeasuredError(str(problem)) from None
+    except Exception as problem:  # libraries of recordings raise errors of their own
+        raise MeasuredError(
+            f"the file is damaged, or not what its name says: {' '.join(str(problem).split())}"
+        ) from None
 
 
 def _mat(content: bytes) -> dict[str, tuple[NDArray[np.float64], str]]:

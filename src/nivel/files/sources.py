@@ -33,11 +33,11 @@ _BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (
     ),
     (
         b"mdf     ",
-        "this is a recording (MDF), which nivel does not read; save it as Parquet or CSV, and write `{{csv: log.parquet, column: NAME}}`",
+        "this is a recording (MDF), not a machine file; a machine reads a signal: `{{csv: {file}, column: NAME}}`",
     ),
     (
         b"\x89MCAP0\r\n",
-        "this is a recording (MCAP), which nivel does not read; save it as Parquet or CSV, and write `{{csv: log.parquet, column: NAME}}`",
+        "this is a recording (MCAP), not a machine file; a machine reads a signal: `{{csv: {file}, column: /TOPIC.FIELD}}`",
     ),
     (b"PK\x03\x04", "this is a zip file, not a machine file"),
     (b"solid ", "this is a mesh (STL), not a machine file; a body refers to it: `shape: {{type: mesh, file: {file}}}`"),

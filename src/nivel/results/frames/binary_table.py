@@ -1,7 +1,8 @@
-"""A result as a table for other programs: MATLAB's MAT file, or Parquet with units."""
+"""A result as a table for other programs: MATLAB's MAT file, Parquet and MDF4 with units, or MCAP."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -52,5 +53,43 @@ def write_parquet(result: Result, path: Path, select: Iterable[str] = ()) -> Non
     arrays = [arrow.array(np.asarray(values)) for values in (result.time, *(result.array(name) for name in chosen))]
     try:
         parquet.write_table(arrow.Table.from_arrays(arrays, schema=schema), path, compression="zstd")
+    except OSError as error:
+        raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None
+
+
+def write_mdf(result: Result, path: Path, select: Iterable[str] = ()) -> None:
+    """Write an MDF 4.10 file with a channel of each name, with its unit, over the time. Raises ModelError."""
+    asammdf: Any = needed("asammdf", "MDF files need")
+    time = np.asarray(result.time)
+    signals = [
+        asammdf.Signal(np.asarray(result.array(name)), time, name=name, unit=result.units(name))
+        for name in columns(result, select)
+    ]
+    try:
+        with asammdf.MDF(version="4.10") as file:
+            file.append(signals, comment=f"result of nivel: {result.name}")
+            file.save(path, overwrite=True)
+    except OSError as error:
+        raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None
+
+
+def write_mcap(result: Result, path: Path, select: Iterable[str] = ()) -> None:
+    """Write an MCAP file with a message in JSON for each frame on the topic `/nivel`, whose fields are the names. Raises ModelError."""
+    writer: Any = needed("mcap.writer", "MCAP files need")
+    chosen = columns(result, select)
+    fields = {name: {"type": "number", "description": result.units(name)} for name in chosen}
+    schema = {"type": "object", "title": result.name, "properties": fields}
+    arrays = [np.asarray(result.array(name)).tolist() for name in chosen]
+    try:
+        with path.open("wb") as file:
+            out = writer.Writer(file)
+            out.start()
+            number = out.register_schema("nivel", "jsonschema", json.dumps(schema).encode())
+            channel = out.register_channel("/nivel", "json", number)
+            for k, time in enumerate(result.time):
+                content = json.dumps(dict(zip(chosen, (each[k] for each in arrays), strict=True))).encode()
+                instant = round(float(time) * 1e9)
+                out.add_message(channel, log_time=instant, data=content, publish_time=instant)
+            out.finish()
     except OSError as error:
         raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None

@@ -17,10 +17,41 @@ FILES = sorted((Path(__file__).parents[2] / "examples" / "hydraulics").glob("*.y
 SVG = "{http://www.w3.org/2000/svg}"
 WITHOUT_SYMBOL = {"volume"}  # a line with a name
 
-each_example = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+FORTY = Path("forty-components")  # no file: a machine of seven functions
+
+each_example = pytest.mark.parametrize("path", [*FILES, FORTY], ids=lambda path: path.stem)
+
+
+def forty_components():
+    """A record with seven functions on one pump, each with section, counterbalance valve, check valve and cylinder."""
+    parts = [
+        {"name": "tank", "type": "tank", "pressure": 2e5},
+        {"name": "supply", "type": "volume"},
+        {"name": "ls", "type": "load-sensing", "ports": {}},
+        {"name": "pump", "type": "pump", "ports": {"A": "tank", "B": "supply", "LS": "ls"}, "margin": 2e6},
+        {"name": "relief", "type": "relief-valve", "ports": {"P": "supply", "T": "tank"}, "opens_at": 2.3e7},
+    ]
+    for k in range(7):
+        own, load = {"P": "supply", "T": "tank", "A": f"line_{k}", "B": f"ram_{k}.B", "LS": "ls"}, f"ram_{k}.A"
+        compensation = "post" if k % 2 else "pre"
+        parts += [
+            {"name": f"section_{k}", "type": "section", "compensation": compensation, "margin": 7e5, "ports": own},
+            {"name": f"line_{k}", "type": "volume"},
+            {
+                "name": f"hold_{k}",
+                "type": "counterbalance-valve",
+                "ports": {"L": load, "V": own["A"], "X": own["B"]},
+                "opens_at": 1.8e7,
+            },
+            {"name": f"refill_{k}", "type": "check-valve", "ports": {"A": "tank", "B": own["B"]}},
+            {"name": f"ram_{k}", "type": "cylinder"},
+        ]
+    return {"hydraulics": parts}
 
 
 def record_of(path):
+    if path is FORTY:
+        return forty_components()
     return parse_machine(path.read_text(encoding="utf-8"), path).model_dump(mode="json")
 
 
@@ -82,7 +113,7 @@ def test_no_words_are_over_others(path):
 def test_every_pin_of_a_component_is_on_a_line_or_at_a_tank(path):
     circuit, drawing = drawn(path)
     ends = {(round(x, 3), round(y, 3)) for line in drawing.lines for x, y in line.points[:1]}
-    ends |= {(round(x, 3), round(y, 3)) for x, y, _ in drawing.tanks}
+    ends |= {(round(x, 3), round(y, 3)) for x, y, *_ in drawing.tanks}
     for _, part, port in circuit.pins():
         above = port in part.symbol.above
         x = part.x + (part.symbol.above if above else part.symbol.below)[port]
@@ -97,6 +128,35 @@ def test_the_pressures_at_the_start_stand_at_the_nodes():
     assert set(found) == {"supply.pressure", "lift.pressure_A", "lift.pressure_B"}
     for name, text in found.items():
         assert float(text.removesuffix(" bar")) == pytest.approx(facts.pressures[f"hydraulics.{name}"] / 1e5, rel=1e-3)
+
+
+def test_lines_have_the_colours_of_their_pressures():
+    """Red at the highest pressure, blue at none; each says which result it follows, so that pages change it."""
+    path = next(each for each in FILES if each.stem == "cylinder-boom")
+    facts = nivel.load(path).check()
+    root = ET.fromstring(circuit_diagram(record_of(path), facts.pressures))
+    hues = {}
+    for line in root.iter(f"{SVG}polyline"):
+        if line.get("data-level"):
+            hues[line.get("data-level")] = float(re.search(r"hsl\((\d+)", line.get("style"))[1])
+    highest = max(facts.pressures.values())
+    for name, hue in hues.items():
+        assert hue == pytest.approx(220 * (1 - facts.pressures[f"hydraulics.{name}"] / highest), abs=0.51)
+    assert {"supply.pressure", "lift.pressure_A", "lift.pressure_B"} <= {*hues}
+    (key,) = (span.text for span in root.iter(f"{SVG}tspan") if span.get("data-highest"))
+    assert float(key) == pytest.approx(highest / 1e5, rel=1e-3)
+
+
+def test_gas_has_sources_and_exhausts_of_its_own():
+    """Triangles of gas are not filled (ISO 1219-1); a tank that takes gas is an exhaust, not a reservoir."""
+    path = next(each for each in FILES if each.stem == "pneumatic-pusher")
+    circuit, drawing = drawn(path)
+    text = circuit_diagram(record_of(path), {})
+    exhausts = [node for *_, node in drawing.tanks if node in circuit.gases]
+    assert exhausts
+    assert text.count('class="hollow"') == len(exhausts) + 1  # and that of the supply
+    oil = next(each for each in FILES if each.stem == "cylinder-boom")
+    assert 'class="hollow"' not in circuit_diagram(record_of(oil), {})
 
 
 def test_every_component_has_a_symbol():

@@ -117,11 +117,21 @@
   }
 
   // pressures in the diagram of a circuit: of the frame at the cursor, at first and without a cursor those of the first one
+  const inBar = data.panels.flatMap((panel) => panel.groups.filter((group) => group.unit === "bar").flatMap((group) => group.curves));
   const shown = [...document.querySelectorAll("[data-pressure]")].map((place) => {
-    const curves = data.panels.flatMap((panel) => panel.groups.filter((group) => group.unit === "bar").flatMap((group) => group.curves));
-    return { place, curve: curves.find((curve) => curve.label === place.dataset.pressure) };
+    return { place, curve: inBar.find((curve) => curve.label === place.dataset.pressure) };
   });
+  const levels = [...document.querySelectorAll("[data-level]")].map((line) => {
+    return { line, curve: inBar.find((curve) => curve.label === line.dataset.level) };
+  });
+  const highest = levels.reduce((most, { curve }) => (curve ? values(curve, false).reduce((a, b) => Math.max(a, b ?? 0), most) : most), 0);
+  const key = document.querySelector("[data-highest]");
+  if (key && highest > 0) key.textContent = `${+highest.toPrecision(4)}`;
   function showPressures(index) {
+    for (const { line, curve } of levels) {
+      const share = curve && highest > 0 ? Math.min(Math.max((values(curve, false)[index ?? 0] ?? 0) / highest, 0), 1) : null;
+      if (share !== null) line.style.stroke = `hsl(${Math.round(220 * (1 - share))} 80% 42%)`; // as in the diagram at the start
+    }
     for (const { place, curve } of shown) {
       if (curve) place.textContent = `${+(values(curve, false)[index ?? 0] ?? 0).toPrecision(4)} bar`;
     }

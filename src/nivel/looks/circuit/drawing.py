@@ -6,16 +6,20 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
-from nivel.looks.circuit.parts import Circuit, Part, circuit_of
+from nivel.looks.circuit.parts import Circuit, Part, circuit_of, variable_of
 from nivel.looks.circuit.placing import place
 from nivel.looks.circuit.routing import Drawing, Line, Router
 from nivel.system.hydraulics.symbols import Symbol
 
 LARGEST = 120  # components that can be read in one drawing
+COLD, KEYS = 220.0, 6  # hue of no pressure; patches of the key of colours
 STYLE = """
 .circuit { font: 11px system-ui, sans-serif; color: inherit; }
 .circuit path, .circuit circle, .circuit polyline { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linejoin: round; }
 .circuit .symbol path, .circuit .symbol circle { stroke-width: 1.3; }
+.circuit .hollow { fill: none; }
+.circuit .level { stroke-width: 1.8; }
+.circuit .key { font-size: 9px; fill-opacity: 0.65; }
 .circuit .full { fill: currentColor; stroke: none; }
 .circuit .dashed, .circuit .symbol .dashed { stroke-dasharray: 4 3; stroke-width: 1; }
 .circuit .symbol .frame { stroke-dasharray: 8 3 2 3; stroke-width: 0.9; }
@@ -48,11 +52,14 @@ def laid_out(circuit: Circuit) -> Drawing:
 
 
 def _drawn(circuit: Circuit, drawing: Drawing, pressures: Mapping[str, float]) -> Iterator[str]:
-    yield from map(_line, drawing.lines)
+    highest = max(pressures.values(), default=0.0)
+    for line in drawing.lines:
+        yield _line(line, level=_colour(pressures.get(f"hydraulics.{variable_of(line.node)}"), highest))
     yield from (f'<circle class="full" cx="{x:.1f}" cy="{y:.1f}" r="2.4"/>' for x, y in drawing.dots)
-    for x, y, up in drawing.tanks:
-        way = -1.0 if up else 1.0
-        yield f'<path d="M{x:.1f} {y:.1f} v{14 * way:g} m-6 -5 v{5 + 0 * way:g} h12 v-5"/>'
+    for x, y, up, node in drawing.tanks:
+        yield _exhaust(x, y, up) if node in circuit.gases else _tank(x, y, up)
+    if highest:
+        yield from _key(drawing, highest)
     yield from (_symbol(part, pressures) for part in circuit.parts)
     for label in drawing.labels:
         if label.leader is not None:
@@ -67,10 +74,45 @@ def _pressure(variable: str, pressures: Mapping[str, float]) -> str:
     return f'<tspan data-pressure="{escape(variable.removeprefix("hydraulics."))}">{value}</tspan>'
 
 
-def _line(line: Line, style: str = "") -> str:
+def _line(line: Line, style: str = "", level: str = "") -> str:
+    """A line of a node. level : the colour of its pressure; a line of a node with a pressure says which, so that it can change."""
     points = " ".join(f"{x:.1f},{y:.1f}" for x, y in line.points)
-    style = f' class="{style or "dashed"}"' if style or line.dashed else ""
-    return f'<polyline{style} points="{points}"><title>{escape(line.node)}</title></polyline>'
+    words = style or " ".join(
+        word for word, is_so in (("dashed", line.dashed), ("level", level and not line.dashed)) if is_so
+    )
+    shown = f' class="{words}"' if words else ""
+    shown += f' style="stroke:{level}"' if level else ""
+    shown += "" if style else f' data-level="{escape(variable_of(line.node))}"'
+    return f'<polyline{shown} points="{points}"><title>{escape(line.node)}</title></polyline>'
+
+
+def _colour(pressure: float | None, highest: float) -> str:
+    """From blue at no pressure over green and yellow to red at the highest one; nothing where the pressure is not known."""
+    if pressure is None or highest <= 0.0:
+        return ""
+    return f"hsl({COLD * (1.0 - min(max(pressure / highest, 0.0), 1.0)):.0f} 80% 42%)"
+
+
+def _key(drawing: Drawing, highest: float) -> Iterator[str]:
+    """What the colours of lines are, below the drawing; a page whose pressures change says its own highest one."""
+    y = drawing.high - 4.0
+    for k in range(KEYS):
+        at = k / (KEYS - 1)
+        x = 10.0 + 14.0 * k
+        yield f'<path d="M{x:g} {y - 3:.1f} h14" style="stroke:{_colour(at, 1.0)};stroke-width:4"/>'
+    words = f'0 to <tspan data-highest="{highest:.6g}">{highest / 1e5:.4g}</tspan> bar'
+    yield f'<text class="key" x="{14.0 * KEYS + 16.0:g}" y="{y:.1f}">{words}</text>'
+
+
+def _tank(x: float, y: float, up: bool) -> str:
+    way = -1.0 if up else 1.0
+    return f'<path d="M{x:.1f} {y:.1f} v{14 * way:g} m-6 -5 v5 h12 v-5"/>'
+
+
+def _exhaust(x: float, y: float, up: bool) -> str:
+    """A triangle that is not filled, away from what it drains: gas goes into the open."""
+    way = -1.0 if up else 1.0
+    return f'<path class="hollow" d="M{x:.1f} {y:.1f} v{6 * way:g} m-5 0 h10 l-5 {8 * way:g} z"/>'
 
 
 def _symbol(part: Part, pressures: Mapping[str, float]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from nivel.machine.hydraulics import COMPONENT_OF
@@ -52,11 +52,12 @@ class Part:
 @dataclass
 class Circuit:
     """Parts. drains : nodes that are drawn as a tank at every pin. values : result variables of the pressures of volumes, which are lines
-    alone."""
+    alone. gases : drains of gas, which are drawn as exhausts."""
 
     parts: list[Part]
     drains: frozenset[str]
     values: dict[str, str] = field(default_factory=dict)
+    gases: frozenset[str] = frozenset()
 
     def pins(self) -> Iterator[tuple[str, Part, str]]:
         """(node, part, port) of every pin."""
@@ -67,18 +68,38 @@ class Circuit:
 
 def circuit_of(record: Mapping[str, Any]) -> Circuit:
     """The circuit of a machine record as JSON. A component without a symbol is a box with its type; a volume is a line with its name."""
-    parts, drains, values = [], set(), {}
+    parts, drains, values, gases = [], set(), {}, set()
+    of_gas = _gases(record)
     for data in record.get("hydraulics") or ():
         kind, name = str(data["type"]), str(data["name"])
+        gas = str(data.get("fluid")) in of_gas or (data.get("fluid") is None and of_gas == {*_fluids(record)} != set())
         if kind == "tank" and not _is_supply(data):
             drains.add(name)
+            gases |= {name} if gas else set()
         elif _is_line(kind):
             values[name] = f"hydraulics.{name}.pressure"
         else:
             symbol = _symbol(data, kind)
+            if kind == "tank" and gas:  # a triangle that is not filled is a source of gas
+                symbol = replace(symbol, body=symbol.body.replace('class="full"', 'class="hollow"'))
             lines = _lines(data, kind, symbol)
             parts.append(Part(name, kind, symbol, lines, tuple(_words(data, kind, symbol))))
-    return Circuit(parts, frozenset(drains), values)
+    return Circuit(parts, frozenset(drains), values, frozenset(gases))
+
+
+def _fluids(record: Mapping[str, Any]) -> dict[str, str]:
+    """The fluids by name, with their types."""
+    return {str(each["name"]): str(each.get("type")) for each in record.get("fluids") or ()}
+
+
+def _gases(record: Mapping[str, Any]) -> set[str]:
+    return {name for name, type_ in _fluids(record).items() if type_ == "ideal-gas"}
+
+
+def variable_of(node: str) -> str:
+    """The result variable of the pressure of a node, without its first word: `lift.pressure_A` of the chamber `lift.A`."""
+    name, _, inner = node.partition(".")
+    return f"{name}.pressure_{inner}" if inner else f"{name}.pressure"
 
 
 def _is_supply(tank: Mapping[str, Any]) -> bool:

@@ -57,13 +57,13 @@ class Label:
 
 @dataclass
 class Drawing:
-    """All that is drawn beside the symbols. tanks : x, y, whether above its pin. dots : where lines of a node meet."""
+    """All that is drawn beside the symbols. tanks : x, y, whether above its pin, node. dots : where lines of a node meet."""
 
     wide: float
     high: float
     lines: list[Line] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
-    tanks: list[tuple[float, float, bool]] = field(default_factory=list)
+    tanks: list[tuple[float, float, bool, str]] = field(default_factory=list)
     dots: list[tuple[float, float]] = field(default_factory=list)
 
 
@@ -183,7 +183,7 @@ class Router:
         out = Drawing(self.wide, self.high)
         for pin in self.pins:
             if pin.node in self.circuit.drains:
-                out.tanks.append((pin.x, pin.y, pin.up))
+                out.tanks.append((pin.x, pin.y, pin.up, pin.node))
             else:
                 out.lines.append(self._stub(pin))
         for node, channels in self.channels.items():
@@ -261,7 +261,7 @@ def _is_free(label: Label, out: Drawing) -> bool:
                 return False
     if label.leader is not None and any(_lies_upon(label.leader, line) for line in out.lines):
         return False
-    if any(x - 9.0 < right and x + 9.0 > left and y - DRAIN < bottom and y + DRAIN > top for x, y, _ in out.tanks):
+    if any(x - 9.0 < right and x + 9.0 > left and y - DRAIN < bottom and y + DRAIN > top for x, y, *_ in out.tanks):
         return False
     return not any(
         other.x < right and other.x + other.wide > left and other.y - 11.0 < bottom and other.y + 2.0 > top

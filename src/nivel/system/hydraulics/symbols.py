@@ -218,7 +218,8 @@ def shuttle(_: Mapping[str, Any]) -> Symbol:
 
 def source(_: Mapping[str, Any]) -> Symbol:
     """A supply of constant pressure."""
-    return Symbol(_circle(12.0) + path("M0 -12 l-6 10 h12 z M0 -12 V-18"), 12.0, 18.0, {"P": 0.0}, {}, "supply")
+    body = _circle(12.0) + path("M0 -12 l-6 10 h12 z", "full") + path("M0 -12 V-18")
+    return Symbol(body, 12.0, 18.0, {"P": 0.0}, {}, "supply")
 
 
 def directional(data: Mapping[str, Any]) -> Symbol:

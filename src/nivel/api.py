@@ -70,6 +70,8 @@ if TYPE_CHECKING:
     from nivel.analysis.check.check import Check
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
+    from nivel.analysis.optimise.identify import Identified
+    from nivel.analysis.optimise.optimise import Optimum
     from nivel.analysis.run.many import Simulations
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
@@ -468,6 +470,105 @@ class Machine(Model):
         build(_entries_of(plan, chosen.record), listener)
         names = (save,) if isinstance(save, str) else tuple(save)
         return run_batch(chosen, rows, names, threads=threads or processors(), listener=listener or Listener())
+
+    @checked_arguments
+    def optimise(
+        self,
+        objective: str | Callable[..., float],
+        parameters: Mapping[str, Sequence[Any]],
+        *,
+        maximise: bool = False,
+        outputs: Mapping[str, str | Callable[..., float]] | None = None,
+        limits: Mapping[str, Sequence[float | None]] | None = None,
+        method: str = "SLSQP",
+        starts: int = 1,
+        seed: int = 0,
+        iterations: int = 200,
+        accuracy: float = 1e-8,
+        threads: int | None = None,
+        listener: Listener | None = None,
+        **settings: Unpack[RunSettingsDict],
+    ) -> Optimum:
+        """The values of parameters with which a run has the least objective, or the largest: ``optimum.values``, ``optimum.machine``.
+
+        objective : an output in words, ``"max(crank.angle)"``, ``"slider.position.x at 0.5 s"``, ``"time(lift)"``, a name (its value at the
+        end), or a function of the result. parameters : bounds by path, ``{"bodies.rod.mass": (1, 3)}``, or (1, 2, 3) with a start between
+        them. outputs : others, by name; limits : (least, greatest) of outputs, ``{"force": (None, 500.0)}``. method : of
+        `scipy.optimize.minimize`, or `differential-evolution`. starts : the first is the machine's own values, the others are drawn from a
+        Latin hypercube with `seed`. iterations : of each start, at most. accuracy : of the objective, as a share. settings : of the runs.
+
+        Slopes are differences of runs. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
+        ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective.
+        """
+        from nivel.analysis.optimise.evaluations import box_of
+        from nivel.analysis.optimise.optimise import Aim, optimise
+        from nivel.native.workers import processors
+
+        chosen = self._ready(settings, listener)
+        given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
+        return optimise(
+            chosen,
+            box_of(chosen, parameters),
+            Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
+            method=method,
+            starts=starts,
+            seed=seed,
+            most=iterations,
+            tolerance=accuracy,
+            threads=threads or processors(),
+            listener=listener,
+        )
+
+    @checked_arguments
+    def identify(
+        self,
+        data: str | PathLike[str] | Mapping[str, Any],
+        parameters: Mapping[str, Sequence[Any]],
+        *,
+        deviations: Mapping[str, float] | None = None,
+        starts: int = 1,
+        seed: int = 0,
+        iterations: int = 100,
+        accuracy: float = 1e-10,
+        threads: int | None = None,
+        listener: Listener | None = None,
+        **settings: Unpack[RunSettingsDict],
+    ) -> Identified:
+        """Parameters with which runs come nearest to measurements, by least squares: ``found.values``, ``found.deviations``.
+
+        data : a file (CSV, MAT, Parquet) with a column `time` and columns with names of results, each with its unit in the heading,
+        ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. parameters : as in `optimise`. deviations : standard
+        deviations of the signals, where they are known; else each signal is measured by how much it varies, and the covariance follows from
+        what is left. starts, seed, iterations, accuracy, settings : as in `optimise`.
+
+        `found.covariance` is that of the parameters in their order, `found.undetermined` names those that the measurements do not tell
+        apart. Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
+        """
+        from nivel.analysis.optimise.evaluations import box_of
+        from nivel.analysis.optimise.identify import identify
+        from nivel.analysis.optimise.measurements import signals_of
+        from nivel.native.workers import processors
+
+        chosen = self._ready(settings, listener)
+        return identify(
+            chosen,
+            box_of(chosen, parameters),
+            signals_of(data, deviations or {}),
+            starts=starts,
+            seed=seed,
+            most=iterations,
+            tolerance=accuracy,
+            threads=threads or processors(),
+            listener=listener,
+        )
+
+    def _ready(self, settings: RunSettingsDict, listener: Listener | None) -> Machine:
+        """The machine with these settings, whose runs are compiled."""
+        given = _given(settings)
+        chosen = self.with_settings(given)
+        plan = chosen._plan({*given, *self.origin.settings_outside})
+        build(_entries_of(plan, chosen.record), listener)
+        return chosen
 
     @checked_arguments
     def statics(

@@ -77,6 +77,16 @@ def column_values(content: str | bytes, file: str, column: object, units: object
     return _with_units(found, units, "units")
 
 
+def numeric_columns(content: str | bytes, file: str) -> dict[str, list[float]]:
+    """Numbers of all columns in SI units, by name. Raises CsvError."""
+    given = _Rows(content) if isinstance(content, str) else _Measured(content, file)
+    found = zip(given.names, given.columns(*given.names), strict=True)
+    return {
+        name: [float(read_quantity(each, ANY, {})) for each in _with_units(column, None, "csv")]
+        for name, column in found
+    }
+
+
 def _tables(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
     """Every mapping under `value` that names a CSV file."""
     if isinstance(value, dict):

@@ -1,0 +1,1 @@
+"""The best of many machines: minimisation under constraints, parameters from measurements, inputs over time."""

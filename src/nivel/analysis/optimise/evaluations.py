@@ -1,0 +1,192 @@
+"""Evaluations of a machine's outputs over its parameters: with all that was computed kept, and slopes by differences."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from queue import SimpleQueue
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.sweep.batch import VariantRuns, formulas_for
+from nivel.errors import Fault, ModelError
+from nivel.machine.units.quantity import ANY, read_quantity
+from nivel.machine.units.tree import ExpressionError
+from nivel.model import Model
+from nivel.results.result import Result
+from nivel.words.wording import shown
+
+Array = NDArray[np.float64]
+Reader = Callable[[Result], Array]
+# exact slopes: parameters by path to outputs (m,) and slopes (m, d)
+Exact = Callable[[Mapping[str, float]], tuple[Array, Array]]
+
+# differences are taken over this share of the range of a parameter
+SHARE: Final = 1e-5
+SAMPLED: Final = 6  # variants in the box for which formulas are looked for
+
+
+@dataclass(frozen=True)
+class Box:
+    """Parameters by path between bounds (d,) in SI units; start (d,) : where a search begins first."""
+
+    paths: tuple[str, ...]
+    low: Array
+    high: Array
+    start: Array
+
+    def values(self, z: Array) -> dict[str, float]:
+        """Parameters for z (d,) of the unit cube."""
+        x = self.low + np.clip(z, 0.0, 1.0) * (self.high - self.low)
+        return dict(zip(self.paths, map(float, x), strict=True))
+
+    def scaled(self, x: Array) -> Array:
+        """Places in the unit cube."""
+        return np.asarray((x - self.low) / (self.high - self.low), dtype=np.float64)
+
+    def starts(self, count: int, seed: int) -> Array:
+        """(count, d) places in the unit cube: the start, then those of a Latin hypercube."""
+        from scipy.stats import qmc
+
+        first = self.scaled(self.start)[None]
+        if count == 1:
+            return first
+        more = qmc.LatinHypercube(len(self.paths), rng=np.random.default_rng(seed)).random(count - 1)
+        return np.vstack([first, more])
+
+
+def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
+    """parameters : (low, high) or (low, start, high) by path, numbers or texts with units. Raises ModelError with all that is wrong."""
+    if not parameters:
+        raise ModelError(
+            Fault("", 0, 0, "parameters", "nothing varies: give bounds by path, {'bodies.rod.mass': (1, 3)}")
+        )
+    rows, faults = [], []
+    for path, given in parameters.items():
+        try:
+            numbers = [float(read_quantity(each, ANY, {})) for each in given]
+        except (ExpressionError, TypeError, ValueError):
+            numbers = []
+        if len(numbers) not in (2, 3) or isinstance(given, str) or not numbers[0] < numbers[-1]:
+            message = f"bounds were expected, (1, 3), or (1, 2, 3) with a start between them, got {shown(given)}"
+            faults.append(Fault("", 0, 0, path, message))
+            continue
+        low, high = numbers[0], numbers[-1]
+        start = numbers[1] if len(numbers) == 3 else _present(machine, path, low, high)
+        if not low <= start <= high:
+            faults.append(Fault("", 0, 0, path, f"a start between {low:g} and {high:g} was expected, got {start:g}"))
+        rows.append((low, high, start))
+    if faults:
+        raise ModelError(faults)
+    low, high, start = np.array(rows).T
+    return Box(tuple(parameters), low, high, start)
+
+
+def _present(machine: Model, path: str, low: float, high: float) -> float:
+    """The value that the machine has, where it is between the bounds; else halfway between them."""
+    try:
+        value = float(machine[path])
+    except (ModelError, TypeError, ValueError):
+        return 0.5 * (low + high)
+    return value if low <= value <= high else 0.5 * (low + high)
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """One variant: place z (d,) in the unit cube, outputs (m,), not numbers where there are none, and how it ended."""
+
+    z: Array
+    outputs: Array
+    outcome: str
+    reason: str
+    start: int
+
+
+class Evaluations:
+    """Outputs (m,) of variants of a machine. made : all of them, in the order in which they were asked for."""
+
+    def __init__(
+        self, machine: Model, box: Box, read: Reader, count: int, *, threads: int = 1, exact: Exact | None = None
+    ) -> None:
+        """read : the outputs (count,) of a result."""
+        self.box, self._read, self._count, self._exact = box, read, count, exact
+        rng = np.random.default_rng(0)
+        rows = [
+            box.values(z) for z in (np.zeros(len(box.low)), np.ones(len(box.low)), *rng.random((SAMPLED, len(box.low))))
+        ]
+        self._patches, self.prepared_because = formulas_for(machine, rows)
+        self._runs: SimpleQueue[VariantRuns] = SimpleQueue()
+        self._threads = threads if self._patches is not None else 1
+        for _ in range(self._threads):
+            self._runs.put(VariantRuns(machine, self._patches))
+        self.made: list[Evaluated] = []
+        self._known: dict[bytes, Array] = {}
+        self.start = 0
+
+    def at(self, z: Array) -> Array:
+        """(m,) at a place in the unit cube."""
+        return self.each([z])[0]
+
+    def each(self, places: Sequence[Array]) -> list[Array]:
+        """Outputs at several places, computed beside each other."""
+        new = [z for z in places if z.tobytes() not in self._known]
+        if self._threads == 1 or len(new) == 1:
+            made = [self._one(z) for z in new]
+        else:
+            with ThreadPoolExecutor(self._threads) as pool:
+                made = list(pool.map(self._one, new))
+        for each in made:
+            self._known[each.z.tobytes()] = each.outputs
+        self.made += made
+        return [self._known[z.tobytes()] for z in places]
+
+    def _one(self, z: Array) -> Evaluated:
+        runs = self._runs.get()
+        try:
+            ran = runs.run(self.box.values(z))
+            if ran.outcome == "not run":
+                raise KeyboardInterrupt
+            outputs = np.full(self._count, np.nan)
+            if ran.result is not None and ran.outcome in ("done", "stopped"):
+                outputs = self._read(ran.result)
+        finally:
+            self._runs.put(runs)
+        return Evaluated(z.copy(), outputs, ran.outcome, ran.reason, self.start)
+
+    def slopes(self, z: Array) -> Array:
+        """(m, d) derivatives with respect to places in the unit cube: exact ones, or differences to the side where there is room."""
+        if self._exact is not None:
+            _, slopes = self._exact(self.box.values(z))
+            return slopes * (self.box.high - self.box.low)
+        d = len(z)
+        steps = np.full(d, SHARE)
+        places = []
+        for k in range(d):
+            for side in _sides(z[k], SHARE):
+                place = z.copy()
+                place[k] += side * steps[k]
+                places.append(place)
+        found = self.each([z, *places])
+        middle, ends = found[0], found[1:]
+        columns = []
+        for k in range(d):
+            a, b = _sides(z[k], SHARE)
+            columns.append(_difference(middle, ends[2 * k], ends[2 * k + 1], a, b, steps[k]))
+        return np.array(columns).T
+
+
+def _sides(z: float, share: float) -> tuple[float, float]:
+    """Multiples of the step to which differences go: both sides, or two to one where a bound is near."""
+    if z + share > 1.0:
+        return -1.0, -2.0
+    return (1.0, 2.0) if z - share < 0.0 else (1.0, -1.0)
+
+
+def _difference(middle: Array, first: Array, second: Array, a: float, b: float, step: float) -> Array:
+    """Slope of the parabola through three places, 0, a and b steps away."""
+    return np.asarray(
+        (b * b * (first - middle) - a * a * (second - middle)) / (a * b * (b - a) * step), dtype=np.float64
+    )

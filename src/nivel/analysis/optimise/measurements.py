@@ -1,0 +1,68 @@
+"""Measurements to which a machine is fitted: from files, or arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike, fspath
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.analysis.optimise.identify import Signal
+from nivel.errors import Fault, ModelError
+from nivel.files.csv_tables import CsvError, numeric_columns
+from nivel.files.measured_file import KINDS
+from nivel.files.sources import read_bytes, read_text
+from nivel.words.wording import shown, unknown_word
+
+TIME: Final = "time"
+
+
+def signals_of(data: str | PathLike[str] | Mapping[str, Any], deviations: Mapping[str, float]) -> list[Signal]:
+    """data : a file with a column `time` and columns with names of results; or (times, values) by name. Raises ModelError."""
+    given = _arrays(data) if isinstance(data, Mapping) else _columns(fspath(data))
+    faults = [
+        Fault("", 0, 0, f"deviations.{name}", unknown_word(name, list(given), "signal"))
+        for name in deviations
+        if name not in given
+    ]
+    faults += [
+        Fault("", 0, 0, f"deviations.{name}", f"a number above zero was expected, got {shown(value)}")
+        for name, value in deviations.items()
+        if name in given and not float(value) > 0.0
+    ]
+    if not given:
+        faults.append(Fault("", 0, 0, "data", "there are no measurements"))
+    if faults:
+        raise ModelError(faults)
+    return [Signal(name, times, values, deviations.get(name)) for name, (times, values) in given.items()]
+
+
+def _arrays(data: Mapping[str, Any]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    out, faults = {}, []
+    for name, pair in data.items():
+        try:
+            times, values = (np.asarray(each, dtype=float).ravel() for each in pair)
+        except (TypeError, ValueError):
+            faults.append(Fault("", 0, 0, f"data.{name}", f"times and values were expected, got {shown(pair)}"))
+            continue
+        if len(times) != len(values) or not np.isfinite([*times, *values]).all():
+            message = f"as many numbers as times were expected, got {len(values)} over {len(times)}"
+            faults.append(Fault("", 0, 0, f"data.{name}", message))
+        out[name] = (times, values)
+    if faults:
+        raise ModelError(faults)
+    return out
+
+
+def _columns(file: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    content = read_bytes(file) if file.lower().endswith(KINDS) else read_text(file)
+    try:
+        columns = numeric_columns(content, file)
+    except CsvError as problem:
+        raise ModelError(Fault(file, problem.line, 1 if problem.line else 0, "", str(problem))) from None
+    if TIME not in columns:
+        message = f"a column `time` is missing; there are {', '.join(f'`{name}`' for name in columns)}"
+        raise ModelError(Fault(file, 1, 1, "", message))
+    times = np.array(columns.pop(TIME))
+    return {name: (times, np.array(values)) for name, values in columns.items()}

@@ -1,0 +1,81 @@
+"""Outputs in words: one number of a run, as `max(crank.angle)`, `slider.position.x at 0.5 s` or `time(lift)`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.units.quantity import ANY, read_quantity
+from nivel.machine.units.tree import ExpressionError
+from nivel.results.result import Result
+from nivel.words.wording import shown, unknown_word
+
+Spoken = Callable[[Result], float]
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def _integral(t: Numbers, y: Numbers) -> float:
+    """By the trapezoidal rule."""
+    return float(0.5 * np.sum(np.diff(t) * (y[1:] + y[:-1])))
+
+
+REDUCED: Final[dict[str, Callable[[Numbers, Numbers], float]]] = {
+    "max": lambda _, y: float(y.max()),
+    "min": lambda _, y: float(y.min()),
+    "peak": lambda _, y: float(np.abs(y).max()),
+    "mean": lambda t, y: _integral(t, y) / max(float(t[-1] - t[0]), 1e-300),
+    "rms": lambda t, y: float(np.sqrt(_integral(t, y * y) / max(float(t[-1] - t[0]), 1e-300))),
+    "integral": _integral,
+}
+CALL = re.compile(r"(\w+)\((.*)\)")
+
+
+def spoken_output(said: str | Callable[[Result], float]) -> Spoken:
+    """A function of a result for what was said; a function as it is.
+
+    Said: the name of a result, which is its value at the end; `max`, `min`, `peak` (largest magnitude), `mean`, `rms` or `integral` of it;
+    its value `at` a time; `time` of the first event of a name. Raises ModelError for other words.
+    """
+    if callable(said):
+        return lambda result: float(said(result))
+    words = str(said).strip()
+    if found := CALL.fullmatch(words):
+        word, inner = found[1], found[2].strip()
+        if word == "time":
+            return lambda result: _event_time(result, inner)
+        if word not in REDUCED:
+            raise ModelError(Fault("", 0, 0, words, unknown_word(word, [*REDUCED, "time"], "reduction")))
+        reduce = REDUCED[word]
+        return lambda result: reduce(result.time, history(result, inner))
+    name, at, moment = words.rpartition(" at ")
+    if not at:
+        return lambda result: float(history(result, words)[-1])
+    try:
+        time = float(read_quantity(moment, ANY, {}))
+    except (ExpressionError, TypeError, ValueError):
+        raise ModelError(Fault("", 0, 0, words, f"a time was expected after `at`, got {shown(moment)}")) from None
+    return lambda result: at_times(result, name.strip(), np.array([time]))[0]
+
+
+def history(result: Result, name: str) -> Numbers:
+    """(n,) of a result that is one number at each time. Raises ModelError where it is several, or none."""
+    values = result.array(name)
+    if values.ndim != 1:
+        raise ModelError(Fault("", 0, 0, name, f"one number was expected; it has {values.shape[1:]}: name one of them"))
+    return values
+
+
+def at_times(result: Result, name: str, times: Numbers) -> Numbers:
+    """Values at times, between two frames by straight lines; not numbers after the end of the run."""
+    t = result.time
+    out = np.interp(times, t, history(result, name))
+    out[times > t[-1] * (1.0 + 1e-9)] = np.nan
+    return out
+
+
+def _event_time(result: Result, name: str) -> float:
+    return next((float(each.time) for each in result.events if each.name == name), np.nan)

@@ -1,0 +1,163 @@
+"""Optimisation and identification against closed forms, known machines and the statistics of least squares."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.errors import ModelError
+from nivel.files import parse_machine
+
+OSCILLATOR = """
+format: 1
+bodies: {block: {mass: 2, inertia: [1, 1, 1], position: [0.1, 0, 0]}}
+joints: {rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}}
+forces:
+  spring: {type: joint-spring-damper, coordinate: rail.displacement, stiffness: 50, damping: 4}
+simulation: {duration: 2 s, step: 2 ms, output_interval: 20 ms, integrator: rk4}
+"""
+STIFFNESS, DAMPING = "forces.spring.stiffness", "forces.spring.damping"
+
+
+@pytest.fixture(scope="module")
+def oscillator():
+    return nivel.Machine.from_record(parse_machine(OSCILLATOR.replace("position: [0.1, 0, 0]", "velocity: [1, 0, 0]")))
+
+
+def test_an_optimum_may_lie_on_a_bound(oscillator):
+    """The more a block is damped that is thrown with v₀, the less far it goes: the upper bound is found."""
+    found = oscillator.optimise("peak(rail.displacement)", {DAMPING: (1.0, 20.0)})
+    assert found.values[DAMPING] == pytest.approx(20.0, rel=1e-6)
+    assert found.outputs["objective"] == found.objective
+    assert found.machine["forces.spring.damping"] == found.values[DAMPING]
+
+
+@pytest.mark.parametrize("method", ["SLSQP", "trust-constr", "COBYLA"])
+def test_a_constraint_decides_where_the_optimum_lies(oscillator, method):
+    """The softest spring whose block stays within 0.15 m: from rest with v₀, without damping, x = v₀ √(m/k), k = m v₀²/x²."""
+    free = oscillator.with_values({DAMPING: 0.0})
+    found = free.optimise(
+        result_stiffness,
+        {STIFFNESS: (20.0, 60.0, 300.0)},
+        outputs={"reach": "max(rail.displacement)"},
+        limits={"reach": (None, 0.15)},
+        method=method,
+        output_interval="2 ms",
+    )
+    assert found.kept
+    assert found.values[STIFFNESS] == pytest.approx(2.0 / 0.15**2, rel=2e-3)
+
+
+def result_stiffness(result):
+    """Of an undamped block: from its largest displacement x, m v₀²/x²."""
+    return 2.0 / result.array("rail.displacement").max() ** 2
+
+
+def test_several_starts_and_every_variant_are_kept(oscillator):
+    found = oscillator.optimise(
+        "rms(rail.displacement)", {STIFFNESS: (20.0, 80.0), DAMPING: (1.0, 9.0)}, starts=3, seed=5
+    )
+    assert found.reached.shape == (3,)
+    assert found.objective == pytest.approx(found.reached.min())
+    assert found.dataset.sizes["variant"] == found.evaluations
+    assert set(found.dataset["start"].values.tolist()) == {0, 1, 2}
+    assert found.dataset.objective.values.min() == pytest.approx(found.objective)
+    assert found.dataset.attrs["prepared_because"] == "", "stiffness and damping are patched"
+
+
+def measured(machine, noise, seed, count=100):
+    result = machine.simulate(verify=False)
+    times = result.time[1 : count + 1]
+    rng = np.random.default_rng(seed)
+    return {
+        "rail.displacement": (
+            times,
+            result.array("rail.displacement")[1 : count + 1] + noise * rng.standard_normal(count),
+        )
+    }
+
+
+def test_parameters_without_noise_are_found_to_round_off(oscillator):
+    truth = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5})
+    found = oscillator.identify(measured(truth, 0.0, 0), {STIFFNESS: (20, 200), DAMPING: (0, 10)})
+    assert found.values[STIFFNESS] == pytest.approx(64.0, rel=1e-7)
+    assert found.values[DAMPING] == pytest.approx(2.5, rel=1e-7)
+
+
+def coverage(oscillator, seeds):
+    """How often 2.45 Mahalanobis radii (95 % of two parameters) hold the truth; mean of χ² there."""
+    truth, inside, total = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5}), 0, 0.0
+    bounds = {STIFFNESS: (40, 90), DAMPING: (0.5, 6)}
+    for seed in seeds:
+        found = oscillator.identify(measured(truth, 2e-3, seed), bounds)
+        error = np.array([found.values[STIFFNESS] - 64.0, found.values[DAMPING] - 2.5])
+        chi2 = error @ np.linalg.solve(found.covariance, error)
+        inside += chi2 <= 5.99
+        total += chi2
+    return inside, total / len(seeds)
+
+
+def test_the_covariance_covers_the_truth(oscillator):
+    inside, mean = coverage(oscillator, range(6))
+    assert inside >= 5
+    assert 0.3 < mean < 5.0
+
+
+@pytest.mark.full
+def test_the_covariance_covers_the_truth_of_100_seeds(oscillator):
+    """χ² of two parameters has the mean 2; 95 of 100 are inside on average, and fewer than 90 in one of 70 such tests."""
+    inside, mean = coverage(oscillator, range(100))
+    assert inside >= 90
+    assert mean == pytest.approx(2.0, abs=0.6)
+
+
+def test_what_the_measurements_do_not_tell_apart_is_named(oscillator):
+    """Mass, stiffness and damping of a free vibration: only their ratios act."""
+    truth = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5})
+    bounds = {STIFFNESS: (40, 90), DAMPING: (1, 6), "bodies.block.mass": (1, 3)}
+    found = oscillator.identify(measured(truth, 1e-4, 1), bounds)
+    assert found.undetermined
+    assert np.isinf(found.deviations["bodies.block.mass"])
+    assert found.values[STIFFNESS] / found.values["bodies.block.mass"] == pytest.approx(32.0, rel=1e-2)
+
+
+def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
+    truth = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5})
+    times, values = measured(truth, 0.0, 0)["rail.displacement"]
+    rows = [f"{1e3 * t:.6f},{1e3 * x:.9f}" for t, x in zip(times, values, strict=True)]
+    path = tmp_path / "bench.csv"
+    path.write_text("\n".join(["time [ms],rail.displacement [mm]", *rows]))
+    found = oscillator.identify(path, {STIFFNESS: (20, 200), DAMPING: (0, 10)}, deviations={"rail.displacement": 1e-3})
+    assert found.values[STIFFNESS] == pytest.approx(64.0, rel=1e-5)
+    assert found.residuals["rail.displacement"].shape == times.shape
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda m: m.optimise("maxx(rail.displacement)", {STIFFNESS: (1, 2)}), "did you mean `max`"),
+        (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (2, 1)}), "bounds were expected"),
+        (lambda m: m.optimise("max(rail.displacement)", {}), "nothing varies"),
+        (lambda m: m.optimise("block.position", {STIFFNESS: (1, 2)}), "one number was expected"),
+        (lambda m: m.optimise("block.position.x at soon", {STIFFNESS: (1, 2)}), "a time was expected after `at`"),
+        (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, method="SLQP"), "did you mean `SLSQP`"),
+        (
+            lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, limits={"reach": (None, 1)}),
+            "the output `reach` is not known",
+        ),
+        (
+            lambda m: m.identify({"rail.displacement": ([0.1, 0.2], [1.0])}, {STIFFNESS: (1, 2)}),
+            "as many numbers as times",
+        ),
+        (lambda m: m.identify({"rail.displacement": ([0.1], [1.0])}, {STIFFNESS: (1, 2)}), "do not determine"),
+        (
+            lambda m: m.identify({"rail.displacement": ([0.1, 5.0], [1.0, 1.0])}, {STIFFNESS: (1, 2)}),
+            "no start has results at all measurements: the run ends before",
+        ),
+        (lambda m: m.identify(Path(__file__).parent / "nothing.csv", {STIFFNESS: (1, 2)}), "nothing.csv"),
+    ],
+)
+def test_faults_say_what_to_write(oscillator, call, message):
+    with pytest.raises(ModelError, match=message):
+        call(oscillator)

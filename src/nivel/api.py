@@ -520,6 +520,46 @@ class Machine(Model):
         )
 
     @checked_arguments
+    def optimal_inputs(
+        self,
+        objective: str | Callable[..., float],
+        inputs: Mapping[str, int],
+        *,
+        maximise: bool = False,
+        outputs: Mapping[str, str | Callable[..., float]] | None = None,
+        limits: Mapping[str, Sequence[float | None]] | None = None,
+        iterations: int = 100,
+        accuracy: float = 1e-8,
+        threads: int | None = None,
+        listener: Listener | None = None,
+        **settings: Unpack[RunSettingsDict],
+    ) -> tuple[dict[str, Table], Optimum]:
+        """Inputs over time with which a run has the least objective: tables for ``machine.simulate(inputs=tables)``, and the optimum.
+
+        inputs : by name, the number of pieces, all of one length, in each of which the input changes along a straight line within its
+        range: direct shooting, by SLSQP. limits : as in `optimise`; two equal numbers prescribe an output, ``{"swing": (0.0, 0.0)}``.
+        objective, outputs, iterations, accuracy, settings : as in `optimise`. Raises ModelError as `optimise` does, and for inputs without
+        a range.
+        """
+        from nivel.analysis.optimise.inputs import course_of
+        from nivel.analysis.optimise.optimise import Aim, optimise
+        from nivel.native.workers import processors
+
+        chosen = self._ready(settings, listener)
+        course = course_of(chosen.record, inputs, float(chosen.simulation.duration))
+        given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
+        found = optimise(
+            Machine.from_record(course.record),
+            course.box,
+            Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
+            most=iterations,
+            tolerance=accuracy,
+            threads=threads or processors(),
+            listener=listener,
+        )
+        return course.tables(found.values), found
+
+    @checked_arguments
     def identify(
         self,
         data: str | PathLike[str] | Mapping[str, Any],

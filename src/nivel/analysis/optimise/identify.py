@@ -115,13 +115,13 @@ def identify(
             least_squares(
                 residuals,
                 inside,
-                jac=slopes,
+                jac=slopes,  # type: ignore[arg-type]
                 bounds=(0.0, 1.0),
                 xtol=tolerance,
                 ftol=tolerance,
                 gtol=1e-12,
                 max_nfev=most,
-            )  # type: ignore[call-overload]
+            )
         )
         if listener is not None and listener.progress is not None:
             listener.progress(float(number + 1))

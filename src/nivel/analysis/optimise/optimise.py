@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 from typing import Any, Final
 
@@ -22,6 +23,7 @@ from nivel.words.wording import shown, unknown_word
 
 Array = NDArray[np.float64]
 Said = str | Callable[[Result], float]
+Row = tuple[int, float, float]  # output, sign, limit
 Limits = Mapping[str, tuple[float | None, float | None]]
 
 WITH_SLOPES: Final = ("SLSQP", "trust-constr", "L-BFGS-B")
@@ -179,8 +181,10 @@ class _Search:
             (names.index(name), side, limit)
             for name, (low, high) in limits.items()
             for side, limit in ((1.0, low), (-1.0, high))
-            if np.isfinite(limit)
+            if np.isfinite(limit) and low < high
         ]
+        # rows g = 0, of limits that leave one value
+        self._equal = [(names.index(name), 1.0, low) for name, (low, high) in limits.items() if low == high]
         self._size = 1.0
 
     def from_start(self, z: Array) -> tuple[Array, str]:
@@ -192,7 +196,7 @@ class _Search:
         bounds = [(0.0, 1.0)] * len(z)
         if self._method == "differential-evolution":
             found = optimize.differential_evolution(
-                self._with_penalty, bounds, maxiter=self._most, seed=self._seed, tol=self._tolerance, x0=z, polish=False
+                self._with_penalty, bounds, maxiter=self._most, rng=self._seed, tol=self._tolerance, x0=z, polish=False
             )
             return found.x, str(found.message)
         given: dict[str, Any] = {"bounds": bounds, "method": self._method, "options": {"maxiter": self._most}}
@@ -201,13 +205,9 @@ class _Search:
         if self._method in ("SLSQP", "L-BFGS-B"):
             given["options"]["ftol"] = self._tolerance
         objective = self._objective
-        if self._rows and self._method in CONSTRAINED:
-            given["constraints"] = {"type": "ineq", "fun": self._room, "jac": self._room_slope}
-            if self._method == "COBYLA":
-                del given["constraints"]["jac"]
-            if self._method == "trust-constr":
-                given["constraints"] = optimize.NonlinearConstraint(self._room, 0.0, np.inf, jac=self._room_slope)  # type: ignore[arg-type]
-        elif self._rows:
+        if (self._rows or self._equal) and self._method in CONSTRAINED:
+            given["constraints"] = self._constraints()
+        elif self._rows or self._equal:
             objective = self._with_penalty
         found = optimize.minimize(objective, z, **given)
         return np.clip(found.x, 0.0, 1.0), str(found.message)
@@ -220,23 +220,39 @@ class _Search:
         slope = self._sign * self._evaluations.slopes(np.clip(z, 0.0, 1.0))[0] / self._size
         return np.where(np.isfinite(slope), slope, 0.0)
 
-    def _room(self, z: Array) -> Array:
-        outputs = self._evaluations.at(np.clip(z, 0.0, 1.0))
-        return np.array([self._scaled_room(outputs, row) for row in self._rows])
+    def _constraints(self) -> list[Any]:
+        """Constraints as the method takes them."""
+        from scipy import optimize
 
-    def _scaled_room(self, outputs: Array, row: tuple[int, float, float]) -> float:
+        out: list[Any] = []
+        for kind, rows, most in (("ineq", self._rows, np.inf), ("eq", self._equal, 0.0)):
+            if not rows:
+                continue
+            room, slope = partial(self._room, rows), partial(self._room_slope, rows)
+            if self._method == "trust-constr":
+                out.append(optimize.NonlinearConstraint(room, 0.0, most, jac=slope))  # type: ignore[arg-type]
+            else:
+                out.append({"type": kind, "fun": room, "jac": slope})
+        return out
+
+    def _room(self, rows: Sequence[Row], z: Array) -> Array:
+        outputs = self._evaluations.at(np.clip(z, 0.0, 1.0))
+        return np.array([self._scaled_room(outputs, row) for row in rows])
+
+    def _scaled_room(self, outputs: Array, row: Row) -> float:
         k, side, limit = row
         room = side * (float(outputs[k]) - limit) / (abs(limit) or 1.0)
         return room if np.isfinite(room) else -FAR
 
-    def _room_slope(self, z: Array) -> Array:
+    def _room_slope(self, rows: Sequence[Row], z: Array) -> Array:
         slopes = self._evaluations.slopes(np.clip(z, 0.0, 1.0))
-        rows = np.array([side * slopes[k] / (abs(limit) or 1.0) for k, side, limit in self._rows])
-        return np.where(np.isfinite(rows), rows, 0.0)
+        out = np.array([side * slopes[k] / (abs(limit) or 1.0) for k, side, limit in rows])
+        return np.where(np.isfinite(out), out, 0.0)
 
     def worst_break(self, outputs: Array) -> float:
         """By how much the worst constraint is broken, as a share of its limit."""
-        return max(0.0, *(-self._scaled_room(outputs, row) for row in self._rows)) if self._rows else 0.0
+        broken = [-self._scaled_room(outputs, row) for row in self._rows]
+        return max([0.0, *broken, *(abs(self._scaled_room(outputs, row)) for row in self._equal)])
 
     def _with_penalty(self, z: Array) -> float:
         outputs = self._evaluations.at(np.clip(z, 0.0, 1.0))

@@ -1,0 +1,70 @@
+"""Examples of optimisation: what they find is known, or bounded by theory."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import nivel
+
+FOLDER = Path(__file__).parents[1] / "examples" / "optimisation"
+sys.path.insert(0, str(FOLDER))
+
+from coupler_curve import LENGTHS, synthesised  # noqa: E402
+from friction_and_damping import identified  # noqa: E402
+from swing_free import swing_free  # noqa: E402
+
+
+def reached_the_linkage(starts, seed):
+    machine, found = synthesised(starts, seed)
+    for path in LENGTHS:
+        assert found.values[path] == pytest.approx(machine.parameters[path.partition(".")[2]], rel=1e-6)
+    return int((found.reached < 1e-12).sum())
+
+
+def test_a_linkage_is_found_from_its_coupler_curve():
+    assert reached_the_linkage(1, 0) == 1
+
+
+@pytest.mark.full
+def test_a_linkage_is_found_from_eight_of_ten_starts():
+    assert reached_the_linkage(10, 1) >= 8
+
+
+def chi_square(seed):
+    """(p̂ - p)ᵀ cov⁻¹ (p̂ - p)"""
+    machine, found = identified(seed)
+    error = np.array([value - machine.parameters[path.partition(".")[2]] for path, value in found.values.items()])
+    return error @ np.linalg.solve(found.covariance, error)
+
+
+def test_the_covariance_of_friction_and_damping_covers_the_truth():
+    """95 % of two parameters are within χ² = 5.99; three outside of four seeds come once in ten thousand such tests."""
+    assert sum(chi_square(seed) <= 5.99 for seed in range(4)) >= 2
+
+
+@pytest.mark.full
+def test_the_covariance_covers_the_truth_of_100_records():
+    assert sum(chi_square(seed) <= 5.99 for seed in range(100)) >= 90
+
+
+def test_a_load_hangs_at_rest_and_costs_no_more_than_theory_allows():
+    """The least effort of the linear model is ΔᵀW⁻¹Δ with the Gramian W = ∫ e^{At} B Bᵀ e^{Aᵀt} dt (Kalman 1960); ten pieces come near it."""
+    machine, tables, found = swing_free()
+    assert found.kept
+    result = machine.simulate(inputs=tables, verify=False)
+    assert result.array("rail.displacement")[-1] == pytest.approx(3.0, abs=1e-6)
+    for name in ("rod.angle", "sensor.speed", "sensor.swing_speed"):
+        assert abs(result.array(name)[-1]) < 1e-6
+    model = nivel.load(FOLDER / "trolley.yaml").linearise(
+        inputs=["motor"], outputs=["rail.displacement", "rod.angle", "rail.displacement.rate", "rod.angle.rate"]
+    )
+    A, B, C = model.A, model.B, model.C
+    times = np.linspace(0.0, 5.0, 2001)
+    columns = np.array([expm(A * t) @ B for t in times])
+    gramian = np.trapezoid(np.einsum("tik,tjk->tij", columns, columns), times, axis=0)
+    target = np.linalg.solve(C, [3.0, 0.0, 0.0, 0.0])
+    least = target @ np.linalg.solve(gramian, target) / 5.0
+    assert 0.97 * least < found.objective < 1.1 * least

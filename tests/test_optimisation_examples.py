@@ -51,7 +51,7 @@ def test_the_covariance_covers_the_truth_of_100_records():
 
 
 def test_a_load_hangs_at_rest_and_costs_no_more_than_theory_allows():
-    """The least effort of the linear model is ΔᵀW⁻¹Δ with the Gramian W = ∫ e^{At} B Bᵀ e^{Aᵀt} dt (Kalman 1960); ten pieces come near it."""
+    """The least effort of the linear model is ΔᵀW⁻¹Δ with the Gramian W = ∫ e^{At} B Bᵀ e^{Aᵀt} dt (Kalman 1960); ten pieces are near."""
     machine, tables, found = swing_free()
     assert found.kept
     result = machine.simulate(inputs=tables, verify=False)

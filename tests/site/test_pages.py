@@ -42,6 +42,7 @@ MADE = {
 WRITTEN_HERE = [
     "index.md",
     "python.md",
+    "optimisation.md",
     *(f"tutorials/{path.name}" for path in sorted((DOCS / "tutorials").glob("*.md"))),
 ]
 

@@ -133,6 +133,67 @@ def test_joints_follow_each_other_from_where_they_are_placed(tmp_path):
     assert values["q.angle"] == pytest.approx(expected, abs=1e-12)
 
 
+def test_joints_follow_each_other_by_a_polynomial(tmp_path):
+    """A knee that slides as it bends, as of models of limbs; coefficients are of ways from the places of the model."""
+    text = """<mujoco><worldbody><body name="a"><joint name="p" axis="0 0 1" ref="30"/><geom size=".1" pos=".5 0 0"/>
+    <body name="b"><joint name="q" type="slide" axis="1 0 0" ref="0.1"/><geom size=".1" pos="0 .5 0"/></body></body></worldbody>
+    <equality><joint joint1="q" joint2="p" polycoef="0.05 0.6 0.3 0.04 0.02"/></equality></mujoco>"""
+    path = written(tmp_path, text)
+    mechanics = nivel.import_model(path).mechanics()
+    assert len(mechanics.names) == 1
+    values = dict(zip(mechanics.position_names, mechanics.close(mechanics.start + 0.4), strict=True))
+    way = values["p.angle"] - np.deg2rad(30)
+    expected = 0.1 + np.polynomial.polynomial.polyval(way, [0.05, 0.6, 0.3, 0.04, 0.02])
+    assert abs(way) > 0.1
+    assert values["q.displacement"] == pytest.approx(expected, abs=1e-10)
+    # reduced mass at another place, from the matrix of MuJoCo: tᵀ M t with t = (1, f'(way))
+    model = mj.MjSpec.from_file(str(path)).compile()
+    model.opt.disableflags |= int(mj.mjtDisableBit.mjDSBL_CONTACT)
+    q = np.array([values["p.angle"], values["q.displacement"]])
+    M, _, _ = matrices(model, q, np.zeros(2), np.zeros(2))
+    slope = np.polynomial.polynomial.polyval(way, [0.6, 0.6, 0.12, 0.08])
+    t = np.array([1.0, slope]) if mechanics.names[0] == "p.angle" else np.array([1.0 / slope, 1.0])
+    found = mechanics.mass_matrix([values[name] for name in mechanics.position_names])
+    assert found[0, 0] == pytest.approx(t @ M @ t, rel=1e-9)
+
+
+BALL = """<mujoco><option gravity="0 0 -9.81"/><worldbody><body name="base" pos="0 0 1"><freejoint/>
+<geom type="box" size=".2 .1 .05" density="500"/>
+<body name="arm" pos=".2 0 0" euler="20 0 30"><joint name="shoulder" type="ball"/>
+<geom type="capsule" size=".03 .2" pos="0 0 -.2" density="900"/></body></body></worldbody></mujoco>"""
+
+
+def test_a_free_base_with_a_ball_joint_falls_and_turns_as_in_mujoco(tmp_path):
+    """The motion of both bodies from the same velocities, by MuJoCo with RK4 and a tenth of the step."""
+    path = written(tmp_path, BALL)
+    model = mj.MjSpec.from_file(str(path)).compile()
+    model.opt.disableflags |= int(mj.mjtDisableBit.mjDSBL_CONTACT)
+    model.opt.integrator, model.opt.timestep = int(mj.mjtIntegrator.mjINT_RK4), 1e-4
+    data = mj.MjData(model)
+    machine = nivel.import_model(path)
+    velocity = {"bodies.base.velocity": [0.3, 0.1, 0.5], "bodies.base.angular_velocity": [1.0, -0.5, 0.7]}
+    # the arm moves with the base: its point of the joint has the velocity of that
+    at = np.array(machine.bodies["arm"].position) - np.array(machine.bodies["base"].position)
+    moved = (np.array([0.3, 0.1, 0.5]) + np.cross([1.0, -0.5, 0.7], at)).tolist()
+    velocity |= {"bodies.arm.velocity": moved, "bodies.arm.angular_velocity": [1.0, -0.5, 0.7]}
+    data.qvel[:6] = [
+        0.3,
+        0.1,
+        0.5,
+        1.0,
+        -0.5,
+        0.7,
+    ]  # of the base, whose axes are those of the world; the ball at rest on it
+    result = machine.with_values(velocity).simulate(duration=0.5, step=1e-3, verify=False)
+    for _ in range(5000):
+        mj.mj_step(model, data)
+    for k, name in enumerate(("base", "arm")):
+        number = model.body(name).id
+        np.testing.assert_allclose(result.array(f"{name}.position")[-1], data.xpos[number], atol=2e-9)
+        turn = abs(result.array(f"{name}.orientation")[-1] @ data.xquat[number])
+        assert turn == pytest.approx(1.0, abs=1e-12), k
+
+
 def test_gravity_that_is_switched_off_is_off(tmp_path):
     text = TREE.replace('timestep="0.001"/>', 'timestep="0.001"><flag gravity="disable"/></option>')
     data = read_model(written(tmp_path, text)).data

@@ -62,7 +62,9 @@ def _ends(each: Connection) -> dict[str, float]:
 
 
 def coupling_of(each: Connection, mechanism: Mechanism, names: Names) -> dict[str, Any] | None:
-    """The coupling of a joint that follows another one: coordinate - factor · other is held."""
+    """The coupling of a joint that follows another one: coordinate - factor · other is held, or coordinate - function of the other."""
+    if each.follows is not None:
+        return _function_coupling(each, mechanism, names)
     if each.mimic is None:
         return None
     other = next((joint for joint in mechanism.connections if joint.name == each.mimic[0]), None)
@@ -78,11 +80,33 @@ def coupling_of(each: Connection, mechanism: Mechanism, names: Names) -> dict[st
     }
 
 
+def _function_coupling(each: Connection, mechanism: Mechanism, names: Names) -> dict[str, Any] | None:
+    """q = placed + a₀ + a₁ d + …, with the way d of the other joint, by Horner's rule."""
+    assert each.follows is not None
+    other = next(joint for joint in mechanism.connections if joint.name == each.follows[0])
+    if not other.coordinate or not each.coordinate:
+        mechanism.notes.leave("joints that follow a joint without a coordinate", each.name, each.line)
+        return None
+    way = f"({coordinate_of(other, names)} - {number(other.placed)!r})" if other.placed else coordinate_of(other, names)
+    first, *rest = each.follows[1]
+    text = repr(number(rest[-1]))
+    for factor in (*reversed(rest[:-1]), each.placed + first):
+        text = f"{number(factor)!r} + {way}*({text})"
+    return {"type": "function", "coordinate": coordinate_of(each, names), "value": text}
+
+
+def _following(each: Connection, other: Connection, coordinate: float) -> float:
+    """Coordinate of a joint that follows another one by a polynomial."""
+    assert each.follows is not None
+    way = coordinate - other.placed
+    return each.placed + sum(factor * way**k for k, factor in enumerate(each.follows[1]))
+
+
 def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> None:
     """Put start values into the data of joints: as given, within the limits, and as joints follow each other."""
     starts: dict[str, float] = {}
     for each in mechanism.connections:
-        if each.mimic is not None or not each.coordinate:
+        if each.mimic is not None or each.follows is not None or not each.coordinate:
             continue
         ends = _ends(each)
         start = each.placed if each.start is None else each.start
@@ -94,6 +118,9 @@ def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> Non
     for each in mechanism.connections:
         if each.mimic is not None and each.mimic[0] in starts:
             starts[each.name] = each.mimic[1] * starts[each.mimic[0]] + each.mimic[2]
+        elif each.follows is not None and each.follows[0] in starts:
+            other = next(joint for joint in mechanism.connections if joint.name == each.follows[0])
+            starts[each.name] = _following(each, other, starts[other.name])
     if all(starts[each.name] == each.placed for each in mechanism.connections if each.name in starts):
         return
     for each in mechanism.connections:  # all of them: the assembly would move those that are left open

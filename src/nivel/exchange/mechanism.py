@@ -92,7 +92,8 @@ class Connection:
     """A joint. kind : the type of joint in a machine file. bodies : names of two links, or WORLD. placed : its coordinate where the links
     stand.
 
-    lower, upper : ends of its way. mimic : name of another joint, factor and offset. stiffness, free : of a spring. armature : inertia of
+    lower, upper : ends of its way. mimic : name of another joint, factor and offset. follows : name of another joint, and factors a of
+    q = placed + a₀ + a₁ d + a₂ d² + …, d the way of that from its own `placed`. stiffness, free : of a spring. armature : inertia of
     a rotor at the coordinate [kg m² or kg]. start : of the coordinate.
     """
 
@@ -110,6 +111,7 @@ class Connection:
     free: float = 0.0
     armature: float = 0.0
     mimic: tuple[str, float, float] | None = None
+    follows: tuple[str, tuple[float, ...]] | None = None
     pitch: float | None = None
     start: float | None = None
     placed: float = 0.0

@@ -72,8 +72,11 @@ def _follow(m: Any, e: int, name: str, mechanism: Mechanism, joints: dict[int, C
         mechanism.notes.leave("equalities that hold one joint", name)
         return
     a = m.eq_data[e][:5]
-    if np.any(a[2:]) or joint.mimic is not None:
-        mechanism.notes.leave("equalities of joints that are not linear, or the second one of a joint", name)
+    if joint.mimic is not None or joint.follows is not None:
+        mechanism.notes.leave("the second equality of a joint", name)
         return
     mechanism.notes.change(EXACT, name)
+    if np.any(a[2:]):
+        joint.follows = (other.name, tuple(float(each) for each in a))
+        return
     joint.mimic = (other.name, float(a[1]), joint.placed + float(a[0]) - float(a[1]) * other.placed)

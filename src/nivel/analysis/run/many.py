@@ -88,11 +88,13 @@ class Simulations:
             if array.shape not in ((), (len(self),)):
                 message = f"a number, or {len(self)} of them, was expected, got {shown(value)}"
                 raise ModelError(Fault("", 0, 0, f"inputs.{name}", message))
+            for worst in (array.min(), array.max()):  # no number is both
+                self._each[0].check_inputs({name: float(worst)})
             columns[name] = np.broadcast_to(array, len(self)).tolist()
-        rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-        for row in rows:
-            self._each[0].check_inputs(row)
-        return rows
+        if len(columns) == 1:
+            ((name, values),) = columns.items()
+            return [{name: value} for value in values]
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     def __getitem__(self, name: str | int) -> Any:
         """The present values (n, …) of `name`, as of a `Simulation`; or the simulation of this number."""

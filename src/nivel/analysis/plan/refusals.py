@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
+from nivel.analysis.plan.screw_couplings import screws_as_couplings
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.forces import Contact, Friction, Stop, TransmissionLoss, holds_by_capacity, is_sticking
@@ -332,12 +333,21 @@ def refuse_uncertain_loads(
         if isinstance(force, Friction) and force.normal_load is None:
             joint, _ = resolve(force.coordinate, machine.joints)
             if joint in redundancy.non_unique_joints:
-                rows, changes = redundancy.redundant_rows, exact()
+                rows, screws = (
+                    redundancy.redundant_rows,
+                    list(screws_as_couplings(machine, redundancy.non_unique_joints)),
+                )
+                changes = () if screws else exact()
+                written = " and ".join(
+                    f"in place of the joint {name} under `couplings` `{line}`" for name, line in screws
+                )
                 message = (
                     f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(rows)} "
                     f"repeat{'s' if len(rows) == 1 else ''} other constraints; give a `normal_load`, or "
                     + (
-                        f"make {' and '.join(changes)}"
+                        f"write {written}"
+                        if screws
+                        else f"make {' and '.join(changes)}"
                         if changes
                         else "replace joints until no constraint is redundant"
                     )

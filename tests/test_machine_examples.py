@@ -7,9 +7,12 @@ import nivel
 from example_files import rigid_example
 
 MACHINES = (
+    "backhoe-swing",
     "conveyor",
+    "differential",
     "double-wishbone",
     "excavator",
+    "flywheel-press",
     "geneva-drive",
     "gripper",
     "mobile-crane",
@@ -172,3 +175,45 @@ def test_the_gripper_lifts_its_box_and_is_green_by_default():
     lifts = -np.sum(out["normal_force"] * out["normal_z"] + out["friction_z"])
     assert lifts == pytest.approx(900 * 0.06 * 0.06 * 0.08 * 9.81, rel=1e-3)
     assert result.array("force.stand.normal_force")[-1] == 0.0
+
+
+def test_the_differential_gives_one_wheel_what_it_takes_from_the_other():
+    """ω_left + ω_right = 2 ω_cage; straight on both turn alike, with the left one braked the right one turns twice as fast."""
+    result = simulated("differential")
+    assert result.trust.verdict == "green"
+    left, right, cage = (result.array(name) for name in ("left.angle", "right.angle", "cage.angle"))
+    np.testing.assert_allclose(left + right, 2 * cage, atol=1e-9)
+    rates = result.array("joint_rate")[:, [0, 1, 3]]
+    straight = np.searchsorted(result.time, 1.9)
+    np.testing.assert_allclose(rates[straight], 2.0, rtol=1e-4)
+    np.testing.assert_allclose(rates[-1], [0.0, 4.0, 2.0], atol=1e-4)
+
+
+def test_the_press_takes_its_work_from_the_flywheel_and_stops_at_the_top():
+    """The flywheel gives the work; released in time, the crank stands at the top again, held by its brake."""
+    result = simulated("flywheel-press")
+    assert result.trust.verdict == "green"
+    assert result.array("bearing.angle")[-1] / (2 * np.pi) == pytest.approx(1.0, abs=0.01)
+    assert np.ptp(result.array("bearing.angle")[result.time > 1.3]) < 1e-9
+    # the clutch is locked, slips while the blow asks for more than its capacity, and locks again
+    slip = np.abs(result.array("force.clutch.slip"))
+    assert slip[(result.time > 0.6) & (result.time < 0.72)].max() < 1e-9
+    assert slip.max() > 1.0
+    assert slip[(result.time > 1.05) & (result.time < 1.16)].max() < 1e-9
+    assert np.abs(result.array("force.workpiece.magnitude")).max() > 4e5
+    assert np.abs(result.array("energy_error")).max() < 1e-3 * result.array("kinetic_energy").max()
+
+
+def test_the_chain_of_the_backhoe_pulls_with_one_strand_and_its_cam_repeats():
+    result = simulated("backhoe-swing")
+    assert result.trust.verdict == "green"
+    motor, swing = result.array("motor.angle"), result.array("swing.angle")
+    assert result.array("force.chain.second_tension").max() == 0.0
+    # the rims differ by the slack and the stretch of the strand that pulls
+    stretch = result.array("force.chain.first_tension")[-1] / 2e6
+    assert 0.08 * motor[-1] - 0.24 * swing[-1] == pytest.approx(0.002 + stretch, abs=2e-5)
+    from scipy.interpolate import CubicSpline
+
+    points = np.radians([0, 30, 60, 90, 180, 270, 300, 330, 360])
+    lift = CubicSpline(points, [0, 0, 0.008, 0.02, 0.024, 0.02, 0.008, 0, 0], bc_type="periodic")
+    np.testing.assert_allclose(result.array("bore.displacement"), lift(swing), atol=1e-9)

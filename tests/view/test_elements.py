@@ -395,3 +395,10 @@ joints:
         for value, shown in ((6.33e-19, "0 m"), (-6.33e-19, "0 m"), (2e-6, "2e−6 m"), (0.25, "0.25 m")):
             page.evaluate("(value) => nivel.app.coordinates.update([value], nivel.app.stage.coordinates, '')", value)
             assert page.locator(".coordinates output").inner_text() == shown
+
+
+def test_a_belt_drive_runs_around_its_pulleys():
+    source = nivel.load(EXAMPLES / "machines" / "backhoe-swing.yaml").viewer_source()
+    chain = named(from_bytes(source.package())[0]["stages"][0]["couplings"])["chain"]
+    assert [each["radius"] for each in chain["wheels"]] == pytest.approx([0.08, 0.24])
+    assert chain["belt"] == "open"

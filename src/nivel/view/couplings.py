@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 KINDS: Final[dict[str, tuple[CoordinateKind, CoordinateKind]]] = {
     "gear": ("angle", "angle"),
     "belt": ("angle", "angle"),
+    "belt-drive": ("angle", "angle"),
     "rack": ("angle", "length"),
 }
 PARALLEL: Final = 1e-3  # sine between axes that count as parallel
@@ -44,7 +45,8 @@ class _Couplings:
         self._r, self._A = position, rotation(orientation)
 
     def records(self) -> list[Coupling]:
-        return [self._coupling(each) for each in self._cast.record.get("couplings", [])]
+        belts = [_as_belt(each) for each in self._cast.record.get("forces", []) if each.get("type") == "belt-drive"]
+        return [self._coupling(each) for each in (*self._cast.record.get("couplings", []), *belts)]
 
     def _coupling(self, known: dict[str, Any]) -> Coupling:
         kind = str(known.get("type", "coupling"))
@@ -63,7 +65,7 @@ class _Couplings:
         """Only what is drawn of a coupling."""
         if kind == "gear" and (wheels := self._gear(known, at)):
             return Coupling("", "", wheels)
-        if kind == "belt":
+        if kind in ("belt", "belt-drive"):
             wheels = [
                 self._wheel(place, side, float(r))
                 for place, side, r in zip(at, _sides(at), known["radii"], strict=True)
@@ -119,6 +121,11 @@ class _Couplings:
 
     def _back(self, body: int, point: Array) -> Array:
         return self._unturned(body, point - (0.0 if body < 0 else self._r[body]))
+
+
+def _as_belt(force: dict[str, Any]) -> dict[str, Any]:
+    """A belt drive, which is a force, as the coupling that it is drawn as."""
+    return {**force, "joints": [force.get("coordinate"), force.get("against")]}
 
 
 def _followed(known: dict[str, Any]) -> list[str]:

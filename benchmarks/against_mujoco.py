@@ -110,7 +110,7 @@ def theirs(model: mujoco.MjModel, name: str, integrator: mujoco.mjtIntegrator) -
         for force in FORCES:
             u[0] = force
             mujoco.mj_step(model, data)
-            q[0], q[1], v[0], v[1]  # noqa: B018
+            q[0], q[1], v[0], v[1]
 
     def roll() -> None:
         rollout.rollout(model, data, state, controls)

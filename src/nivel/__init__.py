@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from nivel.machine import TransmissionLoss as TransmissionLoss
     from nivel.results.comparison.comparison import Comparison as Comparison
     from nivel.results.result import Result as Result
+    from nivel.studies import load_study as load_study
 
 _HOME = {
     "Machine": "nivel.api",
@@ -124,6 +125,7 @@ _HOME = {
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison.comparison",
     "Result": "nivel.results.result",
+    "load_study": "nivel.studies",
 }
 
 __all__ = [
@@ -177,6 +179,7 @@ __all__ = [
     "TransmissionLoss",
     "import_model",
     "load",
+    "load_study",
     "open_result",
     "sweep",
 ]

@@ -1006,28 +1006,32 @@ def _sweep(
     settings: SweepSettings,
     listener: Listener | None,
 ) -> xarray.Dataset:
-    from nivel.analysis.sweep.sweep import progress_bar, sweep
+    from nivel.analysis.sweep.sweep import Engine, progress_bar, sweep
+    from nivel.analysis.sweep.task import Task
     from nivel.analysis.sweep.variants import lay_out
     from nivel.native.workers import processors
 
-    variants = lay_out(values, settings.combine, settings.samples, settings.seed)
+    variants = lay_out(values, settings.combine, settings.samples, settings.seed, settings.design)
     made = [machines(**each) for each in variants.values] if callable(machines) else machines
     for machine in made:
         if not isinstance(machine, Machine):
             raise ModelError(
                 Fault("", 0, 0, "make", f"a function that returns a Machine was expected; it returned {shown(machine)}")
             )
-    plan = made[0]._plan(made[0].origin.settings_outside)
-    build(_entries_of(plan, made[0].record), listener)
+    code_of(made[0], settings.analysis, listener)
+    shared = {name: getattr(settings, name) for name in ("analysis", "outputs", "save", "verify")}
+    shared |= {"settings": settings.analysis_settings, "time_limit": settings.time_limit}
+    tasks = [Task(machine, **shared) for machine in made]
+    engine = Engine(settings.processes or processors(), settings.scheduler, apart=settings.time_limit is not None)
     with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
-        return sweep(
-            made,
-            variants,
-            settings.save,
-            verify=settings.verify,
-            processes=settings.processes or processors(),
-            listener=hearer,
-        )
+        return sweep(tasks, variants, engine, listener=hearer)
+
+
+def code_of(machine: Machine, analysis: str, listener: Listener | None) -> None:
+    """Compile what runs of variants of this machine need; other analyses do it themselves. Raises ModelError."""
+    if analysis == "run":
+        plan = machine._plan(machine.origin.settings_outside)
+        build(_entries_of(plan, machine.record), listener)
 
 
 def _given(settings: Mapping[str, Any]) -> dict[str, Any]:

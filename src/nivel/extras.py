@@ -23,6 +23,7 @@ LIBRARIES: Final = {
     "asyncua": Library("asyncua", "opcua"),
     "control": Library("python-control", "control"),
     "gymnasium": Library("gymnasium", "gym"),
+    "distributed": Library("Dask", "studies"),
     "gmsh": Library("gmsh", "flex"),
     "imageio_ffmpeg": Library("ffmpeg", "film"),
     "matplotlib": Library("matplotlib", "plot"),

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Annotated, Any, TypedDict
 
-from nivel.methods import Combination, Coordinates, Formulation, Integrator, Rotations, Stabilisation, Start, StaticCoordinates, StepControl
+from nivel.methods import Analysis, Combination, Coordinates, Drawn, Formulation, Integrator, Rotations, Stabilisation, Start, StaticCoordinates, StepControl
 
 
 class RunSettingsDict(TypedDict, total=False):
@@ -84,6 +84,12 @@ class SweepSettingsDict(TypedDict, total=False):
     samples: Annotated[int | str | None, "--samples NUMBER", "Number of variants of a Latin hypercube between two bounds, or over distributions."]
     seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
     save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
+    design: Annotated[Drawn | None, "--design NAME", "How samples are drawn:"]
+    analysis: Annotated[Analysis | None, "--analysis NAME", "What is computed of each variant:"]
+    analysis_settings: Mapping[str, Any] | None
+    outputs: Mapping[str, Any] | None
+    time_limit: Annotated[float | str | None, "--time-limit TIME", "Longest computing time of a variant; default: none."]
+    scheduler: Annotated[str | None, "--scheduler TEXT", "Address of the scheduler of a Dask cluster that computes; default: none."]
     processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
     verify: Annotated[bool | None, "--verify", "A second run beside each variant, to estimate its error; default: not verified."]
 
@@ -95,6 +101,12 @@ class MachineSweepSettingsDict(TypedDict, total=False):
     samples: Annotated[int | str | None, "--samples NUMBER", "Number of variants of a Latin hypercube between two bounds, or over distributions."]
     seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
     save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
+    design: Annotated[Drawn | None, "--design NAME", "How samples are drawn:"]
+    analysis: Annotated[Analysis | None, "--analysis NAME", "What is computed of each variant:"]
+    analysis_settings: Mapping[str, Any] | None
+    outputs: Mapping[str, Any] | None
+    time_limit: Annotated[float | str | None, "--time-limit TIME", "Longest computing time of a variant; default: none."]
+    scheduler: Annotated[str | None, "--scheduler TEXT", "Address of the scheduler of a Dask cluster that computes; default: none."]
     processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
     verify: Annotated[bool | None, "--verify", "A second run beside each variant, to estimate its error; default: not verified."]
     duration: Annotated[float | str | None, "--duration TIME", "Simulated time, e.g. 8 or '8 s'."]

@@ -194,3 +194,15 @@ def test_reasons_of_a_sweep_are_those_of_a_run_alone():
         machine.with_values({path: value}).simulate(duration=0.01)
     assert found.outcome.values.tolist() == ["done", "failed"]
     assert found.reason.values[1] == str(alone.value)
+
+
+def test_a_sweep_of_another_analysis_has_its_outputs(spring):
+    """f = √(k/m)/2π."""
+    found = spring.sweep(
+        {"block.mass": [1, 4]},
+        analysis="linearise",
+        analysis_settings={"about": "equilibrium"},
+        outputs={"f": {"type": "value", "of": "mode.1.frequency"}},
+    )
+    np.testing.assert_allclose(found["f"], np.array([10, 5]) / (2 * np.pi), rtol=1e-9)
+    assert found["f"].attrs["units"] == "Hz"

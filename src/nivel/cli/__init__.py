@@ -33,6 +33,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "kinematics": CommandPlace("nivel.cli.kinematics", "Positions, velocities and reactions of a driven machine."),
     "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),
     "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
+    "sweep": CommandPlace("nivel.cli.sweep", "Compute many variants of a machine: data file, report, summary."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
     "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
     "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),

@@ -15,6 +15,7 @@ from nivel.errors import ModelError
 TEMPLATE: Final = Path(__file__).with_name("new_machine.yaml")
 SUFFIX: Final = ".yaml"
 SCHEMA_NAME: Final = "nivel.schema.json"
+STUDY_SCHEMA_NAME: Final = "nivel-study.schema.json"
 
 
 @click.command(short_help="Write a small example machine file with comments.")
@@ -24,7 +25,7 @@ SCHEMA_NAME: Final = "nivel.schema.json"
     "--schema",
     "with_schema",
     is_flag=True,
-    help=f"Also write {SCHEMA_NAME}: with it editors complete and check machine files.",
+    help=f"Also write {SCHEMA_NAME}, with which editors complete and check machine files, and {STUDY_SCHEMA_NAME} for studies.",
 )
 def command(name: Path, force: bool, with_schema: bool) -> None:
     """Write NAME.yaml: a small machine file with comments. `nivel run NAME.yaml` simulates it."""
@@ -35,6 +36,7 @@ def command(name: Path, force: bool, with_schema: bool) -> None:
     _write(target, text, force)
     if with_schema:
         _write(target.with_name(SCHEMA_NAME), _schema_text(), force=True)
+        _write(target.with_name(STUDY_SCHEMA_NAME), _study_schema_text(), force=True)
     click.echo(f"{target} is written; run it with: nivel run {target}", err=True)
 
 
@@ -72,3 +74,9 @@ def _write(target: Path, text: str, force: bool) -> None:
         raise ModelError(f"{target} exists already; use --force to overwrite it, or another name") from None
     except OSError as error:
         raise ModelError(f"{target} cannot be written: {error.strerror}") from None
+
+
+def _study_schema_text() -> str:
+    from nivel.files.study_schema import study_schema
+
+    return json.dumps(study_schema(), indent=1) + "\n"

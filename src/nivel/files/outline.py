@@ -33,6 +33,9 @@ def check_start(tree: Tree) -> None:
     if not isinstance(tree.data, dict):
         message = f"a machine file is a mapping that starts with `format: {FORMAT}`, not {shown(tree.data)}"
         raise ModelError([*tree.faults, tree.fault((), message)])
+    if "machine" in tree.data and not {"bodies", "beams"} & tree.data.keys():
+        message = f"this is a study, not a machine: `nivel sweep {tree.file}` computes its variants"
+        raise ModelError([*tree.faults, tree.fault((), message)])
     if not {"bodies", "beams"} & tree.data.keys() and {"reduction", "frame", "solid", "matrices"} & tree.data.keys():
         message = f"this is the model of a flexible body, not a machine: `nivel reduce {tree.file}` makes the body"
         raise ModelError([*tree.faults, tree.fault((), message)])

@@ -5,41 +5,46 @@ from __future__ import annotations
 import json
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Mapping
+from contextlib import suppress
 from queue import SimpleQueue
-from typing import Any
+from time import monotonic
+from typing import Any, Final
 
-from nivel.analysis.sweep.variant import FAILED, VariantRun, run_variant
-from nivel.model import Model
+from nivel.analysis.sweep.task import Task
+from nivel.analysis.sweep.variant import KILLED, TIMED_OUT, VariantRun, run_variant
+from nivel.words.wording import seconds
 
 START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.analysis.sweep.worker import main; main()"
+ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
-# number of the variant, its machine, its values
-Job = tuple[int, Model, Any]
+# number of the variant, its task, its values by path
+Job = tuple[int, Task, Mapping[str, Any]]
 
 
 def run_in_processes(
-    jobs: Iterable[Job], save: tuple[str, ...], verify: bool, count: int
-) -> Iterator[tuple[int, VariantRun]]:
-    """Number and run of each variant, as they are finished, by `count` processes: this one, which goes on while the others start, and
-    workers. Those are ended where the caller stops.
+    jobs: Iterable[Job], count: int, *, here: bool = True
+) -> Generator[tuple[int, VariantRun], None, None]:
+    """Number and run of each variant, as they are finished, by `count` processes. here : this one is one of them, which goes on while the
+    others start; without it no variant can end this process. Workers are ended where the caller stops.
 
     Raises what a worker could not do for a fault of nivel.
     """
     left, finished = deque(jobs), SimpleQueue[tuple[int, Any] | None]()
-    workers = [_Worker() for _ in range(min(count - 1, len(left)))]
+    workers = [Worker() for _ in range(min(count - here, len(left)))]
     for worker in workers:
-        threading.Thread(target=_serve, args=(worker, left, save, verify, finished), daemon=True).start()
+        threading.Thread(target=_serve, args=(worker, left, finished), daemon=True).start()
     working = len(workers)
     try:
-        while working or left:
-            if finished.empty() and (job := _next(left)) is not None:
-                number, machine, values = job
-                yield number, run_variant(machine, values, save, verify)
+        while working or (here and left):
+            if here and finished.empty() and (job := _next(left)) is not None:
+                number, task, values = job
+                yield number, run_variant(task, values)
                 continue
             match finished.get():
                 case None:
@@ -61,48 +66,72 @@ def _next(left: deque[Job]) -> Job | None:
         return None
 
 
-def _serve(worker: _Worker, left: deque[Job], save: tuple[str, ...], verify: bool, finished: SimpleQueue[Any]) -> None:
+def _serve(worker: Worker, left: deque[Job], finished: SimpleQueue[Any]) -> None:
     try:
         while (job := _next(left)) is not None:
-            number, machine, values = job
-            finished.put((number, worker.run(machine, values, save, verify)))
+            number, task, values = job
+            finished.put((number, worker.run(task, values)))
     except BaseException as problem:  # whatever it is, nobody may wait for it
         finished.put((-1, problem))
     finished.put(None)
 
 
-class _Worker:
+class Worker:
+    """A process that computes one variant after the other, and is started anew where one of them ends it."""
+
     def __init__(self) -> None:
+        self._ended = False
         self._start()
 
     def _start(self) -> None:
-        one = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
         self._process = subprocess.Popen(
             [sys.executable, "-c", START, json.dumps(sys.path)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            env={**os.environ, **one},
+            env={**os.environ, **dict.fromkeys(ONE_THREAD, "1")},
         )
-        self._machine: Model | None = None
+        self._task: Task | None = None
 
-    def run(self, machine: Model, values: Any, save: tuple[str, ...], verify: bool) -> VariantRun:
-        """The variant, run by the process; a failed one where the process ends on the way."""
+    def run(self, task: Task, values: Mapping[str, Any]) -> VariantRun:
+        """The variant, computed by the process; one that was killed or timed out where the process ends on the way."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
-        sent, self._machine = (None if machine is self._machine else machine), machine
+        sent, self._task = (None if task is self._task else task), task
+        begin = monotonic()
         try:
-            pickle.dump((sent, values, save, verify), self._process.stdin, protocol=pickle.HIGHEST_PROTOCOL)
+            pickle.dump((sent, values), self._process.stdin, protocol=pickle.HIGHEST_PROTOCOL)
             self._process.stdin.flush()
             answer = pickle.load(self._process.stdout)
-        except (BrokenPipeError, EOFError):
+        except (OSError, ValueError, EOFError, pickle.UnpicklingError):
             status = self._process.wait()
-            self._start()
-            return VariantRun(FAILED, f"the process that ran it ended with status {status}")
+            self._close()
+            if not self._ended:
+                self._start()
+            if task.time_limit is not None and monotonic() - begin >= task.time_limit:
+                return VariantRun(TIMED_OUT, f"it took longer than the time limit of {seconds(task.time_limit)}")
+            return VariantRun(KILLED, f"the process that ran it ended with {_status(status)}")
         if isinstance(answer, Exception):
             raise answer
         return answer
 
     def end(self) -> None:
         """Stop it, whatever it does."""
+        self._ended = True
         self._process.kill()
-        self._process.communicate()
+        self._process.wait()
+        self._close()
+
+    def _close(self) -> None:
+        for pipe in (self._process.stdin, self._process.stdout):
+            assert pipe is not None
+            with suppress(OSError):  # what was still to be written is for nobody
+                pipe.close()
+
+
+def _status(status: int) -> str:
+    if status >= 0:
+        return f"status {status}"
+    try:
+        return f"the signal {signal.Signals(-status).name}"
+    except ValueError:
+        return f"the signal {-status}"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, closing, contextmanager
+from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
@@ -16,18 +17,21 @@ from numpy.typing import NDArray
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.progress.log import Log
+from nivel.analysis.sweep.dask_cluster import client_of, run_on_cluster, threads_of
+from nivel.analysis.sweep.journal import Journal
 from nivel.analysis.sweep.processes import Job, run_in_processes
+from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
 from nivel.analysis.sweep.variants import Variants
 from nivel.analysis.trust.report import assess
 from nivel.analysis.trust.subject import Sweep, Variant
 from nivel.errors import ModelError
-from nivel.model import Model
+from nivel.machine.study import Output
 
 # facts of every run: attribute of VariantRun, and what it is
 FACTS = {
-    "outcome": "done, stopped by an event, failed, refused, or not run",
-    "reason": "why it was stopped, failed or refused",
+    "outcome": "done, stopped by an event, failed, refused, timed out, killed, or not run",
+    "reason": "why it came to no end, or was stopped",
     "end_time": "time reached",
     "verdict": "of the trust report; `not verified` in place of green where not all was verified",
     "verified": "whether a second run, and other elements of beams, estimated the error of the run",
@@ -37,8 +41,10 @@ FACTS = {
 UNITS = {"end_time": "s", "estimated_error": "m"}
 
 
-def collected(variants: Variants, runs: Sequence[VariantRun], attributes: Mapping[str, Any]) -> xarray.Dataset:
-    """Dimensions of the variants, then time, then those of the variable; NaN where a run did not come.
+def collected(
+    variants: Variants, runs: Sequence[VariantRun], outputs: Mapping[str, Output], attributes: Mapping[str, Any]
+) -> xarray.Dataset:
+    """Dimensions of the variants, then time, then those of the variable; NaN where a run did not come. Outputs have no time.
 
     Times are those of the frames that the runs have at their output interval; a last frame beside it is left to `end_time`.
     """
@@ -50,6 +56,7 @@ def collected(variants: Variants, runs: Sequence[VariantRun], attributes: Mappin
     }
     if len(times):
         coords["time"] = ("time", times, {"units": "s", "long_name": "time"})
+    data |= {name: _output(variants, runs, name, each) for name, each in outputs.items()}
     kept: dict[str, VariantRun] = {}
     for run in runs:
         for name in run.saved:
@@ -71,6 +78,18 @@ def _fact(variants: Variants, runs: Sequence[VariantRun], name: str) -> tuple[An
     values = np.array([getattr(run, name) for run in runs])
     units = {"units": UNITS[name]} if name in UNITS else {}
     return variants.dimensions, values.reshape(variants.shape), {"long_name": FACTS[name], **units}
+
+
+def _output(variants: Variants, runs: Sequence[VariantRun], name: str, output: Output) -> tuple[Any, ...]:
+    """The numbers of an output, with the limits that it has; NaN where there is none."""
+    numbers = [run.outputs.get(name) for run in runs]
+    values = np.array([np.nan if each is None else each.value for each in numbers])
+    facts: dict[str, Any] = {"units": next((each.units for each in numbers if each is not None), "")}
+    facts["long_name"] = " ".join(filter(None, (output.type, getattr(output, "of", ""))))
+    facts |= {
+        key: limit for key, limit in zip(("at_least", "at_most"), output.limits, strict=True) if limit is not None
+    }
+    return variants.dimensions, values.reshape(variants.shape), facts
 
 
 def _common_times(runs: Sequence[VariantRun]) -> NDArray[np.float64]:
@@ -95,83 +114,118 @@ def _place(out: NDArray[np.float64], times: NDArray[np.float64], own: NDArray[np
 
 # A process takes about this long to start [s]; what is done sooner is done here.
 WORTH_A_PROCESS = 2.0
+Heard = Callable[[int, VariantRun], None]
+
+
+@dataclass(frozen=True)
+class Engine:
+    """Where variants are computed. processes : of this machine. scheduler : address of that of a Dask cluster, instead. apart : none is
+    computed in this process, which a variant may end."""
+
+    processes: int
+    scheduler: str = ""
+    apart: bool = False
 
 
 def sweep(
-    machines: Sequence[Model],
+    tasks: Sequence[Task],
     variants: Variants,
-    save: tuple[str, ...],
+    engine: Engine,
     *,
-    verify: bool,
-    processes: int,
     listener: Listener,
+    heard: Heard | None = None,
+    journal: Journal | None = None,
 ) -> xarray.Dataset:
-    """Run all variants. machines : one for all, with the values of each put in; or one for each, as they are. verify : a second run goes
-    beside each.
+    """Compute all variants. tasks : one for all, with the values of each put in; or one for each, whose machine is as it is.
 
-    The first variant is run here, so that a name in `save` that is none is told at once. Interrupted by Ctrl-C, it returns what was
-    computed; the rest is `not run`. Raises ModelError where no variant could start.
+    heard : is told of each variant that is finished. journal : keeps each of them, and has those that were finished before.
+    Where variants may run here, the first one does, so that a name in `save` that is none is told at once. Interrupted by Ctrl-C, it
+    returns what was computed; the rest is `not run`. Raises ModelError where no variant could start.
     """
     values = variants.values
-    jobs: list[Job] = [
-        (k, machines[0], values[k]) if len(machines) == 1 else (k, machines[k], {}) for k in range(len(values))
-    ]
+    jobs: list[Job] = [(k, tasks[0], values[k]) if len(tasks) == 1 else (k, tasks[k], {}) for k in range(len(values))]
     runs: list[VariantRun] = [VariantRun(NOT_RUN)] * len(jobs)
-    begin, done, loop = perf_counter(), 0, 0.0
-    listener.say(f"running {len(jobs)} variants", float(len(jobs)))
+    before = dict(journal.finished) if journal is not None else {}
+    for number, run in before.items():
+        runs[number] = run
+    jobs = [job for job in jobs if job[0] not in before]
+    begin, done, loop = perf_counter(), len(before), 0.0
+    listener.say(f"running {len(values)} variants", float(len(values)))
 
     def keep(number: int, run: VariantRun) -> None:
         nonlocal done, loop
+        if run.outcome == NOT_RUN:
+            return
         runs[number], done = run, done + 1
         loop += run.loop_seconds
+        if journal is not None:
+            journal.add(number, run)
+        if heard is not None:
+            heard(number, run)
         if listener.progress is not None:
             listener.progress(float(done))
 
-    with interruptible() as interrupted:
-        left = _run_here(jobs, save, verify, keep, interrupted, processes)
-        if left and not interrupted():
-            for number, run in run_in_processes(left, save, verify, processes):
-                keep(number, run)
-                if interrupted():
-                    break
+    processes = _compute(jobs, engine, keep)
     _refuse_if_none_started(runs)
-    trust = assess(_subject(values, runs, interrupted=any(run.outcome == NOT_RUN for run in runs)))
+    trust = assess(_subject(values, runs, tasks[0], interrupted=any(run.outcome == NOT_RUN for run in runs)))
     attributes = {
-        "machine": machines[0].name,
+        "machine": tasks[0].machine.name,
+        "analysis": tasks[0].analysis,
         "seconds": perf_counter() - begin,
         "loop_seconds": loop,
-        "processes": processes if left else 1,
+        "processes": processes,
         "outcomes": ", ".join(f"{count} {outcome}" for outcome, count in Counter(run.outcome for run in runs).items()),
         **trust.attributes(),
     }
-    return collected(variants, runs, attributes)
+    return collected(variants, runs, tasks[0].outputs, attributes)
 
 
-def _subject(values: Sequence[Mapping[str, Any]], runs: Sequence[VariantRun], *, interrupted: bool) -> Sweep:
+def _compute(jobs: Sequence[Job], engine: Engine, keep: Heard) -> int:
+    """Compute the variants, and tell of each. Returns the number of processes that took part."""
+    with ExitStack() as stack:
+        client = stack.enter_context(client_of(engine.scheduler)) if engine.scheduler else None
+        interrupted = stack.enter_context(interruptible())
+        left = jobs
+        if client is None and not engine.apart:
+            left = _run_here(jobs, keep, interrupted, engine.processes)
+        if not left or interrupted():
+            return 1
+        found = (
+            run_on_cluster(left, client)
+            if client is not None
+            else run_in_processes(left, engine.processes, here=not engine.apart)
+        )
+        with closing(found):
+            for number, run in found:
+                keep(number, run)
+                if interrupted():
+                    break
+        return engine.processes if client is None else threads_of(client)
+
+
+def _subject(
+    values: Sequence[Mapping[str, Any]], runs: Sequence[VariantRun], task: Task, *, interrupted: bool
+) -> Sweep:
     """The runs as their trust report sees them."""
     seen = tuple(
         Variant(_named(each), run.outcome, run.reason, run.verdict, run.verified, run.headline)
         for each, run in zip(values, runs, strict=True)
     )
-    return Sweep(outcome="interrupted" if interrupted else "done", variants=seen)
+    outcome = "interrupted" if interrupted else "done"
+    if task.analysis in ("run", "statics"):
+        return Sweep(outcome=outcome, variants=seen)
+    return Sweep(outcome=outcome, variants=seen, by="checks of each", without="not all of them were checked")
 
 
 def _named(values: Mapping[str, Any]) -> str:
     return ", ".join(f"{path} = {value}" for path, value in values.items())
 
 
-def _run_here(
-    jobs: Sequence[Job],
-    save: tuple[str, ...],
-    verify: bool,
-    keep: Callable[[int, VariantRun], None],
-    interrupted: Callable[[], bool],
-    processes: int,
-) -> Sequence[Job]:
+def _run_here(jobs: Sequence[Job], keep: Heard, interrupted: Callable[[], bool], processes: int) -> Sequence[Job]:
     """Run the first variants, all of them where they are quick. Returns those that are left for processes."""
-    for at, (number, machine, values) in enumerate(jobs):
+    for at, (number, task, values) in enumerate(jobs):
         begin = perf_counter()
-        run = run_variant(machine, values, save, verify)
+        run = run_variant(task, values)
         if run.outcome == NOT_RUN:  # Ctrl-C came
             return ()
         keep(number, run)

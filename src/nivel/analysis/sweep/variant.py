@@ -1,21 +1,26 @@
-"""One variant of a sweep: its run, and what is kept of it."""
+"""One variant of a sweep: its computation, and what is kept of it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
+from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
+from nivel.analysis.sweep.task import Task
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
+from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result
 
 DONE, STOPPED, FAILED, REFUSED, NOT_RUN = "done", "stopped", "failed", "refused", "not run"
+TIMED_OUT, KILLED = "timed out", "killed"
+ENDLESS: Final = 1e9  # s that second runs may go on: how far they come may not depend on how busy a processor is
 
 
 @dataclass(frozen=True)
@@ -31,10 +36,11 @@ class Saved:
 
 @dataclass(frozen=True)
 class VariantRun:
-    """What is kept of a run. outcome : done; stopped, by an event; failed, with the `reason`; refused, before anything was computed.
+    """What is kept of a variant. outcome : done; stopped, by an event; failed, with the `reason`; refused, before anything was computed;
+    timed out; killed, with the process that computed it.
 
     verdict : of the trust report, `not verified` in place of green where not all of it was verified. headline : how exact it is, in a
-    sentence. estimated_error [m] : of positions, not a number without a second run. loop_seconds : in the compiled loop.
+    sentence. estimated_error [m] : of positions, not a number without a second run. loop_seconds : in the compiled loop. outputs : by name.
     """
 
     outcome: str
@@ -47,33 +53,49 @@ class VariantRun:
     loop_seconds: float = 0.0
     time: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     saved: Mapping[str, Saved] = field(default_factory=dict)
+    outputs: Mapping[str, Number] = field(default_factory=dict)
 
 
-def run_variant(base: Model, values: Mapping[str, Any], save: tuple[str, ...], verify: bool) -> VariantRun:
-    """The machine with these values, run by its own settings. Faults and failures are kept, not raised.
+def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
+    """The machine of the task with these values, computed. Faults and failures are kept, not raised.
 
-    save : names of results; none: all joint coordinates and sensors, or where there are none, the positions of the bodies. verify : a
-    second run goes beside it.
-    Raises ModelError where the result has no such name.
+    Raises ModelError where the result has no name that is saved or that an output asks for.
     """
-    machine = base
+    reason, failed = "", False
     try:
-        machine = base.with_values(values) if values else base
-        result = simulate(plan_run(machine.record, machine.origin.settings_outside), verify=verify)
+        machine = task.machine.with_values(values) if values else task.machine
+        found = _computed(machine, task)
     except SolveError as error:
         if not isinstance(error.result, Result):
             return VariantRun(FAILED, str(error), error.time)
-        result, reason = error.result, str(error)
+        found, reason, failed = error.result, str(error), True
     except ModelError as error:
         return VariantRun(REFUSED, str(error))
     except NivelError as error:
         return VariantRun(FAILED, str(error))
-    else:
-        reason = f"event {result.stopped_by}" if result.stopped_by else ""
-    if result.outcome == "interrupted":
+    if isinstance(found, Result) and found.outcome == "interrupted":
         return VariantRun(NOT_RUN)
-    outcome = FAILED if result.outcome == "failed" else STOPPED if result.stopped_by else DONE
-    return _kept(result, outcome, reason, save or _usual(result))
+    if isinstance(found, Result) and found.stopped_by and not failed:
+        reason = f"event {found.stopped_by}"
+    outcome = FAILED if failed else STOPPED if reason else DONE
+    kept = _kept(found, outcome, reason, task)
+    if failed:
+        return kept
+    try:
+        return replace(kept, outputs=outputs_of(found, task.outputs))
+    except OutputFailedError as error:
+        return replace(kept, outcome=FAILED, reason=str(error))
+
+
+def _computed(machine: Model, task: Task) -> Found:
+    """Raises NivelError."""
+    if task.analysis == "run":
+        plan = plan_run(machine.record, machine.origin.settings_outside)
+        return simulate(plan, verify=task.verify, verify_limit=ENDLESS if task.verify else None)
+    settings = dict(task.settings)
+    if task.analysis == "statics":
+        settings["verify"] = task.verify
+    return getattr(machine, task.analysis)(**settings)  # of `nivel.Machine`
 
 
 def _usual(result: Result) -> tuple[str, ...]:
@@ -83,13 +105,24 @@ def _usual(result: Result) -> tuple[str, ...]:
     return names or ("position",)
 
 
-def _kept(result: Result, outcome: str, reason: str, save: tuple[str, ...]) -> VariantRun:
-    time, loop = result.time, float(result.timing.get("loop_seconds", 0.0))
-    saved = {name: _saved(result, name) for name in save}
-    end = float(time[-1]) if len(time) else 0.0
-    trust = result.trust
+def _kept(found: Found, outcome: str, reason: str, task: Task) -> VariantRun:
+    trust = found.trust
     error = np.nan if trust.accuracy_estimate is None else trust.accuracy_estimate + (trust.elements_estimate or 0.0)
-    return VariantRun(outcome, reason, end, trust.light, trust.verified, trust.headline, error, loop, time, saved)
+    about = VariantRun(outcome, reason, _end(found), trust.light, trust.verified, trust.headline, error)
+    if not isinstance(found, Result):
+        if task.save:
+            raise ModelError("histories are kept of runs, statics and kinematics; take numbers with `outputs`")
+        return about
+    save = task.save or (() if task.outputs else _usual(found))
+    loop = float(found.timing.get("loop_seconds", 0.0))
+    saved = {name: _saved(found, name) for name in save}
+    return replace(about, loop_seconds=loop, time=found.time if saved else about.time, saved=saved)
+
+
+def _end(found: Found) -> float:
+    if isinstance(found, LinearModel):
+        return found.time
+    return float(found.time[-1]) if len(found.time) else 0.0
 
 
 def _saved(result: Result, name: str) -> Saved:

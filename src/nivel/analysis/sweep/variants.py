@@ -96,11 +96,13 @@ def _shares(design: str, samples: int, count: int, seed: int) -> np.ndarray[Any,
     return np.concatenate([first, second, *mixed])
 
 
-def lay_out(values: Mapping[str, Any], combine: str, samples: int | None, seed: int) -> Variants:
+def lay_out(
+    values: Mapping[str, Any], combine: str, samples: int | None, seed: int, design: str = "latin-hypercube"
+) -> Variants:
     """The variants of `machine.sweep`. Raises ModelError with everything that is wrong with the values."""
     if samples is None:
         return draw(_lists(values, combine), combine, None, seed)
-    return draw(_distributions(values), "latin-hypercube", samples, seed)
+    return draw(_distributions(values), design, samples, seed)
 
 
 def _lists(values: Mapping[str, Any], combine: str) -> Parameters:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
 from nivel.machine.core.record import Record
-from nivel.machine.given import Field
-from nivel.machine.settings.values import Names
-from nivel.machine.units.quantity import Whole, fault, shown
-from nivel.methods import Combination
+from nivel.machine.given import Field, Maybe
+from nivel.machine.settings.values import Count, Names
+from nivel.machine.study.output import Output
+from nivel.machine.units.quantity import Duration, Whole, fault, shown
+from nivel.methods import Analysis, Combination, Drawn
 
 
 def _combination(value: Any) -> Any:
@@ -19,17 +21,10 @@ def _combination(value: Any) -> Any:
     return value
 
 
-def _count(value: Any) -> Any:
-    if isinstance(value, int) and value < 1:
-        raise fault(f"a whole number of at least 1 was expected, got {shown(value)}")
-    return value
-
-
-Count = Annotated[Whole, BeforeValidator(_count)]
-
-
 class SweepSettings(Record):
     """Settings of a sweep."""
+
+    tagged: ClassVar[Mapping[str, int]] = {"outputs": 2}
 
     combine: Annotated[Combination, BeforeValidator(_combination)] = Field(
         default="grid",
@@ -40,6 +35,14 @@ class SweepSettings(Record):
     )
     seed: Whole = Field(default=0, description="seed of the random numbers of samples")
     save: Names = Field(default=(), description="names of results", absent="all joint coordinates and sensors")
+    design: Drawn = Field(default="latin-hypercube", description="how samples are drawn")
+    analysis: Analysis = Field(default="run", description="what is computed of each variant")
+    analysis_settings: Mapping[str, Any] = Field(default={}, description="settings of an analysis other than a run")
+    outputs: Mapping[str, Output] = Field(default={}, description="numbers of each variant, by name")
+    time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
+    scheduler: str = Field(
+        default="", description="address of the scheduler of a Dask cluster that computes", absent="none"
+    )
     processes: Count | None = Field(
         default=None, description="number of processes", absent="as many as there are processors"
     )

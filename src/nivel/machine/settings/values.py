@@ -12,7 +12,7 @@ from pydantic_core import CoreSchema, core_schema
 from nivel.errors import ModelError
 from nivel.machine.core.record import Record
 from nivel.machine.given import Given, OneNumber
-from nivel.machine.units.quantity import Quantity, fault, shown
+from nivel.machine.units.quantity import Quantity, Whole, fault, shown
 from nivel.methods import StaticCoordinates
 from nivel.words.arguments import plain
 
@@ -52,6 +52,12 @@ class Between:
         return {"type": "number", "minimum": float(self.low), "maximum": float(self.high)}
 
 
+def _count(value: Any) -> Any:
+    if isinstance(value, int) and value < 1:
+        raise fault(f"a whole number of at least 1 was expected, got {shown(value)}")
+    return value
+
+
 def static_coordinates(coordinates: str) -> str:
     """Coordinates of a run for another analysis: `independent` are chosen anew."""
     return coordinates if coordinates in get_args(StaticCoordinates) else "auto"
@@ -79,4 +85,5 @@ Modes = Annotated[Given[int, int, int | str], Between("0", "1000")]
 Positions = Annotated[Given[int, int, int | str], Between("2", "10000000")]
 OfStatics = Annotated[StaticCoordinates, BeforeValidator(_static)]
 Way = Annotated[OneNumber, Quantity(("angle", "length"))]  # of a joint coordinate
+Count = Annotated[Whole, BeforeValidator(_count)]
 Names = Annotated[tuple[str, ...], BeforeValidator(_listed)]

@@ -12,7 +12,7 @@ from pydantic_core import CoreSchema
 
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.given import Field
-from nivel.machine.settings.sweep import Count
+from nivel.machine.settings.values import Count
 from nivel.machine.study.any_quantity import AnyQuantity, si, unlike
 from nivel.machine.units.quantity import fault, listed
 from nivel.words.wording import shown

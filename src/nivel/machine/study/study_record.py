@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal, get_args
 
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.record import NAME
 from nivel.machine.given import Field, Maybe
-from nivel.machine.settings.sweep import Count
-from nivel.machine.settings.values import Names
+from nivel.machine.settings.values import Count, Names
 from nivel.machine.study.output import Output
 from nivel.machine.study.parameter import Range, StudyParameter, Values
 from nivel.machine.units.quantity import Duration, Whole, fault
+from nivel.methods import Analysis, Drawn
 from nivel.words.wording import shown
 
-Analysis = Literal["run", "statics", "kinematics", "linearise", "inverse"]
 Design = Literal["grid", "rows", "random", "latin-hypercube", "sobol", "sobol-indices"]
-ANALYSES: Final = ("run", "statics", "kinematics", "linearise", "inverse")
-DRAWN: Final = ("random", "latin-hypercube", "sobol", "sobol-indices")  # designs that take `samples`
+ANALYSES: Final = get_args(Analysis)
+DRAWN: Final = get_args(Drawn)  # designs that take `samples`
+WITH_HISTORIES: Final = ("run", "statics", "kinematics")
 SOBOL_INDICES: Final = "sobol-indices"
 QUASI_RANDOM: Final = ("sobol", SOBOL_INDICES)  # of which samples are powers of two
 
@@ -83,6 +83,16 @@ class StudyRecord(Checked):
             )
         if not drawn:
             yield from self._without_values()
+        if self.analysis not in WITH_HISTORIES and self.save:
+            yield Problem(("save",), f"`{self.analysis}` has no histories to keep; take numbers with `outputs`")
+        if self.analysis not in WITH_HISTORIES and not self.outputs:
+            yield Problem(
+                ("analysis",), f"`{self.analysis}` needs `outputs`: the numbers that are kept of each variant"
+            )
+        if self.settings.get("arc_length") and (self.save or not self.outputs):
+            yield Problem(
+                ("settings", "arc_length"), "histories along arcs are not kept, as their times differ; take `outputs`"
+            )
         if self.verify and self.analysis not in ("run", "statics"):
             yield Problem(("verify",), f"`{self.analysis}` makes no second run; its trust report has other checks")
 

@@ -1,0 +1,234 @@
+"""Outputs of a study: one number of the result of a variant."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.study import AtEvent, AtTime, EventTime, FinalValue, Output, PythonOutput, ScalarOutput
+from nivel.machine.study.any_quantity import dimension_of
+from nivel.machine.units.dimension import described, without_angle
+from nivel.machine.units.tree import ExpressionError
+from nivel.results.analyses.efforts import Efforts
+from nivel.results.analyses.linear_model import LinearModel
+from nivel.results.result import Result
+from nivel.words.wording import unknown_word
+
+Array = NDArray[np.float64]
+Found = Result | Efforts | LinearModel
+MODE = re.compile(r"mode\.(\d+)\.(\w+)")
+OF_MODE = {"frequency": "Hz", "damping_ratio": "1", "real": "1/s", "imaginary": "1/s"}
+
+
+class Number(NamedTuple):
+    """An output of a variant, and its SI unit."""
+
+    value: float
+    units: str
+
+
+class History(NamedTuple):
+    """Numbers (n,) over times (n,) [s]."""
+
+    time: Array
+    values: Array
+    units: str
+
+
+class OutputFailedError(Exception):
+    """A function of the user failed."""
+
+
+def outputs_of(found: Found, outputs: Mapping[str, Output]) -> dict[str, Number]:
+    """The numbers by output; not a number where there is none.
+
+    Raises ModelError, with the path of the key that is at fault, OutputFailedError.
+    """
+    numbers: dict[str, Number] = {}
+    for name, output in outputs.items():
+        try:
+            numbers[name] = number = _number(found, output)
+            _check_limits(output, number.units)
+        except ModelError as error:
+            raise ModelError([_at_output(name, each) for each in error.faults]) from None
+        except OutputFailedError as error:
+            raise OutputFailedError(f"output {name}: {error}") from None
+    return numbers
+
+
+def _at_output(name: str, fault: Fault) -> Fault:
+    return Fault("", 0, 0, f"outputs.{name}.{fault.path or 'of'}", fault.message)
+
+
+def _number(found: Found, output: Output) -> Number:
+    match output:
+        case PythonOutput():
+            return Number(_called(output, found), output.units)
+        case ScalarOutput():
+            return _scalar(found, output.of)
+        case EventTime():
+            return Number(_event_time(found, output.event), "s")
+        case FinalValue():
+            history = history_of(found, output.of)
+            return Number(float(history.values[-1]) if len(history.values) else np.nan, history.units)
+        case AtTime():
+            return _at(history_of(found, output.of), output.time)
+        case AtEvent():
+            return _at(history_of(found, output.of), _event_time(found, output.event))
+    history = history_of(found, output.of)
+    values = REDUCTIONS[output.type](*_window(history, output.start, output.end))
+    return Number(values, _integrated(history.units) if output.type == "integral" else history.units)
+
+
+def history_of(found: Found, name: str) -> History:
+    """One number over time. Raises ModelError where there is no such name, or more than one number."""
+    if isinstance(found, LinearModel):
+        names = [*(f"mode.1.{each}" for each in OF_MODE), "stable"]
+        raise ModelError(f"a linear model has no histories; write `type: value` and `of` as in {', '.join(names)}")
+    if isinstance(found, Efforts):
+        return _of_efforts(found, name)
+    values = found.array(name)
+    if values.ndim > 1:
+        variable = found.selection(name)
+        dims = found.variables[variable.variable].dims[-(values.ndim - 1) :]
+        listed = [f"{name}.{each}" for each in found.coordinates.get(dims[-1], ())]
+        near = ", ".join(each for each in listed[:3] if each in found)
+        raise ModelError(
+            f"`{name}` has {values[0].size if len(values) else 'several'} numbers; write one, as {near or name}"
+        )
+    return History(found.time, values, found.units(name))
+
+
+def _of_efforts(found: Efforts, name: str) -> History:
+    """Raises ModelError."""
+    columns: dict[str, tuple[Array, str]] = {"missing_share": (found.missing_share, "1")}
+    for k, actuator in enumerate(found.actuators):
+        columns[f"{actuator}.effort"] = (found.effort[:, k], found.units[k])
+        columns[f"{actuator}.power"] = (found.power[:, k], "W")
+    if name not in columns:
+        raise ModelError(unknown_word(name, list(columns), "name"))
+    return History(found.time, *columns[name])
+
+
+def _scalar(found: Found, name: str) -> Number:
+    if not isinstance(found, LinearModel):
+        raise ModelError(f"`type: value` is for linear models; for a history write `type: final`, with `of: {name}`")
+    if name == "stable":
+        return Number(float(found.stable), "1")
+    if name == "largest_real_part":
+        moving = found.eigenvalues[~found.structural]
+        return Number(float(np.max(moving.real, initial=-np.inf)) if len(moving) else np.nan, "1/s")
+    asked = MODE.fullmatch(name)
+    if asked is None or asked[2] not in OF_MODE:
+        known = [*(f"mode.1.{each}" for each in OF_MODE), "stable", "largest_real_part"]
+        raise ModelError(unknown_word(name, known, "name"))
+    moving = [each for each in found.modes if not each.structural]
+    if not 1 <= int(asked[1]) <= len(moving):
+        return Number(np.nan, OF_MODE[asked[2]])
+    mode = moving[int(asked[1]) - 1]
+    numbers = {
+        "frequency": mode.natural_frequency,
+        "damping_ratio": mode.damping_ratio,
+        "real": mode.eigenvalue.real,
+        "imaginary": mode.eigenvalue.imag,
+    }
+    return Number(float(numbers[asked[2]]), OF_MODE[asked[2]])
+
+
+def _event_time(found: Found, name: str) -> float:
+    """Time [s] of the first coming; not a number where it did not come."""
+    if not isinstance(found, Result):
+        raise ModelError(Fault("", 0, 0, "event", "events come in runs"))
+    return next((each.time for each in found.events if each.name == name), np.nan)
+
+
+def _at(history: History, time: float) -> Number:
+    """Between two frames by a straight line; not a number outside of the result."""
+    if not len(history.time) or not _inside(history.time, time):
+        return Number(np.nan, history.units)
+    return Number(float(np.interp(time, history.time, history.values)), history.units)
+
+
+def _inside(times: Array, time: float) -> bool:
+    near = 1e-9 * max(abs(float(times[-1])), 1e-300)
+    return bool(times[0] - near <= time <= times[-1] + near)
+
+
+def _window(history: History, start: float | None, end: float | None) -> tuple[Array, Array]:
+    """Times and values from `start` to `end`, with those at both by straight lines."""
+    time, values = history.time, history.values
+    if (start is None and end is None) or not len(time):
+        return time, values
+    first = float(time[0]) if start is None else max(start, float(time[0]))
+    last = float(time[-1]) if end is None else min(end, float(time[-1]))
+    if first > last:
+        return time[:0], values[:0]
+    inside = (time > first) & (time < last)
+    times = np.concatenate([[first], time[inside], [last]])
+    return times, np.concatenate([[np.interp(first, time, values)], values[inside], [np.interp(last, time, values)]])
+
+
+def _mean(time: Array, values: Array) -> float:
+    if len(time) < 2 or time[-1] == time[0]:
+        return float(values[0]) if len(values) else np.nan
+    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+
+
+REDUCTIONS: Mapping[str, Callable[[Array, Array], float]] = {
+    "max": lambda _, values: float(np.max(values)) if len(values) else np.nan,
+    "min": lambda _, values: float(np.min(values)) if len(values) else np.nan,
+    "peak": lambda _, values: float(np.max(np.abs(values))) if len(values) else np.nan,
+    "rms": lambda time, values: float(np.sqrt(_mean(time, values**2))),
+    "mean": _mean,
+    "integral": lambda time, values: float(np.trapezoid(values, time)) if len(values) else np.nan,
+}
+
+
+def _integrated(units: str) -> str:
+    if units in ("", "1"):
+        return "s"
+    return units.removesuffix("/s") if units.endswith("/s") else f"{units} s"
+
+
+def _check_limits(output: Output, units: str) -> None:
+    """Raise ModelError where a limit measures something else than the number."""
+    for key in ("at_least", "at_most"):
+        limit = getattr(output, key)
+        if limit is None or (its := dimension_of(limit)) is None:
+            continue
+        try:
+            wanted = dimension_of(f"1 {units.replace(' ', '*')}" if units not in ("", "1") else "1")
+        except ExpressionError:
+            continue
+        if without_angle(wanted) != without_angle(its):
+            raise ModelError(
+                Fault("", 0, 0, key, f"`{limit}` is {described(its)}; the number is in {units or 'no unit'}")
+            )
+
+
+@cache
+def _function(source: str, name: str, file: str) -> Any:
+    """The function of a text that the user allowed to run. Raises ModelError where there is none."""
+    names: dict[str, Any] = {"__name__": "outputs"}
+    try:
+        exec(compile(source, file or "outputs.py", "exec"), names)
+    except Exception as error:
+        raise ModelError(Fault("", 0, 0, "python", f"{type(error).__name__}: {error}")) from None
+    if not callable(names.get(name)):
+        known = [key for key, value in names.items() if callable(value) and not key.startswith("_")]
+        raise ModelError(Fault("", 0, 0, "function", unknown_word(name, known, "function")))
+    return names[name]
+
+
+def _called(output: PythonOutput, found: Found) -> float:
+    function = _function(output.source, output.function, output.file)
+    try:
+        return float(function(found))
+    except Exception as error:  # whatever the function of the user does
+        raise OutputFailedError(f"{type(error).__name__}: {error}") from error

@@ -1,0 +1,277 @@
+"""`nivel sweep STUDY`: all variants of a study, on the processors of this machine or on a cluster; a data file, a report, a summary."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from nivel.cli.failures import COMPUTATION_FAILED
+from nivel.cli.options import (
+    allow_code_option,
+    assignments,
+    file_argument,
+    force_option,
+    json_option,
+    no_report_option,
+    quiet_option,
+)
+from nivel.words.wording import seconds
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nivel.studies import Study
+
+SHOWN: Final = 8  # variants in the live table, and reasons in the summary
+COLUMNS: Final = 8  # numbers in a row of the live table
+STYLES: Final = {"done": "green", "stopped": "green", "refused": "yellow"}
+
+set_option = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="PATH=VALUE",
+    callback=assignments("PATH=VALUE, e.g. samples=256", empty=True),
+    help="Set any value of the study file, e.g. samples=256 or verify=true. May be repeated.",
+)
+
+
+@click.command(short_help="Compute many variants of a machine: data file, report, summary.")
+@file_argument("study")
+@set_option
+@allow_code_option
+@click.option(
+    "-o",
+    "--out",
+    metavar="FILE.nc",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Data file; default: NAME.nc in the working directory.",
+)
+@click.option("--workers", type=click.IntRange(1), metavar="NUMBER", help="Processes; default: one for each processor.")
+@click.option("--scheduler", default="", metavar="ADDRESS", help="Compute on the Dask cluster with this scheduler.")
+@click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
+@force_option
+@no_report_option
+@quiet_option
+@json_option
+def command(
+    study: str,
+    overrides: dict[str, str],
+    allow_code: bool,
+    out: Path | None,
+    workers: int | None,
+    scheduler: str,
+    resume: bool,
+    force: bool,
+    no_report: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Compute the variants of STUDY, a file that names a machine, what varies, an analysis and its outputs.
+
+    Variants that fail, take longer than the time limit, or end their process are rows of the table with their reason. Until all are
+    finished, FILE.nc.journal has those that are: --resume goes on after any interruption.
+
+    Exit codes: 0 the variants were computed, 2 fault in the input, 3 every variant failed, 130 interrupted.
+    """
+    from nivel.cli.analysis_command import beside
+    from nivel.errors import ModelError
+    from nivel.files.target import check_target
+    from nivel.studies import load_study, write_study_report
+
+    loaded = load_study(study, overrides, allow_code=allow_code)
+    target = out or Path(f"{loaded.file.record.name}.nc")
+    page = None if no_report else beside(target)
+    if page == target:
+        raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
+    if resume and target.exists() and not target.with_name(f"{target.name}.journal").exists():
+        if not quiet:
+            click.echo(f"{target} is complete: nothing is left to compute", err=True)
+        return
+    if page is not None:
+        check_target(page, "report", force=force or resume, sources=[Path(study)])
+    with _progress(loaded, quiet) as (listener, heard):
+        found = loaded.sweep(
+            out=target,
+            workers=workers,
+            scheduler=scheduler,
+            resume=resume,
+            force=force,
+            listener=listener,
+            heard=heard,
+        )
+    interrupted = "not run" in found["outcome"].values
+    if page is not None and not interrupted:
+        write_study_report(found, page)
+    if as_json:
+        click.echo(json.dumps(summary(found), indent=2))
+    if not quiet:
+        _say(found, target, page, interrupted)
+    if interrupted:
+        raise KeyboardInterrupt
+    if not any(outcome in ("done", "stopped") for outcome in found["outcome"].values.reshape(-1)):
+        raise SystemExit(COMPUTATION_FAILED)
+
+
+def summary(found: xarray.Dataset) -> dict[str, Any]:
+    """Outcomes, and numbers of each output, for programs."""
+    import numpy as np
+
+    from nivel.results.study_statistics import Table, share_within
+
+    table = Table.of(found)
+    outputs = {}
+    for name, values in table.outputs.items():
+        known = values[np.isfinite(values)]
+        facts: dict[str, Any] = {"units": table.units[name], "count": len(known)}
+        if len(known):
+            facts |= {"min": float(known.min()), "mean": float(known.mean()), "max": float(known.max())}
+            facts["standard_deviation"] = float(known.std(ddof=1)) if len(known) > 1 else 0.0
+        if name in table.limited:
+            facts["within_limits"] = share_within(table, name).value
+        outputs[name] = facts
+    out = {
+        "study": str(found.attrs.get("study", "")),
+        "machine": str(found.attrs["machine"]),
+        "variants": len(table.outcome),
+        "outcomes": {each: table.outcome.count(each) for each in dict.fromkeys(table.outcome)},
+        "verdict": str(found.attrs["verdict"]),
+        "outputs": outputs,
+    }
+    return out | ({"yield": share_within(table).value} if table.limited else {})
+
+
+def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bool) -> None:
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table as Shown
+
+    from nivel.cli.ending import COLOURS, console
+    from nivel.results.study_statistics import Table, share_within
+
+    out, table, facts = console(), Table.of(found), summary(found)
+    loop, took = float(found.attrs["loop_seconds"]), float(found.attrs["seconds"])
+    steps = f", {seconds(loop)} of it in loops of runs" if loop else ""
+    out.print(f"[bold]{facts['study']}[/bold]: {found.attrs['outcomes']} in {seconds(took)}{steps}")
+    if table.outputs:
+        shown = Shown("output", "unit", box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+        for title in ("least", "mean", "greatest", "deviation", "within limits"):
+            shown.add_column(title, justify="right")
+        for name, each in facts["outputs"].items():
+            numbers = [
+                f"{each[key]:.5g}" if key in each else "" for key in ("min", "mean", "max", "standard_deviation")
+            ]
+            share = f"{100 * each['within_limits']:.4g} %" if "within_limits" in each else ""
+            shown.add_row(name, each["units"], *numbers, share)
+        out.print(shown)
+    if table.limited:
+        share = share_within(table)
+        low, high = share.interval
+        between = f"{100 * low:.3g} to {100 * high:.3g} % with a confidence of 95 %"
+        out.print(
+            f"yield: {share.count} of {share.of} variants are within all limits, {100 * share.value:.4g} % ({between})"
+        )
+    reasons = [(k, each, why) for k, (each, why) in enumerate(zip(table.outcome, table.reason, strict=True)) if why]
+    others = [each for each in reasons if each[1] != "stopped"]
+    for number, outcome, why in others[:SHOWN]:
+        out.print(f"  variant {number}: {outcome}: {why}", markup=False)
+    if len(others) > SHOWN:
+        out.print(f"  and {len(others) - SHOWN} more that came to no end")
+    verdict = str(found.attrs["verdict"])
+    coloured = f"[{COLOURS[verdict]}]{verdict}[/], " if verdict in COLOURS else ""
+    out.print(f"trust: {coloured}{found.attrs['headline']}", soft_wrap=True)
+    if interrupted:
+        out.print(f"interrupted: what was computed is in {target}.journal; go on with --resume")
+    else:
+        out.print(f"data: {target}" + (f"\nreport: {page}" if page is not None else ""), soft_wrap=True)
+
+
+@contextmanager
+def _progress(study: Study, quiet: bool) -> Iterator[tuple[Any, Callable[[int, Any], None] | None]]:
+    """A listener, and what hears each variant: in a terminal a bar with the time that is left, over a table of the last variants."""
+    from nivel.analysis.progress.listener import Listener
+    from nivel.cli.progress import progress_listener
+
+    if quiet:
+        yield Listener(), None
+        return
+    count = len(study.variants.values)
+    left = _Left(count)
+    if not sys.stderr.isatty():
+        with progress_listener(quiet) as listener:
+            yield (
+                Listener(listener.stage, lambda done: listener.say(f"{left.done(done)} of {count} variants{left}")),
+                None,
+            )
+        return
+    from rich.console import Console, Group
+    from rich.live import Live
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[left]}"))
+    bar = Progress(*columns)
+    task = bar.add_task("variants", total=count, left="")
+    last: deque[tuple[int, Any]] = deque(maxlen=SHOWN)
+    with Live(bar, console=Console(stderr=True), transient=True, refresh_per_second=4) as live:
+
+        def heard(number: int, run: Any) -> None:
+            last.append((number, run))
+            live.update(Group(bar, _recent(study, last)))
+
+        yield (
+            Listener(
+                lambda text, _total: bar.update(task, description=text),
+                lambda done: bar.update(task, completed=left.done(done), left=str(left)),
+            ),
+            heard,
+        )
+
+
+class _Left:
+    """The time that is left, by how long the variants took that followed the first one of this run: that one waited for its process."""
+
+    def __init__(self, count: int) -> None:
+        self._count, self._begin, self._first, self._done = count, 0.0, -1, 0
+
+    def done(self, done: float) -> int:
+        """So many are finished."""
+        self._done = int(done)
+        if self._first < 0:
+            self._first, self._begin = self._done, monotonic()
+        return self._done
+
+    def __str__(self) -> str:
+        new = self._done - self._first
+        if new < 1 or self._done >= self._count:
+            return ""
+        return f", about {seconds((monotonic() - self._begin) / new * (self._count - self._done))} left"
+
+
+def _recent(study: Study, last: deque[tuple[int, Any]]) -> Any:
+    """The table of the last variants."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table as Shown
+    from rich.text import Text
+
+    record, values = study.file.record, study.variants.values
+    parameters, outputs = list(record.parameters)[:COLUMNS], list(record.outputs)[:COLUMNS]
+    shown = Shown(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    for title in ("variant", *parameters, "outcome", *outputs):
+        shown.add_column(title, justify="left" if title == "outcome" else "right", no_wrap=True)
+    for number, run in last:
+        numbers = [_shown(values[number][path]) for path in parameters]
+        found = [_shown(run.outputs[name].value) if name in run.outputs else "" for name in outputs]
+        outcome = Text(run.outcome, style=STYLES.get(run.outcome, "red"))
+        shown.add_row(str(number), *numbers, outcome, *found)
+    return shown
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else str(value)

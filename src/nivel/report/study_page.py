@@ -1,0 +1,210 @@
+"""The page of a study: its variants side by side, what the outputs depend on, and how many are within limits, in one HTML file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel import __version__
+from nivel.report.story import trusted
+from nivel.results.comparison.comparison_files import write_text
+from nivel.results.study_statistics import (
+    Share,
+    Surface,
+    Table,
+    capability,
+    effects,
+    share_within,
+    sobol_indices,
+    surface,
+)
+from nivel.results.trust import Trust
+
+if TYPE_CHECKING:
+    import xarray
+
+HERE: Final = Path(__file__).parent
+MOST_LINES: Final = 2000  # variants that are drawn
+MOST_REASONS: Final = 30
+DESIGNS: Final = {
+    "grid": "grid",
+    "rows": "rows of lists",
+    "random": "drawn at random",
+    "latin-hypercube": "Latin hypercube",
+    "sobol": "Sobol's sequence",
+    "sobol-indices": "for Sobol indices",
+}
+
+
+class Figures(NamedTuple):
+    """A row of the table of outputs."""
+
+    name: str
+    unit: str
+    numbers: tuple[str, ...]
+    limits: str
+    within: str
+    capability: str
+
+
+def write_study_page(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> Path:
+    """Write the page of a study; an existing file is replaced. The file needs no network and nothing beside it."""
+    write_text(study_html(dataset), path, "report", force=True)
+    return Path(path)
+
+
+def study_html(dataset: xarray.Dataset) -> str:
+    """The page as text."""
+    from jinja2 import Environment, FileSystemLoader
+
+    table = Table.of(dataset)
+    trust = Trust.from_json(str(dataset.attrs["trust"]))
+    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return environment.get_template("study.html.j2").render(
+        name=dataset.attrs.get("study") or f"{dataset.attrs['machine']}: sweep",
+        description=dataset.attrs.get("description", ""),
+        facts=_facts(dataset, table),
+        trusted=trusted(trust),
+        accepted=_yield(table),
+        figures=list(_figures(table)),
+        reasons=_reasons(table)[:MOST_REASONS],
+        more=max(0, len(_reasons(table)) - MOST_REASONS),
+        data=json.dumps(_data(table)).replace("<", "\\u003c"),
+        table=table,
+        version=__version__,
+        page_style=(HERE / "page.css").read_text(encoding="utf-8"),
+        style="".join((HERE / name).read_text(encoding="utf-8") for name in ("plots.css", "study.css")),
+        script=(HERE / "study.js").read_text(encoding="utf-8"),
+    )
+
+
+def _facts(dataset: xarray.Dataset, table: Table) -> list[str]:
+    count = len(table.outcome)
+    facts = [
+        str(dataset.attrs["machine"]),
+        str(dataset.attrs.get("analysis", "run")),
+        f"{count} variants: {dataset.attrs['outcomes']}",
+    ]
+    if table.design:
+        drawn = f", seed {dataset.attrs['seed']}" if table.samples else ""
+        facts.append(f"{DESIGNS.get(table.design, table.design)}{drawn}")
+    return facts
+
+
+def _yield(table: Table) -> tuple[str, str] | None:
+    """The share of variants within all limits, and what is said of it; None without limits."""
+    if not table.limited:
+        return None
+    share = share_within(table)
+    said = f"{share.count} of {share.of} variants are within all limits; {_between(share)}."
+    lost = int(np.sum(~table.ended))
+    if lost:
+        said += f" {lost} that came to no end count as outside."
+    return f"{100.0 * share.value:.4g} %", said
+
+
+def _between(share: Share) -> str:
+    low, high = share.interval
+    return f"with a confidence of 95 % between {100.0 * low:.3g} and {100.0 * high:.3g} %"
+
+
+def _figures(table: Table) -> Iterator[Figures]:
+    for name, values in table.outputs.items():
+        known = values[table.ended & np.isfinite(values)]
+        numbers = ("",) * 4
+        if len(known):
+            deviation = float(np.std(known, ddof=1)) if len(known) > 1 else 0.0
+            numbers = tuple(f"{each:.5g}" for each in (known.min(), known.mean(), known.max(), deviation))
+        least, most = table.limits[name]
+        limits = f"{'' if least is None else f'{least:.5g}'} … {'' if most is None else f'{most:.5g}'}"
+        limited = name in table.limited
+        cpk = capability(table, name) if limited else np.nan
+        yield Figures(
+            name,
+            table.units[name],
+            numbers,
+            limits if limited else "",
+            f"{100.0 * share_within(table, name).value:.4g} %" if limited else "",
+            f"{cpk:.3g}" if np.isfinite(cpk) else "",
+        )
+
+
+def _reasons(table: Table) -> list[tuple[int, str, str]]:
+    """Variants that came to no end."""
+    return [
+        (k, outcome, reason)
+        for k, (outcome, reason, ended) in enumerate(zip(table.outcome, table.reason, table.ended, strict=True))
+        if not ended
+    ]
+
+
+def _data(table: Table) -> dict[str, Any]:
+    """What the page draws. Variants that came to no end are left out."""
+    some = np.flatnonzero(table.ended)
+    if len(some) > MOST_LINES:
+        some = some[np.linspace(0, len(some) - 1, MOST_LINES).astype(int)]
+    accepted = table.accepted
+    axes = [_axis(table, name, each, some) for name, each in table.parameters.items()]
+    outputs = [
+        {**_axis(table, name, each, some), **_findings(table, name), "limits": table.limits[name]}
+        for name, each in table.outputs.items()
+    ]
+    return {
+        "parameters": axes,
+        "outputs": outputs,
+        "accepted": [bool(accepted[k]) for k in some],
+        "variants": [int(k) for k in some],
+        "limited": bool(table.limited),
+        "shown": len(some),
+        "count": int(table.ended.sum()),
+    }
+
+
+def _axis(table: Table, name: str, values: NDArray[np.float64], some: NDArray[np.int_]) -> dict[str, Any]:
+    return {
+        "name": name,
+        "unit": table.units[name],
+        "words": list(table.words.get(name, ())),
+        "values": [float(f"{each:.7g}") if np.isfinite(each) else None for each in values[some]],
+    }
+
+
+def _findings(table: Table, name: str) -> dict[str, Any]:
+    found = surface(table, name)
+    shares = sobol_indices(table, name)
+    out: dict[str, Any] = {"surface": None if found is None else _surface(table, found)}
+    out["effects"] = [
+        {"parameter": e.parameter, "low": e.low, "high": e.high, "at_low": e.at_low, "at_high": e.at_high}
+        for e in effects(table, name, found)
+    ]
+    if shares is not None:
+        out["sobol"] = {
+            "parameters": list(shares.parameters),
+            "first": shares.first.tolist(),
+            "total": shares.total.tolist(),
+            "first_error": shares.first_error.tolist(),
+            "total_error": shares.total_error.tolist(),
+            "used": shares.used,
+            "samples": shares.samples,
+        }
+    return out
+
+
+def _surface(table: Table, found: Surface) -> dict[str, Any]:
+    middle = [float(np.median(table.parameters[name][table.ended])) for name in found.parameters]
+    return {
+        "parameters": list(found.parameters),
+        "low": found.low.tolist(),
+        "high": found.high.tolist(),
+        "middle": middle,
+        "powers": found.powers.tolist(),
+        "coefficients": found.coefficients.tolist(),
+        "determined": found.determined,
+        "predicted": found.predicted if np.isfinite(found.predicted) else None,
+    }

@@ -1,0 +1,188 @@
+"""A study in Python: a study file with its machine, its variants, and what they were found to be."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from nivel.analysis.progress.listener import Listener
+from nivel.api import Machine, code_of, load
+from nivel.errors import Fault, ModelError
+from nivel.files.study_file import StudyFile, read_study
+from nivel.words.arguments import checked_arguments
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nivel.analysis.sweep.resolution import Resolved
+    from nivel.analysis.sweep.variants import Variants
+
+TIMES = ("seconds", "loop_seconds", "processes")  # attributes that are of the computation, and not of the study
+
+
+@dataclass(frozen=True, repr=False)
+class Study:
+    """A study file with its machine: `variants`, and what `sweep` computes of them. Made by `nivel.load_study`."""
+
+    resolved: Resolved
+
+    @property
+    def file(self) -> StudyFile:
+        """The study as it was read."""
+        return self.resolved.study
+
+    @property
+    def machine(self) -> Machine:
+        """The machine of the study, with the values and settings that all variants have."""
+        machine = self.resolved.machine
+        assert isinstance(machine, Machine)
+        return machine
+
+    @property
+    def variants(self) -> Variants:
+        """The values of every variant. Raises ModelError where nothing varies, or too much."""
+        from nivel.analysis.sweep.variants import draw
+
+        record = self.file.record
+        try:
+            return draw(self.resolved.parameters, record.design, record.samples, record.seed)
+        except ModelError as error:
+            place = ("parameters",) if record.parameters else ()
+            raise ModelError([self.file.fault(place, each.message) for each in error.faults]) from None
+
+    @checked_arguments
+    def sweep(
+        self,
+        *,
+        out: str | PathLike[str] | None = None,
+        workers: int | None = None,
+        scheduler: str = "",
+        resume: bool = False,
+        force: bool = False,
+        listener: Listener | None = None,
+        heard: Callable[[int, Any], None] | None = None,
+    ) -> xarray.Dataset:
+        """Compute all variants in processes of their own, into one dataset: parameters, outputs and saved histories of each.
+
+        out : data file (NetCDF), and a journal beside it, FILE.journal, until all variants are finished. workers : number of processes; as
+        many as there are processors by default. scheduler : address of a Dask cluster that computes instead. resume : go on with the
+        journal of an interrupted study; the dataset is then what it would be without the interruption, to the last bit. force : replace
+        files. heard : is called with number and run of each variant that is finished.
+
+        Variants that fail, take longer than the time limit, or end their process are rows with a `reason`. Interrupted by Ctrl-C, it
+        returns what was computed, and the journal stays. Raises ModelError where outputs do not fit the results, or no variant could start.
+        """
+        from nivel.analysis.sweep.journal import replace_file
+        from nivel.analysis.sweep.sweep import Engine, sweep
+        from nivel.analysis.sweep.task import Task
+        from nivel.native.workers import processors
+
+        record, variants = self.file.record, self.variants
+        task = Task(
+            self.machine,
+            record.analysis,
+            self.resolved.settings,
+            record.outputs,
+            record.save,
+            record.verify,
+            record.time_limit,
+        )
+        listener = listener or Listener()
+        target = None if out is None else Path(fspath(out))
+        journal = None if target is None else self._journal(target, task, variants, resume=resume, force=force)
+        code_of(self.machine, record.analysis, listener)
+        complete = False
+        try:
+            engine = Engine(workers or processors(), scheduler, apart=True)
+            found = sweep([task], variants, engine, listener=listener, heard=heard, journal=journal)
+            found = found.assign_attrs({"study": record.name, "description": record.description, **self._about()})
+            complete = "not run" not in found["outcome"].values
+            if target is not None and complete:
+                written = target.with_name(f"{target.name}.part")
+                kept = found.drop_attrs(deep=False).assign_attrs(
+                    {name: value for name, value in found.attrs.items() if name not in TIMES}
+                )
+                kept.to_netcdf(written, engine="h5netcdf")
+                replace_file(written, target)
+        except ModelError as error:
+            raise ModelError([self._placed(each) for each in error.faults]) from None
+        finally:
+            if journal is not None:
+                journal.close(remove=complete or not journal.finished)
+        return found
+
+    @checked_arguments
+    def report(self, found: Any, path: str | PathLike[str]) -> Path:
+        """Write the report of what `sweep` found, a dataset or its file, as one HTML file that needs no network; an existing file is
+        replaced."""
+        return write_study_report(found, path)
+
+    def _journal(self, target: Path, task: Any, variants: Variants, *, resume: bool, force: bool) -> Any:
+        """Raises ModelError where there is one already that is neither to be used nor replaced, or the data file exists."""
+        from nivel.analysis.sweep.journal import SUFFIX, Journal, count_finished, fingerprint
+        from nivel.files.target import check_target
+
+        path, of = target.with_name(target.name + SUFFIX), fingerprint(task, variants)
+        sources = [Path(self.file.file), Path(self.file.machine_file)]
+        if resume and path.exists():
+            return Journal.go_on(path, of)
+        check_target(target, "data file", force=force or resume, sources=sources)
+        if path.exists() and not force:
+            done = f"{count_finished(path)} of {len(variants.values)} variants"
+            raise ModelError(
+                f"{path} has {done} of an interrupted study: go on with --resume, or begin anew with --force"
+            )
+        return Journal.begin(path, of)
+
+    def _about(self) -> dict[str, Any]:
+        """What the report has to know of the study."""
+        record = self.file.record
+        return {
+            "design": record.design,
+            "samples": record.samples or 0,
+            "seed": record.seed,
+            "parameters": json.dumps(list(record.parameters)),
+            "outputs": json.dumps(list(record.outputs)),
+        }
+
+    def _placed(self, fault: Fault) -> Fault:
+        """A fault of an output at its line."""
+        steps = tuple(fault.path.split("."))
+        if fault.line or steps[0] not in ("outputs", "save"):
+            return fault
+        return self.file.fault(steps, fault.message)
+
+    def __repr__(self) -> str:
+        record = self.file.record
+        return f"<Study {record.name}: {len(record.parameters)} parameters, {record.design}, {record.analysis}>"
+
+
+@checked_arguments
+def load_study(
+    path: str | PathLike[str], overrides: Mapping[str, Any] | None = None, *, allow_code: bool = False
+) -> Study:
+    """Read a study file and its machine. `overrides` replace values by path, e.g. ``{"samples": 64}``.
+
+    allow_code : outputs, and laws of the machine, may be Python functions, which run with all your rights.
+    Raises ModelError with every fault of the files, each with its line.
+    """
+    study = read_study(fspath(path), overrides=dict(overrides or {}), allow_code=allow_code)
+    from nivel.analysis.sweep.resolution import resolve
+
+    return Study(resolve(study, load(study.machine_file, allow_code=allow_code)))
+
+
+def write_study_report(dataset: xarray.Dataset | str | PathLike[str], path: str | PathLike[str]) -> Path:
+    """Write the report of a study, or of its data file, as one HTML file that needs no network; an existing file is replaced."""
+    import xarray
+
+    from nivel.report.study_page import write_study_page
+
+    if isinstance(dataset, xarray.Dataset):
+        return write_study_page(dataset, path)
+    with xarray.open_dataset(dataset, engine="h5netcdf") as opened:
+        return write_study_page(opened.load(), path)

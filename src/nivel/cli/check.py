@@ -17,6 +17,7 @@ from nivel.errors import SolveError
 @override_option
 @allow_code_option
 @click.option("--circuit", type=click.Path(dir_okay=False), help="Draw the hydraulic circuit to this SVG file.")
+@click.option("--valves", type=click.Path(dir_okay=False), help="Draw the curves of all valves to this SVG file.")
 @click.option(
     "--mass",
     metavar="MARKER",
@@ -31,6 +32,7 @@ def command(
     overrides: dict[str, str],
     allow_code: bool,
     circuit: str | None,
+    valves: str | None,
     mass: str | None,
     of: tuple[str, ...] | None,
     as_json: bool,
@@ -52,6 +54,13 @@ def command(
         if not drawn:
             raise click.UsageError("the machine has no `hydraulics` that could be drawn with --circuit")
         Path(circuit).write_text(drawn, encoding="utf-8")
+    if valves is not None:
+        from nivel.looks.circuit.characteristics import valve_diagram
+
+        curves = valve_diagram(loaded.record.model_dump(mode="json"))
+        if not curves:
+            raise click.UsageError("the machine has no valves whose curves could be drawn with --valves")
+        Path(valves).write_text(curves, encoding="utf-8")
     if of and mass is None:
         raise click.UsageError("--of belongs to --mass, e.g. --mass ground")
     weighed = None if mass is None else loaded.mass_properties(mass, of or ())

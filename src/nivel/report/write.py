@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.analysis.trust.report import thresholds_of
 from nivel.errors import ModelError
 from nivel.files.target import keep_sources
+from nivel.looks.circuit.characteristics import valve_diagram
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
@@ -27,6 +28,7 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
+from nivel.results.frames.circuit_balance import component_balances
 from nivel.results.frames.pressures import pressures_at
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
@@ -88,6 +90,8 @@ def report_html(result: Result) -> str:
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
         diagram=control_diagram(record),
+        balance=component_balances(result, record),
+        valves=valve_diagram(record) if record.get("hydraulics") else "",
         circuit=circuit_diagram(record, pressures_at(result, 0) if len(result.time) else {}),
         icon=joint_icon,
         panels=shown,

@@ -1,0 +1,304 @@
+"""Characteristic curves of the valves of a machine at rest: flow over position, over pressure, or over setting, as SVG."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.machine.hydraulics import (
+    COMPONENT_OF,
+    CartridgeValve,
+    CheckValve,
+    CounterbalanceValve,
+    CrossPortRelief,
+    DirectionalValve,
+    FlowControl,
+    Orifice,
+    ReducingValve,
+    ReliefValve,
+    Section,
+    SequenceValve,
+    SpoolValve,
+    UnloadingValve,
+)
+from nivel.machine.hydraulics.directional import CENTRED, EDGES
+from nivel.machine.hydraulics.fluid import OIL
+from nivel.system.hydraulics.components.spools import conductances
+
+Array = NDArray[np.float64]
+BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
+POINTS: Final = 121
+STATED: Final = 10e5  # Pa over an edge whose catalogue states no difference of pressure
+WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT = 300.0, 190.0, 46.0, 34.0, 34.0, 12.0
+COLOURS: Final = ("#2f6fb3", "#c0392b", "#2e8b57", "#b8860b", "#7d4fa3", "#555555", "#008b8b", "#d2691e")
+STYLE = """
+.valves { font: 10px system-ui, sans-serif; color: inherit; max-width: 100%; height: auto; }
+.valves path { fill: none; stroke-width: 1.4; }
+.valves .grid { stroke: currentColor; stroke-opacity: 0.14; stroke-width: 1; }
+.valves .zero { stroke: currentColor; stroke-opacity: 0.5; stroke-width: 1; }
+.valves text { fill: currentColor; }
+.valves .name { font-weight: 600; font-size: 11px; }
+.valves .words { fill-opacity: 0.65; }
+"""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """x as its axis says, y [L/min]."""
+
+    label: str
+    x: Array
+    y: Array
+
+
+@dataclass(frozen=True)
+class Chart:
+    """The curves of one valve. across : what x is, with its unit."""
+
+    name: str
+    type: str
+    across: str
+    curves: tuple[Curve, ...]
+
+
+def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
+    """The charts of all valves of a machine record as JSON; those for gases are left out."""
+    densities = {str(each["name"]): _density(each) for each in record.get("fluids") or ()}
+    density = next(iter(densities.values()), OIL.mixed_density)
+    out = []
+    for data in record.get("hydraulics") or ():
+        component = COMPONENT_OF[str(data["type"])].model_validate(data) if data["type"] in COMPONENT_OF else None
+        for kind, draw in _DRAWN.items():
+            if isinstance(component, kind) and not getattr(component, "is_of_gas", False):
+                chart = draw(component, density)
+                if chart is not None:
+                    out.append(chart)
+    return tuple(out)
+
+
+def _density(fluid: Mapping[str, Any]) -> float:
+    air = float(fluid.get("air") or 0.0)
+    return (1.0 - air) * float(fluid["density"]) + 1.2 * air
+
+
+def root(difference: Array | float, corner: float) -> Any:
+    """Δp (Δp² + c²)^(-1/4)."""
+    return difference * (np.asarray(difference) ** 2 + corner**2) ** -0.25
+
+
+def step(t: Array) -> Array:
+    """3 t² - 2 t³, from 0 to 1."""
+    t = np.clip(t, 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+def ramp(z: Array, width: float) -> Array:
+    """0 below zero, z - width/2 above `width`, with two continuous derivatives."""
+    t = np.clip(z / width, 0.0, 1.0)
+    return np.where(z >= width, z - 0.5 * width, width * t**3 * (1.0 - 0.5 * t))
+
+
+def _of_spool(valve: SpoolValve, density: float) -> Chart:
+    u = np.linspace(-1.0 if valve.two_sided else 0.0, 1.0, POINTS)
+    curves = []
+    for pair, edge in valve.edges.items():
+        drops, tables = conductances(valve, edge, density)
+        for drop, table in zip(drops, tables, strict=True):
+            at = drop or STATED
+            flow = np.array([table(float(x)) for x in u]) * root(at, valve.transition)
+            curves.append(Curve(f"{pair} at {at / BAR:.3g} bar", u, flow / LITRE_PER_MINUTE))
+    return Chart(valve.name, valve.type, "position", tuple(curves))
+
+
+def _edge(u: Array, sign: float, shift: float, overlap: float, rounding: float) -> Array:
+    full = 1.0 - overlap - 0.5 * rounding
+    return ramp(sign * u + shift, rounding) / full
+
+
+def _of_directional(valve: DirectionalValve, _: float) -> Chart:
+    centred = valve.ways in (*CENTRED, "2/2")
+    u = np.linspace(-1.0 if valve.ways in CENTRED else 0.0, 1.0, POINTS)
+    whole = (valve.flow or 0.0) / LITRE_PER_MINUTE
+    curves = []
+    for pairs, sign in zip(EDGES[valve.ways], (1.0, -1.0), strict=True):
+        factor, shift = (sign, -valve.overlap) if centred else (2.0 * sign, -sign - valve.overlap)
+        for pair in pairs:
+            opening = _edge(u, factor, shift, valve.overlap, valve.rounding)
+            curves.append(Curve(f"{pair} at {(valve.pressure_drop or 0.0) / BAR:.3g} bar", u, whole * opening))
+    return Chart(valve.name, valve.type, "position", tuple(curves))
+
+
+def _of_section(valve: Section, _: float) -> Chart:
+    u = np.linspace(-1.0, 1.0, POINTS)
+    drop = (valve.pressure_drop or 0.0) / BAR
+    curves = []
+    for side, sign, flow in (("A", 1.0, valve.flow), ("B", -1.0, valve.flow_B or valve.flow)):
+        opening = _edge(u, sign, -valve.overlap, valve.overlap, valve.rounding)
+        curves.append(Curve(f"to {side} at {drop:.3g} bar", u, (flow or 0.0) / LITRE_PER_MINUTE * opening))
+    return Chart(valve.name, valve.type, "position", tuple(curves))
+
+
+def _opening(valve: Any, setting: float, label: str, across: str, factor: float = 1.0) -> Chart:
+    """Flow over a difference of pressure that opens the valve by itself; factor : of that in what opens it."""
+    end = (setting + valve.opening_range) / factor
+    p = np.linspace(0.0, 1.15 * end, POINTS)
+    opening = step((factor * p - setting) / valve.opening_range)
+    flow = (valve.conductance * opening * root(p, valve.transition) + valve.leakage * p) / LITRE_PER_MINUTE
+    return Chart(valve.name, valve.type, across, (Curve(label, p / BAR, flow),))
+
+
+def _constant(value: object) -> float | None:
+    return float(value) if isinstance(value, float | int) else None
+
+
+def _of_pressure(valve: ReliefValve | CheckValve | SequenceValve | UnloadingValve, _: float) -> Chart | None:
+    setting = _constant(valve.opens_at)
+    across = {
+        "relief-valve": "p_P - p_T, bar",
+        "check-valve": "p_A - p_B, bar",
+        "sequence-valve": "p_P above its drain, A at the drain, bar",
+        "unloading-valve": "p_P above LS, T at LS, bar",
+    }[valve.type]
+    if setting is None or (isinstance(valve, UnloadingValve) and "X" in valve.ports):
+        return None
+    return _opening(valve, setting, f"opens at {setting / BAR:.4g} bar", across)
+
+
+def _of_counterbalance(valve: CounterbalanceValve, _: float) -> Chart | None:
+    setting = _constant(valve.opens_at)
+    if setting is None:
+        return None
+    p = np.linspace(0.0, 1.15 * (setting + valve.opening_range), POINTS)
+    curves = []
+    for pilot in (0.0, 0.1, 0.2):
+        felt = p + valve.pilot_ratio * pilot * setting
+        flow = valve.conductance * step((felt - setting) / valve.opening_range) * root(p, valve.transition)
+        curves.append(Curve(f"pilot {pilot * setting / BAR:.3g} bar", p / BAR, flow / LITRE_PER_MINUTE))
+    return Chart(valve.name, valve.type, "p_L, V at the pressure of the air, bar", tuple(curves))
+
+
+def _of_cartridge(valve: CartridgeValve, _: float) -> Chart:
+    return _opening(valve, valve.opens_at, "X and B without pressure", "p_A - p_B, bar", valve.area_share)
+
+
+def _of_cross_port(valve: CrossPortRelief, _: float) -> Chart | None:
+    setting = _constant(valve.opens_at)
+    return None if setting is None else _opening(valve, setting, "A to B, and B to A", "p_A - p_B, bar")
+
+
+def _of_reducing(valve: ReducingValve, _: float) -> Chart | None:
+    setting = _constant(valve.pressure)
+    if setting is None:
+        return None
+    before = 2.0 * setting
+    p = np.linspace(max(setting - 2.0 * valve.opening_range, 0.0), setting + 0.2 * valve.opening_range, POINTS)
+    flow = valve.conductance * step((setting - p) / valve.opening_range) * root(before - p, valve.transition)
+    curve = Curve(f"from P at {before / BAR:.4g} bar", p / BAR, flow / LITRE_PER_MINUTE)
+    return Chart(valve.name, valve.type, "p_A, bar", (curve,))
+
+
+def _of_flow_control(valve: FlowControl, _: float) -> Chart:
+    s = np.linspace(0.0, 1.0, POINTS)
+    flow = valve.conductance * s * root(valve.margin, valve.transition) / LITRE_PER_MINUTE
+    return Chart(valve.name, valve.type, "setting", (Curve(f"margin {valve.margin / BAR:.3g} bar", s, flow),))
+
+
+def _of_orifice(valve: Orifice, density: float) -> Chart | None:
+    size = valve.conductance
+    if valve.diameter is not None:
+        size = valve.discharge_coefficient * 0.25 * math.pi * valve.diameter**2 * math.sqrt(2.0 / density)
+    p = np.linspace(0.0, max(2.0 * (valve.pressure_drop or 0.0), STATED), POINTS)
+    flow = (size * root(p, valve.transition) + valve.leakage * p) / LITRE_PER_MINUTE
+    return Chart(valve.name, valve.type, "p_A - p_B, bar", (Curve("wholly open", p / BAR, flow),))
+
+
+_DRAWN: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]]] = {
+    SpoolValve: _of_spool,
+    DirectionalValve: _of_directional,
+    Section: _of_section,
+    (ReliefValve, CheckValve, SequenceValve, UnloadingValve): _of_pressure,
+    CounterbalanceValve: _of_counterbalance,
+    CartridgeValve: _of_cartridge,
+    CrossPortRelief: _of_cross_port,
+    ReducingValve: _of_reducing,
+    FlowControl: _of_flow_control,
+    Orifice: _of_orifice,
+}
+
+
+def valve_diagram(record: Mapping[str, Any], columns: int = 3) -> str:
+    """SVG of the characteristic curves of all valves of a machine record as JSON; empty without any."""
+    charts = valve_charts(record)
+    if not charts:
+        return ""
+    rows = math.ceil(len(charts) / columns)
+    wide, high = WIDE * min(columns, len(charts)), HIGH * rows
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" class="valves" viewBox="0 0 {wide:g} {high:g}" width="{wide:g}"'
+    body = []
+    for k, chart in enumerate(charts):
+        x, y = WIDE * (k % columns), HIGH * (k // columns)
+        body.append(f'<g transform="translate({x:g} {y:g})">{"".join(_drawn(chart))}</g>')
+    return f'{head} role="img" aria-label="curves of valves"><style>{STYLE}</style>{"".join(body)}</svg>'
+
+
+def _drawn(chart: Chart) -> Iterator[str]:
+    x0, x1 = (float(f(curve.x for curve in chart.curves)) for f in (_least, _most))
+    y1 = 1.08 * float(_most(curve.y for curve in chart.curves)) or 1.0
+    width, height = WIDE - LEFT - RIGHT, HIGH - TOP - BOTTOM
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return LEFT + width * (x - x0) / (x1 - x0), HIGH - BOTTOM - height * y / y1
+
+    yield f'<text class="name" x="{LEFT:g}" y="12">{escape(chart.name)}</text>'
+    yield f'<text class="words" x="{WIDE - RIGHT:g}" y="12" text-anchor="end">{escape(chart.type)}</text>'
+    for value in _marks(0.0, y1):
+        _, y = at(x0, value)
+        yield f'<path class="{"grid" if value else "zero"}" d="M{LEFT:g} {y:.1f} H{WIDE - RIGHT:g}"/>'
+        yield f'<text class="words" x="{LEFT - 4:g}" y="{y + 3:.1f}" text-anchor="end">{value:g}</text>'
+    for value in _marks(x0, x1):
+        x, _ = at(value, 0.0)
+        yield f'<path class="{"grid" if value else "zero"}" d="M{x:.1f} {TOP:g} V{HIGH - BOTTOM:g}"/>'
+        yield f'<text class="words" x="{x:.1f}" y="{HIGH - BOTTOM + 12:g}" text-anchor="middle">{value:g}</text>'
+    place = 0.5 * (LEFT + WIDE - RIGHT)
+    yield f'<text class="words" x="{place:g}" y="{HIGH - 8:g}" text-anchor="middle">{escape(chart.across)}</text>'
+    yield f'<text class="words" x="{LEFT - 30:g}" y="{TOP - 6:g}">L/min</text>'
+    for k, curve in enumerate(chart.curves):
+        colour = COLOURS[k % len(COLOURS)]
+        points = " ".join(
+            "{:.1f},{:.1f}".format(*at(float(a), float(b))) for a, b in zip(curve.x, curve.y, strict=True)
+        )
+        yield f'<path style="stroke:{colour}" d="M{points}"><title>{escape(curve.label)}</title></path>'
+    yield from _legend(chart)
+
+
+def _legend(chart: Chart) -> Iterator[str]:
+    """The first labels, in one line above the plot."""
+    x, short = LEFT, [curve.label.partition(" at ")[0] for curve in chart.curves]
+    whole = len(chart.curves) == 1 or len({*short}) < len(short)
+    for k, curve in enumerate(chart.curves[: 3 if whole else 4]):
+        label = curve.label if whole else short[k]
+        yield f'<text x="{x:.0f}" y="{TOP - 6:g}" style="fill:{COLOURS[k]}">{escape(label)}</text>'
+        x += 5.6 * len(label) + 10.0
+
+
+def _marks(low: float, high: float) -> list[float]:
+    """Round numbers between two."""
+    raw = (high - low) / 4.0
+    size = 10.0 ** math.floor(math.log10(raw))
+    each = next(size * factor for factor in (1.0, 2.0, 5.0, 10.0) if size * factor >= raw)
+    first = math.ceil(low / each - 1e-9)
+    return [round(k * each, 12) for k in range(first, math.floor(high / each + 1e-9) + 1)]
+
+
+def _least(arrays: Iterator[Array]) -> float:
+    return min(float(np.min(each)) for each in arrays)
+
+
+def _most(arrays: Iterator[Array]) -> float:
+    return max(float(np.max(each)) for each in arrays)

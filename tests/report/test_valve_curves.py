@@ -1,0 +1,65 @@
+"""The characteristic curves of valves in the report: each goes through the points of its catalogue and of its closed form."""
+
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+from nivel.looks.circuit.characteristics import valve_charts, valve_diagram
+
+BAR = 1e5
+
+
+def record(at, **component):
+    """A record with one valve, whose ports are all at a tank."""
+    return {"hydraulics": [{"name": "valve", "ports": dict.fromkeys(at, "tank"), **component}]}
+
+
+RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}
+
+
+def only(**component):
+    (chart,) = valve_charts(record(**component))
+    return chart
+
+
+def test_a_spool_valve_goes_through_the_points_of_its_catalogue():
+    edges = {
+        "PA": {"flow": {"of": "position", "points": [0.2, 0.5, 1], "values": [0, "10 L/min", "60 L/min"]}, "pressure_drop": "8 bar"},
+        "AT": {"flow": {"of": "position", "points": [-1, 0], "values": ["30 L/min", 0]}, "pressure_drop": "5 bar"},
+    }  # fmt: skip
+    chart = only(type="spool-valve", at="PTA", edges=edges, command=0)
+    curves = {curve.label: curve for curve in chart.curves}
+    assert np.interp([0.2, 0.5, 1.0], curves["PA at 8 bar"].x, curves["PA at 8 bar"].y) == pytest.approx(
+        [0, 10, 60], abs=0.3
+    )
+    assert np.interp([-1.0, -0.5], curves["AT at 5 bar"].x, curves["AT at 5 bar"].y) == pytest.approx([30, 15])
+
+
+def test_a_directional_valve_has_its_rated_flow_at_its_full_stroke():
+    chart = only(type="directional-valve", ways="4/3", at="PTAB", overlap=0.1, command=0, **RATED)
+    for curve in chart.curves:
+        assert max(curve.y[0], curve.y[-1]) == pytest.approx(40.0)
+        assert np.all(curve.y[np.abs(curve.x) <= 0.1] == 0.0)
+
+
+def test_a_relief_valve_is_shut_to_its_setting_and_open_at_the_end_of_its_range():
+    chart = only(type="relief-valve", at="PT", opens_at="200 bar", opening_range="20 bar", **RATED)
+    (curve,) = chart.curves
+    assert np.all(curve.y[curve.x < 200.0] == 0.0)
+    assert np.interp(220.0, curve.x, curve.y) == pytest.approx(40.0 * np.sqrt(220 / 7), rel=5e-3)
+
+
+def test_a_pilot_opens_a_counterbalance_valve_earlier():
+    chart = only(type="counterbalance-valve", at="LVX", opens_at="180 bar", **RATED)
+    opens = [curve.x[np.argmax(curve.y > 0.0)] for curve in chart.curves]
+    assert opens == pytest.approx([180.0, 126.0, 72.0], abs=3.0)
+
+
+def test_the_diagram_has_a_plot_for_each_valve():
+    two = record(type="relief-valve", at="PT", opens_at="200 bar", opening_range="20 bar", **RATED)["hydraulics"]
+    two += record(type="flow-control", at="PA", **RATED)["hydraulics"]
+    root = ET.fromstring(valve_diagram({"hydraulics": two}))
+    names = [text.text for text in root.iter("{http://www.w3.org/2000/svg}text") if text.get("class") == "name"]
+    assert names == ["valve", "valve"]
+    assert valve_diagram({"hydraulics": []}) == ""

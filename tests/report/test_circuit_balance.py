@@ -38,3 +38,12 @@ def test_components_lose_together_what_the_circuit_loses(file, duration):
     assert sum(each.supplied for each in found) == pytest.approx(supplied, rel=0.03)
     assert {each.type for each in found} >= {"pump", "relief-valve", "cylinder"}
     assert [each.lost for each in found] == sorted((each.lost for each in found), reverse=True)
+
+
+def test_a_piston_takes_its_area_times_its_speed():
+    machine = nivel.load(FOLDER / "cylinder-boom.yaml")
+    result = machine.simulate(duration=1.0)
+    (lift,) = (each for each in component_balances(result, record_of(machine)) if each.type == "cylinder")
+    speed, a, b = (np.ravel(result.array(f"hydraulics.lift.{name}")) for name in ("speed", "pressure_A", "pressure_B"))
+    assert lift.flow == pytest.approx(np.max(np.abs(speed)) * np.pi / 4 * 0.1**2)
+    assert lift.difference == pytest.approx(np.max(np.abs(a - b)))

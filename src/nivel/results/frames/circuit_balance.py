@@ -7,6 +7,7 @@ with the energy that fluid stores as it is compressed, are those of the trust re
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
@@ -14,6 +15,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.hydraulics.nodes import ATMOSPHERE
 from nivel.machine.hydraulics.spool_valve import ends_of
 from nivel.results.scales import Readable
 
@@ -100,8 +102,22 @@ def _of(result: Readable, time: NDArray[np.float64], data: Mapping[str, Any]) ->
         supplied, delivered = np.maximum(power, 0.0), np.maximum(-power, 0.0)
     elif power is not None:
         delivered = power
+        flow, difference = _of_piston(result, data)
     energies = (float(np.trapezoid(each, time)) for each in (supplied, delivered, lost))
     return ComponentBalance(name, kind, flow, difference, *energies)
+
+
+def _of_piston(result: Readable, data: Mapping[str, Any]) -> tuple[float, float]:
+    """The largest flow into the side A of an actuator [m³/s], and the largest difference of pressure of its sides, or of A and the air."""
+    name = str(data["name"])
+    speed = _history(result, f"{START}{name}.speed")
+    sides = {"name": name, "ports": {side: f"{name}.{side}" for side in "AB"} | (data.get("ports") or {})}
+    a, b = (_pressure(result, sides, side) for side in "AB")
+    diameter = data.get("piston") or next(iter(data.get("stages") or ()), 0.0)
+    area = data.get("displacement") or 0.25 * math.pi * float(diameter) ** 2
+    flow = 0.0 if speed is None else float(area) * float(np.max(np.abs(speed)))
+    difference = 0.0 if a is None else float(np.max(np.abs(a - (ATMOSPHERE if b is None else b))))
+    return flow, difference
 
 
 def _edges(result: Readable, data: Mapping[str, Any]) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:

@@ -12,12 +12,15 @@ from typing import TYPE_CHECKING, Any
 from nivel.analysis.progress.listener import Listener
 from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError
+from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile, read_study
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
     import xarray
 
+    from nivel.analysis.optimise.identify import Identified
+    from nivel.analysis.optimise.optimise import Optimum
     from nivel.analysis.sweep.resolution import Resolved
     from nivel.analysis.sweep.variants import Variants
 
@@ -120,6 +123,62 @@ class Study:
         """Write the report of what `sweep` found, a dataset or its file, as one HTML file that needs no network; an existing file is
         replaced."""
         return write_study_report(found, path)
+
+    @checked_arguments
+    def optimise(self, *, threads: int | None = None, listener: Listener | None = None) -> Optimum:
+        """The search that the study calls `optimise`: the parameters with the least output, within the limits of the others.
+
+        Raises ModelError where the study has no such search, outputs do not fit the results, or no start has a result.
+        """
+        search, outputs = self.file.record.optimise, self.file.record.outputs
+        if search is None:
+            said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
+            raise ModelError(self.file.fault((), said))
+        return self.machine.optimise(
+            self._output(search.output),
+            self._bounds,
+            maximise=search.maximise,
+            outputs={name: self._output(name) for name in outputs},
+            limits={name: each.limits for name, each in outputs.items() if each.limits != (None, None)},
+            method=search.method,
+            starts=search.starts,
+            seed=search.seed,
+            iterations=search.iterations,
+            threads=threads,
+            listener=listener,
+        )
+
+    @checked_arguments
+    def identify(self, *, threads: int | None = None, listener: Listener | None = None) -> Identified:
+        """The search that the study calls `identify`: the parameters that explain its measurements.
+
+        Raises ModelError where the study has no such search, or its table does not fit.
+        """
+        search = self.file.record.identify
+        if search is None:
+            said = "the study says nothing of measurements: write `identify: {data: FILE.csv}`"
+            raise ModelError(self.file.fault((), said))
+        return self.machine.identify(
+            beside(self.file.file, search.data),
+            self._bounds,
+            deviations=search.deviations,
+            starts=search.starts,
+            seed=search.seed,
+            iterations=search.iterations,
+            threads=threads,
+            listener=listener,
+        )
+
+    @property
+    def _bounds(self) -> dict[str, tuple[float, float]]:
+        return {path: each.bounds for path, each in self.resolved.parameters.items()}
+
+    def _output(self, name: str) -> Callable[[Any], float]:
+        """An output of the study as a function of a result."""
+        from nivel.analysis.sweep.outputs import outputs_of
+
+        record = {name: self.file.record.outputs[name]}
+        return lambda result: outputs_of(result, record)[name].value
 
     def _journal(self, target: Path, task: Any, variants: Variants, *, resume: bool, force: bool) -> Any:
         """Raises ModelError where there is one already that is neither to be used nor replaced, or the data file exists."""

@@ -34,6 +34,8 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),
     "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
     "sweep": CommandPlace("nivel.cli.sweep", "Compute many variants of a machine: data file, report, summary."),
+    "optimise": CommandPlace("nivel.cli.optimise", "Find the best values of a machine's parameters."),
+    "identify": CommandPlace("nivel.cli.identify", "Find the values of a machine's parameters from measurements."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
     "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
     "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),

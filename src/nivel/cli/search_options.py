@@ -16,7 +16,10 @@ out_option = click.option(
     help="Data file; default: NAME.nc in the working directory.",
 )
 threads_option = click.option(
-    "--threads", type=click.IntRange(1), metavar="NUMBER", help="Runs beside each other; default: one for each processor."
+    "--threads",
+    type=click.IntRange(1),
+    metavar="NUMBER",
+    help="Runs beside each other; default: one for each processor.",
 )
 
 

@@ -45,5 +45,7 @@ class IdentifySearch(Search):
 
     data: str = Field(description="table (CSV, MAT, Parquet) with a column `time` and columns with names of results")
     deviations: Annotated[Mapping[str, float], BeforeValidator(_positive)] = Field(
-        default={}, description="standard deviation of the noise of each signal, in SI units", absent="from what is left"
+        default={},
+        description="standard deviation of the noise of each signal, in SI units",
+        absent="from what is left",
     )

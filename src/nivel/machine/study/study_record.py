@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from math import isfinite
 from typing import Annotated, Any, ClassVar, Final, Literal, get_args
 
 from pydantic import BeforeValidator
@@ -13,9 +14,10 @@ from nivel.machine.given import Field, Maybe
 from nivel.machine.settings.values import Count, Names
 from nivel.machine.study.output import Output
 from nivel.machine.study.parameter import Range, StudyParameter, Values
+from nivel.machine.study.search import IdentifySearch, OptimiseSearch
 from nivel.machine.units.quantity import Duration, Whole, fault
 from nivel.methods import Analysis, Drawn
-from nivel.words.wording import shown
+from nivel.words.wording import shown, unknown_word
 
 Design = Literal["grid", "rows", "random", "latin-hypercube", "sobol", "sobol-indices"]
 ANALYSES: Final = get_args(Analysis)
@@ -67,6 +69,12 @@ class StudyRecord(Checked):
     )
     save: Names = Field(default=(), description="names of results of which the whole history is kept")
     verify: bool = Field(default=False, description="a second run beside each variant, to estimate its error")
+    optimise: Maybe[OptimiseSearch] = Field(
+        default=None, description="the search of `nivel optimise`: for the least output", absent="none"
+    )
+    identify: Maybe[IdentifySearch] = Field(
+        default=None, description="the search of `nivel identify`: for what explains measurements", absent="none"
+    )
     time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
 
     def problems(self) -> Iterator[Problem]:
@@ -81,7 +89,9 @@ class StudyRecord(Checked):
             yield Problem(
                 ("samples",), f"Sobol's sequence needs a power of two, got `{self.samples}`; write `samples: {near}`"
             )
-        if not drawn:
+        if self.optimise is not None or self.identify is not None:
+            yield from self._of_searches()
+        elif not drawn:
             yield from self._without_values()
         if self.analysis not in WITH_HISTORIES and self.save:
             yield Problem(("save",), f"`{self.analysis}` has no histories to keep; take numbers with `outputs`")
@@ -95,6 +105,18 @@ class StudyRecord(Checked):
             )
         if self.verify and self.analysis not in ("run", "statics"):
             yield Problem(("verify",), f"`{self.analysis}` makes no second run; its trust report has other checks")
+
+    def _of_searches(self) -> Iterator[Problem]:
+        """Searches need bounds, and runs."""
+        for path, each in self.parameters.items():
+            if isinstance(each, Values) or not all(isfinite(bound) for bound in each.bounds):
+                message = "a search needs two bounds: write `{type: range, from: …, to: …}`"
+                yield Problem(("parameters", path, "type"), message)
+        if self.analysis != "run":
+            yield Problem(("analysis",), f"searches are made with `run`, not with `{self.analysis}`")
+        if self.optimise is not None and self.optimise.output not in self.outputs:
+            known = list(self.outputs)
+            yield Problem(("optimise", "output"), unknown_word(self.optimise.output, known, "output"))
 
     def _without_values(self) -> Iterator[Problem]:
         counts: dict[str, int] = {}

@@ -2,8 +2,8 @@
 
 python examples/optimisation/counterbalance.py
 
-The boom is lifted and lowered. Pilot ratio and opening pressure are chosen for the least rms acceleration of the load, while the load comes down
-as far as it does with the valve of the file, and the pump's pressure stays below a limit.
+The boom is lifted and lowered. Pilot ratio and opening pressure are chosen for the least rms acceleration of the load, while the load comes
+down as far as it does with the valve of the file, and the pump's pressure stays below a limit.
 """
 
 from pathlib import Path

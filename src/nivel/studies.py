@@ -14,6 +14,7 @@ from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError
 from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile, read_study
+from nivel.machine.study.parameter import Between
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
@@ -171,7 +172,7 @@ class Study:
 
     @property
     def _bounds(self) -> dict[str, tuple[float, float]]:
-        return {path: each.bounds for path, each in self.resolved.parameters.items()}
+        return {path: each.bounds for path, each in self.resolved.parameters.items() if isinstance(each, Between)}
 
     def _output(self, name: str) -> Callable[[Any], float]:
         """An output of the study as a function of a result."""

@@ -69,10 +69,10 @@ class StudyRecord(Checked):
     )
     save: Names = Field(default=(), description="names of results of which the whole history is kept")
     verify: bool = Field(default=False, description="a second run beside each variant, to estimate its error")
-    optimise: Maybe[OptimiseSearch] = Field(
+    optimise: OptimiseSearch | None = Field(
         default=None, description="the search of `nivel optimise`: for the least output", absent="none"
     )
-    identify: Maybe[IdentifySearch] = Field(
+    identify: IdentifySearch | None = Field(
         default=None, description="the search of `nivel identify`: for what explains measurements", absent="none"
     )
     time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")

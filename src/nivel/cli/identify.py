@@ -37,8 +37,8 @@ def command(
 ) -> None:
     """Find the values of the parameters of STUDY with which the machine moves as it was measured, by least squares.
 
-    The study names the measurements with `identify: {data: FILE.csv}`. The data file has every variant that was computed, and the covariance of
-    what was found.
+    The study names the measurements with `identify: {data: FILE.csv}`. The data file has every variant that was computed, and the
+    covariance of what was found.
 
     Exit codes: 0 all parameters were found, 2 fault in the input, 3 the measurements do not tell some of them apart.
     """

@@ -204,6 +204,7 @@ class Machine(Model):
         force: bool = False,
         verify: bool = True,
         verify_limit: float | str | None = None,
+        sensitivities: Sequence[str] | str = (),
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
     ) -> Result:
@@ -213,7 +214,8 @@ class Machine(Model):
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
         beside this one, with finer steps on other times, tells how exact every number is, as with `nivel run`; without it the result says
         that it is not verified. verify_limit [s] : the second run goes on for so long after the first at most, by default as long again
-        as that took, and at least 10 s.
+        as that took, and at least 10 s. sensitivities : numbers of the machine by path, as of `gradient`; the result then has curves
+        ``"d(crank.angle)/d(bodies.rod.mass)"`` of everything, and its file is written when they are found.
         A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
@@ -226,17 +228,29 @@ class Machine(Model):
         # what follows takes longer to import
         from nivel.analysis.run.simulate import simulate
 
+        paths = (sensitivities,) if isinstance(sensitivities, str) else sensitivities
         with chosen._faults_in_file():
-            return simulate(
+            if paths:
+                from nivel.analysis.gradients.sensitivities import check_parameters
+
+                check_parameters(chosen, plan, paths)
+            result = simulate(
                 plan,
                 source=self.origin.source,
-                out=out,
+                out=None if paths else out,
                 force=force,
                 verify=verify,
                 verify_limit=limit,
                 listener=listener,
                 compile_seconds=compile_seconds,
             )
+            if not paths:
+                return result
+            from nivel.analysis.gradients.sensitivities import with_sensitivities
+
+            source = self.origin.source
+            whole = with_sensitivities(chosen, plan, result, paths, source=source, checked=verify, listener=listener)
+        return whole if out is None else open_result(whole.save(out, force=force))
 
     @checked_arguments
     def export_mjcf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
@@ -366,6 +380,45 @@ class Machine(Model):
         listener: Listener | None = None,
         **settings: Unpack[StepSettingsDict],
     ) -> Simulations: ...
+
+    @checked_arguments
+    def gradient(
+        self,
+        outputs: Sequence[str] | str,
+        parameters: Sequence[str] | str,
+        *,
+        check: bool = True,
+        listener: Listener | None = None,
+        **settings: Unpack[RunSettingsDict],
+    ) -> xarray.Dataset:
+        """Derivatives of what a run computes with respect to numbers of the machine, exact to round-off.
+
+        outputs : names of the result, at the end of the run, ``"crank.angle"``; or ``"crank.angle at 0.5 s"``, ``"max(crank.angle)"``,
+        `min`, `rms`, `mean`, `integral`; ``"time(lift)"``, when an event came. parameters : paths of numbers, as of `sweep`,
+        ``"bodies.rod.mass"``. check : compare a direction of all parameters with differences of four runs; settings : as of `simulate`.
+
+        The dataset has the outputs, and their slopes as ``"d(crank.angle)/d(bodies.rod.mass)"``, with `units`, `estimated_error` and
+        `verdict`: green, amber where the differences do not confirm a slope, red where they contradict it. Its attributes have the worst
+        verdict and its `headline`. The compiled code runs on dual numbers, seven parameters at a time; that is compiled on first use.
+        Raises ModelError where names, paths or methods have no gradients, SolveError where a run fails.
+        """
+        given = _given(settings)
+        chosen = self.with_settings(given)
+        plan = chosen._plan({*given, *self.origin.settings_outside})
+        build(_entries_of(plan, chosen.record), listener)
+        # what follows takes longer to import
+        from nivel.analysis.gradients.gradient import gradient
+
+        with chosen._faults_in_file():
+            return gradient(
+                chosen,
+                plan,
+                (outputs,) if isinstance(outputs, str) else outputs,
+                (parameters,) if isinstance(parameters, str) else parameters,
+                checked=check,
+                source=self.origin.source,
+                listener=listener,
+            )
 
     @checked_arguments
     def start(

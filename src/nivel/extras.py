@@ -25,6 +25,7 @@ LIBRARIES: Final = {
     "gymnasium": Library("gymnasium", "gym"),
     "distributed": Library("Dask", "studies"),
     "gmsh": Library("gmsh", "flex"),
+    "jax": Library("jax", "jax"),
     "imageio_ffmpeg": Library("ffmpeg", "film"),
     "matplotlib": Library("matplotlib", "plot"),
     "mcap.reader": Library("mcap", "measured"),
@@ -37,6 +38,7 @@ LIBRARIES: Final = {
     "pyarrow.parquet": Library("pyarrow", "measured"),
     "PIL": Library("pillow", "film"),
     "skfem": Library("scikit-fem", "flex"),
+    "torch": Library("torch", "torch"),
     "websockets": Library("websockets", ""),
 }
 

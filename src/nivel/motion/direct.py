@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CLOSED, OK
 from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.saddle import CONTRADICTORY, PIVOTED, RANK, correction, exceeds
@@ -16,6 +17,8 @@ MAX_CORRECTIONS, MOST_CORRECTIONS = 3, 20
 VISIBLE = 1e-6
 # Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
 NEAR = 1e7
+# Slopes of what is closed, as a share of the scales of the rows.
+STEEP = 1e-9
 # what is changed
 NOTHING, VELOCITIES, POSITIONS, LOST = 0, 1, 2, 3
 
@@ -43,14 +46,27 @@ def are_open(machine, limit):
 
 
 @stage
+def are_steep(saddle, violation, scale):
+    """Whether any row of the saddle is violated by slopes. Of redundant rows those that are left out say nothing."""
+    for k in range(saddle.row.shape[0]):
+        row = saddle.row[k]
+        if saddle.dense.shape[0] == 0 and steepest(violation[row]) > STEEP * real(scale[row]):
+            return True
+    return False
+
+
+@stage
 def open_level(machine, attempt):
     """What pass `attempt` has to change in the state last read.
 
     A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone. LOST where positions are far open
-    after all passes: of those that are less open the loop asks whether the machine jams.
+    after all passes: of those that are less open the loop asks whether the machine jams. Where numbers have slopes, these are put right
+    too: a level that is closed may move with what it depends on.
     """
     record = record_at(machine)
     saddle, constraints, tolerance = record.saddle, record.constraints, record.control.stabilise
+    if is_whole(machine) and attempt < MOST_CORRECTIONS and are_steep(saddle, constraints.C, constraints.scale):
+        return POSITIONS
     if exceeds(saddle, constraints.C, constraints.scale, tolerance[2]):
         if attempt < MAX_CORRECTIONS:
             return POSITIONS
@@ -59,6 +75,8 @@ def open_level(machine, attempt):
                 return POSITIONS
             if are_open(machine, CONTRADICTORY):
                 return LOST
+    if is_whole(machine) and are_steep(saddle, constraints.Cdot, constraints.scale):
+        return VELOCITIES
     return VELOCITIES if exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]) else NOTHING
 
 

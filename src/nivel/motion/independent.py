@@ -15,11 +15,13 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import rates_of_parameters
 from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import OK, SINGULAR
 from nivel.kernels.record.hook import apply_forces, finish_forces
 from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.solve.embedding import embed, generalised_forces
 from nivel.kernels.solve.partition import divide, solve_dependent, solve_multipliers
+from nivel.motion.direct import STEEP
 from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
 from nivel.motion.newton_euler import normalise, read_state, write_rate
 from nivel.native.entry import entry
@@ -97,6 +99,17 @@ def widest(machine):
 
 
 @leaf
+def is_steep(machine):
+    """Whether one of the rows that determine the dependent positions is violated by slopes."""
+    record = record_at(machine)
+    constraints, row = record.constraints, record.partition.row
+    steep = False
+    for k in range(record.control.rank[0]):
+        steep = steep or steepest(constraints.C[row[k]]) > STEEP * real(constraints.scale[row[k]])
+    return steep
+
+
+@leaf
 def move_dependent(machine, y):
     """Positions: subtract D from the dependent ones, as tangent increments."""
     record = record_at(machine)
@@ -128,6 +141,8 @@ def close(machine, y, attempt, factorised, before):
         return OK, True, False, share  # the next evaluation finds out
     # below LOST a pass that does not halve the violation is stopped by round-off
     closed = not share > CLOSED or (share <= LOST and share > 0.5 * before)
+    # what is closed may move with what it depends on
+    closed = closed and not (is_whole(machine) and attempt < MOST_PASSES and is_steep(machine))
     if not closed and attempt == MOST_PASSES:
         record.control.failure[0] = worst
         return SINGULAR, True, False, share

@@ -34,6 +34,11 @@ class Entry:
         return address_of(self)
 
     @cached_property
+    def whole(self) -> Entry:
+        """The same code for records of which all numbers are dual, for gradients of runs."""
+        return Entry(self.py_func, self.signature.wholly_on_duals, f"{self.name}.whole")
+
+    @cached_property
     def compiled(self) -> Any:
         """Numba's function, for entries that have this one within them."""
         from nivel.native.with_numba.functions import compiled

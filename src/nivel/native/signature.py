@@ -2,6 +2,7 @@
 
 machine   the address of a record              uint64_t
 twin      the same, its work dual numbers      uint64_t
+whole     the same, all its numbers dual       uint64_t
 entry     the address of another entry         uint64_t
 number    a real number                        double
 dual      a dual number, see `nivel.native.duals`   double *
@@ -16,6 +17,7 @@ nothing   0, for Python nothing                int64_t
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -25,6 +27,7 @@ from nivel.native.duals import DUAL
 IN_C: dict[str, tuple[Any, ...]] = {
     "machine": (ctypes.c_uint64,),
     "twin": (ctypes.c_uint64,),
+    "whole": (ctypes.c_uint64,),
     "entry": (ctypes.c_uint64,),
     "number": (ctypes.c_double,),
     "dual": (ctypes.c_void_p,),
@@ -36,6 +39,7 @@ IN_C: dict[str, tuple[Any, ...]] = {
 ROWS: Final = {"vector": np.dtype(np.float64), "duals": DUAL}
 # what stands for real numbers where the same code runs on dual ones
 ON_DUALS: Final = {"machine": "twin", "number": "dual", "vector": "duals"}
+WHOLLY_ON_DUALS: Final = {**ON_DUALS, "machine": "whole"}
 RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": ctypes.c_int64}
 # status of an entry in which something was raised, which kernels must not do; a number is then none
 BROKEN = -1
@@ -53,7 +57,15 @@ class Signature(NamedTuple):
     @property
     def on_duals(self) -> Signature:
         """That of the same code on dual numbers."""
-        result, *arguments = (ON_DUALS.get(kind, kind) for kind in (self.result, *self.arguments))
+        return self._with(ON_DUALS)
+
+    @property
+    def wholly_on_duals(self) -> Signature:
+        """The same for records of which all numbers are dual."""
+        return self._with(WHOLLY_ON_DUALS)
+
+    def _with(self, kinds: Mapping[str, str]) -> Signature:
+        result, *arguments = (kinds.get(kind, kind) for kind in (self.result, *self.arguments))
         return Signature(result, tuple(arguments))
 
     def function_at(self, address: int) -> Any:

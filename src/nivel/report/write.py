@@ -28,6 +28,8 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
+from nivel.report.tornado import headline as slopes_headline
+from nivel.report.tornado import tornados
 from nivel.results.frames.circuit_balance import component_balances
 from nivel.results.frames.pressures import pressures_at
 from nivel.results.frames.stored import understood
@@ -89,6 +91,8 @@ def report_html(result: Result) -> str:
         motion_left_out=motion_left_out,
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
+        tornados=tornados(result),
+        slopes_headline=slopes_headline(result),
         diagram=control_diagram(record),
         balance=component_balances(result, record),
         valves=valve_diagram(record) if record.get("hydraulics") else "",

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError, SolveError
 from nivel.files.target import check_target, status
 from nivel.integrate.loop.sink import Header
-from nivel.results.frames.contents import resolved, shape_of
+from nivel.results.frames.contents import name_in_file, resolved, shape_of
 from nivel.results.frames.space import Space
 from nivel.results.frames.stored import StoredContents, opened
 from nivel.system.layout import Variable
@@ -81,7 +81,7 @@ class Store:
             self._file, self._space = None, None
             raise ModelError(f"the result file {self.path} cannot be created: {_reason(error)}") from error
         _write_header(self._file, self._variables, coordinates, header.attributes, 0, _running_chunks)
-        everything = [self._file["time"], *(self._file[variable.name] for variable, _ in self._variables)]
+        everything = [self._file["time"], *(self._file[name_in_file(variable.name)] for variable, _ in self._variables)]
         self._chunks = sum(8 * prod(dataset.chunks) + INDEX for dataset in everything)
         self._file.swmr_mode = True
         self._file.flush()
@@ -96,7 +96,7 @@ class Store:
         except OSError as error:
             raise self._given_up(_reason(error)) from error
         for variable, shape in self._variables:
-            _append(self._file[variable.name], frames[:, variable.columns].reshape(len(frames), *shape))
+            _append(self._file[name_in_file(variable.name)], frames[:, variable.columns].reshape(len(frames), *shape))
         self._file.flush()
         _append(self._file["time"], frames[:, 0])
         self._file.flush()
@@ -224,7 +224,7 @@ def _write_final(source_path: Path, path: Path, attributes: Attributes) -> None:
             space.ensure(_header_size(both))
             _write_header(new, variables, source.coordinates, both, count, _final_chunks)
             for name in ("time", *source.variables):
-                _copy(old[name], new[name], count, space)
+                _copy(old[name_in_file(name)], new[name_in_file(name)], count, space)
         finally:
             new.flush()
             space.close()
@@ -251,7 +251,12 @@ def _write_header(
         scale.make_scale(dim)
     for variable, shape in variables:
         dataset = file.create_dataset(
-            variable.name, (count, *shape), "f8", maxshape=(None, *shape), fillvalue=np.nan, **layout(shape, count)
+            name_in_file(variable.name),
+            (count, *shape),
+            "f8",
+            maxshape=(None, *shape),
+            fillvalue=np.nan,
+            **layout(shape, count),
         )
         dataset.attrs.update({"units": variable.units, "long_name": variable.long_name})
         for axis, dim in enumerate(variable.dims):

@@ -117,7 +117,8 @@ def _bar() -> Iterator[Listener]:
 def in_words(name: str) -> str:
     """What an entry is, for people: the end of its module's name."""
     module, _, path = name.partition(":")
-    return module.rpartition(".")[2].replace("_", " ") + (", exact derivatives" if path.endswith(".twin") else "")
+    of_duals = {"twin": ", exact derivatives", "whole": ", gradients"}.get(path.rpartition(".")[2], "")
+    return module.rpartition(".")[2].replace("_", " ") + of_duals
 
 
 def assembly_entries(machine: MachineRecord) -> list[Entry]:

@@ -24,6 +24,8 @@ from nivel.integrate.loop.run import (
     WHEN,
     run_at,
 )
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import EVENT_NOT_FINITE, OK
 from nivel.kernels.record.hook import call_correct, call_evaluate, call_hook
 from nivel.kernels.record.record import BOTH, DIRECTION, RISING, STOP, WATCH, record_at
@@ -36,6 +38,8 @@ SHARE, ROUND_OFF = 1e-12, 2.220446049250313e-16
 NEVER = 2.0
 # The value at an end of a bracket of which the side alone is known.
 UNKNOWN = 1e-300
+# States beside a root, from which the rate of its value is found, are away from it by this share of the step.
+ASIDE = 1e-4
 # A bracket that so many regula falsi steps do not halve is bisected.
 PATIENCE = 4
 
@@ -142,7 +146,23 @@ def locate_between(evaluate, correct, machine, history, k, side, low, below, hig
         last, slow = now, slow + 1
         if high - low < 0.5 * width:
             slow, width = 0, high - low
-    return OK, high
+    return root(evaluate, correct, machine, history, k, high) if is_whole(machine) else (OK, high)
+
+
+@leaf
+def root(evaluate, correct, machine, history, k, theta):
+    """(status, θ) with the slopes of the root of value k, which is at the share θ of the step: θ - g/ġ for the value g there, of which
+    slopes are left alone, and its rate ġ in a step by the states beside it."""
+    theta = real(theta)
+    aside = min(ASIDE, max(theta, ASIDE * ASIDE), 1.0)
+    status, before = value_at(evaluate, correct, machine, history, k, theta - aside)
+    if status == OK:
+        status, after = value_at(evaluate, correct, machine, history, k, theta + aside)
+        rate = 0.5 * (real(after) - real(before)) / aside
+    if status == OK:
+        status, value = value_at(evaluate, correct, machine, history, k, theta)
+        theta = theta - (value - real(value)) / rate
+    return status, 0.0 * value + theta
 
 
 @leaf

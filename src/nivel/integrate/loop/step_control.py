@@ -28,6 +28,7 @@ from nivel.integrate.loop.run import (
     TOLERANCE,
     run_at,
 )
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NOT_FINITE, OK, STEP_TOO_SMALL
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
@@ -163,10 +164,11 @@ def enter_boldly(machine, history, order, tolerance):
 def reach(run):
     """clock[REACHED] for a step of about clock[STEP]; returns the step, or 0 where it is lost in the round-off of the time.
 
-    The last step before clock[BOUND] ends there exactly; the last but one leaves it half of what is left, instead of a crumb.
+    The last step before clock[BOUND] ends there exactly; the last but one leaves it half of what is left, instead of a crumb. Slopes of
+    runs are those of the steps that there are: how these would be chosen otherwise is no part of them.
     """
     clock = run.clock
-    t, h, left = clock[TIME], clock[STEP], clock[BOUND] - clock[TIME]
+    t, h, left = clock[TIME], real(clock[STEP]), clock[BOUND] - clock[TIME]
     if not h > SMALLEST * ROUND_OFF * max(np.abs(t), clock[END] - clock[START]):
         return 0.0
     if h * STRETCH >= left:

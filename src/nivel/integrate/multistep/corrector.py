@@ -2,7 +2,8 @@
 (`nivel.integrate.multistep.newton`).
 
 Either starts from the prediction in run.y and ends when no entry of y changes by more than clock[CORRECTOR_TOLERANCE] of its largest
-value so far (or of the scale of such entries, where that is larger), after at most counter[MOST_ITERATIONS] evaluations.
+value so far (or of the scale of such entries, where that is larger), after at most counter[MOST_ITERATIONS] evaluations. Slopes, where
+there are any, count as values.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import numpy as np
 from nivel.integrate.loop.run import CORRECTOR_TOLERANCE, EVALUATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, run_at
 from nivel.integrate.loop.workspace import KNOWN, RATE, larger
 from nivel.integrate.multistep.newton import newton
+from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.native.function import leaf
@@ -47,6 +49,8 @@ def functional(evaluate, machine, history, t, share):
         for i in range(y.shape[0]):
             value = known[i] + share * rate[i]
             change = larger(change, value - y[i], max(run.scale[i], np.abs(value)))
+            if is_whole(machine):
+                change = larger(change, steepest(value - y[i]), max(run.scale[i], np.abs(value)))
             y[i] = value
         if change <= run.clock[CORRECTOR_TOLERANCE]:
             return OK

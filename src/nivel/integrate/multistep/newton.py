@@ -13,6 +13,7 @@ import numpy as np
 from nivel.integrate.loop.run import CORRECTOR_TOLERANCE, EVALUATIONS, ITERATIONS, MOST_ITERATIONS, run_at
 from nivel.integrate.loop.workspace import KNOWN, PREDICTED, RATE, SHARE, larger
 from nivel.kernels.algebra.lu import factorise_lu, solve_lu
+from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.native.function import leaf
@@ -73,6 +74,8 @@ def newton(evaluate, machine, history, t, share):
         for i in range(n):
             y[i] += rate[i]
             change = larger(change, rate[i], max(run.scale[i], np.abs(y[i])))
+            if is_whole(machine):
+                change = larger(change, steepest(rate[i]), max(run.scale[i], np.abs(y[i])))
         if change <= run.clock[CORRECTOR_TOLERANCE]:
             return OK
         if not change <= SLOW * last:

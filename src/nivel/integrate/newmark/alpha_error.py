@@ -32,6 +32,7 @@ from nivel.integrate.newmark.alpha_step import (
     XDOT,
 )
 from nivel.integrate.newmark.residual_newton import apply_turns
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family
@@ -63,7 +64,7 @@ def keep_slow(machine, t, x):
     b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
     twin, moving = load_twin(newton, here)
     for k in range(n):
-        moving.vdot[k] += unit(0, x[k])
+        moving.vdot[k] += unit(0, real(x[k]))
     status = call_family(newton.address[1], twin, 0, t)
     if status != OK:
         return status

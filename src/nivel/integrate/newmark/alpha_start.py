@@ -29,6 +29,7 @@ from nivel.integrate.newmark.alpha_step import (
     A,
     W,
 )
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate, call_family
@@ -71,7 +72,7 @@ def keep_fast(machine, t, cq, cv, cx, x):
     b, n, states = newton.b, here.vdot.shape[0], newton.state.shape[0]
     twin, moving = load_twin(newton, here)
     for k in range(n + states):
-        move_unknown(newton, moving, k, unit(0, x[k]), cq, cv, cx)
+        move_unknown(newton, moving, k, unit(0, real(x[k])), cq, cv, cx)
     for k in range(n):
         moving.vdot[k] = here.vdot[k]
     status = call_family(newton.address[1], twin, 0, t)

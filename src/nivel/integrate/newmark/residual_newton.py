@@ -38,6 +38,8 @@ from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, ru
 from nivel.integrate.loop.step_control import ROUND_OFF
 from nivel.integrate.newmark.friction_turns import begin_turns, follow_turns, keep_made, next_seed, release
 from nivel.integrate.newmark.newton_state import find_state
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import RESIDUAL, record_at
@@ -62,6 +64,8 @@ STALLED, GOOD = 0.5, 0.1
 FAR = 1e-4
 # A change of the effort of a friction counts as this share of it.
 CLOSE = 1e-4
+# Slopes change no more where they change by less than this share of the scales; passes for that at most.
+SETTLED, MOST_SETTLING = 1e-9, 10
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
 SAMPLES, SAFETY = 8, 4.0
 
@@ -277,6 +281,43 @@ def is_worth_a_new_one(newton, contraction, size, tolerance):
 
 
 @leaf
+def steepness_of_change(machine, scale, cq, cv, cx):
+    """Largest slope of a change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale."""
+    newton = record_at(machine).newton
+    b, moved = newton.b, newton.moved
+    n, states = moved.shape[0], newton.state.shape[0]
+    positions = scale.shape[0] - n - states - 2
+    largest = 0.0
+    for k in range(n):
+        of_position = steepest(cq * b[k] + moved[k]) / real(scale[newton.place[k, 0]])
+        largest = max(largest, of_position, steepest(cv * b[k]) / real(scale[positions + k]))
+    for k in range(n, n + states):
+        largest = max(largest, steepest(cx * b[k]) / real(scale[positions + k]))
+    return largest
+
+
+@leaf
+def settle_slopes(machine, run, t, cq, cv, cx):
+    """Slopes of the unknowns, whose values are found: changes with the matrix there, until they change no more (implicit function theorem).
+    `residual.y` is the state then. Returns a status."""
+    record = record_at(machine)
+    newton = record.newton
+    for attempt in range(MOST_SETTLING):
+        status = find_state(machine, t, cq, cv, cx)
+        if status == OK:
+            status = call_hook(machine, RESIDUAL, 0, t)
+        if status == OK and attempt == 0:
+            status = renew(machine, t, cq, cv, cx)
+        if status != OK:
+            return status
+        find_change(machine, cq, cv)
+        take_change(newton, record.residual, newton.b, newton.moved, 1.0)
+        if steepness_of_change(machine, run.scale, cq, cv, cx) <= SETTLED:
+            break
+    return find_state(machine, t, cq, cv, cx)
+
+
+@leaf
 def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
 
@@ -339,7 +380,9 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
             if contraction > STALLED and (best <= GOOD or not inherited):
                 done = size <= newton.settings[TOLERANCE] or is_round_off(machine, run.scale, cq, cv, cx, tolerance)
         if done:
-            return find_state(machine, t, cq, cv, cx)
+            return (
+                settle_slopes(machine, run, t, cq, cv, cx) if is_whole(machine) else find_state(machine, t, cq, cv, cx)
+            )
         stale = full
         if last < np.inf:
             newton.kept[CONTRACTION] = max(contraction, 0.1 * SANGUINE)

@@ -14,6 +14,8 @@ import numpy as np
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
 from nivel.integrate.loop.step_control import size
 from nivel.integrate.variable_order.variable_workspace import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.native.function import leaf
@@ -22,6 +24,8 @@ from nivel.native.function import leaf
 MOST = 4
 # The iteration ends where what is left of it is this share of what a step may be wrong by.
 CLOSE = 0.1
+# Slopes change no more where they change by less than this share of the scales; passes for that at most.
+SETTLED, MOST_SETTLING = 1e-10, 30
 # A contraction is forgotten at this rate; an iteration whose change grows by DIVERGES has failed.
 FORGET, DIVERGES = 0.3, 2.0
 # Newton's matrix is found again where h/c_1 has changed by more than this share.
@@ -30,6 +34,29 @@ SAME = 0.3
 
 def corrector(find_matrix, solve_matrix):
     """The functions `correct` and `damp` with Newton's matrix from these."""
+
+    @leaf
+    def settle_slopes(evaluate, machine, history, h):
+        """Slopes of the correction found, by further changes, until they change no more. Returns a status."""
+        run = run_at(history)
+        e, predicted, slope = run.stages[CORRECTION], run.stages[PREDICTED], run.stages[PREDICTED + 1]
+        rate, change, leading = run.stages[RATE], run.stages[CHANGE], run.numbers[C + 1]
+        for _ in range(MOST_SETTLING):
+            status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, rate)
+            for i in range(e.shape[0]):
+                change[i] = (h * rate[i] - slope[i]) / leading - e[i]
+            if status == OK and run.counter[NEWTON] == 1:
+                status = solve_matrix(machine, history, change)
+            if status != OK:
+                return status
+            largest = 0.0
+            for i in range(e.shape[0]):
+                e[i] += change[i]
+                run.trial[i] = predicted[i] + e[i]
+                largest = max(largest, steepest(change[i]) / real(run.scale[i]))
+            if largest <= SETTLED:
+                break
+        return OK
 
     @leaf
     def iterate(evaluate, machine, history, h, tolerance):
@@ -63,7 +90,7 @@ def corrector(find_matrix, solve_matrix):
             if m > 0:
                 run.numbers[CONTRACTION] = max(FORGET * run.numbers[CONTRACTION], now / before)
             if now * min(1.0, run.numbers[CONTRACTION]) <= CLOSE * tolerance:
-                return OK
+                return settle_slopes(evaluate, machine, history, h) if is_whole(machine) else OK
             if not now < np.inf or (m > 0 and now > DIVERGES * before):
                 break
             before = now

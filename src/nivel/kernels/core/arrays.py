@@ -37,6 +37,24 @@ def dual_twin(record: Any) -> Any:
     return type(record)(*twins)
 
 
+def whole_twin(record: Any) -> Any:
+    """The record with dual numbers for all its numbers, without slopes yet; what are the same arrays in it, are the same in the twin."""
+    return _whole(record, {})
+
+
+def _whole(record: Any, known: dict[tuple[Any, ...], Any]) -> Any:
+    fields = []
+    for kind, value in zip(_kinds(type(record)), record, strict=True):
+        if kind == "record":
+            fields.append(_whole(value, known))
+        elif kind in ("real", "work"):
+            place = (value.ctypes.data, value.shape) if value.size else (id(value),)
+            fields.append(known.setdefault(place, duals(value)))
+        else:
+            fields.append(known.setdefault((id(value),), value.copy()))
+    return type(record)(*fields)
+
+
 def lanes_of(twin: Any) -> Any:
     """A twin with its dual numbers as lanes (…, 1 + LANES) of the same memory, for Python."""
     fields = (_LANES[kind](value) for kind, value in zip(_kinds(type(twin)), twin, strict=True))

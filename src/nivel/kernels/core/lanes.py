@@ -1,13 +1,15 @@
 """Slopes of dual numbers, for kernels that seed and read them.
 
-unit(k, size) is the dual number 0 with this slope along direction k, slope(x, k) the slope of x along it.
+unit(k, size) is the dual number 0 with this slope along direction k, slope(x, k) the slope of x along it. is_whole(machine): whether all
+numbers of the record at this address are dual, for gradients of runs; where it is false nothing is compiled of what it asks about.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from nivel.native.function import Intrinsic
+from nivel.native.duals import LANES
+from nivel.native.function import Intrinsic, leaf
 
 
 def _unit() -> Any:
@@ -22,4 +24,21 @@ def _slope() -> Any:
     return slope
 
 
-unit, slope = Intrinsic(_unit), Intrinsic(_slope)
+def _is_whole() -> Any:
+    from nivel.native.with_numba.views import is_whole
+
+    return is_whole
+
+
+unit, slope, is_whole = Intrinsic(_unit), Intrinsic(_slope), Intrinsic(_is_whole)
+
+
+@leaf
+def steepest(x):
+    """The largest slope of x, whatever its sign and direction."""
+    largest = 0.0
+    for k in range(LANES):
+        size = abs(slope(x, k))
+        if not size <= largest:
+            largest = size
+    return largest

@@ -21,6 +21,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, maximum, real, tanh
 from nivel.kernels.bodies.patch_coordinate import KEPT, PROPOSED, RESTING, RESTS
+from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
 from nivel.kernels.elements.patch import OVER, limited, size_of
 from nivel.kernels.elements.touch import DRAG, GIVEN, HELD, LOST, MAGNITUDE, POWER, RUB, SLIP
@@ -57,6 +58,8 @@ HOLDS, SLID, CANNOT = 0.0, 1.0, 2.0
 
 # Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
 SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
+# Newton steps for the slopes: each leaves a millionth of what they are wrong by.
+SETTLING = 2
 TOLERANCE, ENOUGH = 1e-12, 1e-7
 # What would hold a coordinate and is more than static friction by this share of it is not round-off.
 MORE = 1e-6
@@ -475,8 +478,9 @@ def eliminate(J, r, d):
 
 
 @stage
-def newton(machine, anchor, scale):
-    """One Newton step for effort(F) = F, with differences (λ is linear in F, loads are norms), halved while it does not help."""
+def find_change(machine, anchor, scale):
+    """The change of all efforts by a Newton step for effort(F) = F, with differences (λ is linear in F, loads are norms), into `work`;
+    returns the largest defect before it."""
     record = record_at(machine)
     friction = record.friction
     n = friction.columns.shape[0]
@@ -491,6 +495,28 @@ def newton(machine, anchor, scale):
         for k in range(n):
             J[k, j] = (ahead[k] - r[k]) / delta
     eliminate(J, r, d)
+    return before
+
+
+@stage
+def settle_slopes(machine, scale):
+    """Slopes of efforts whose values agree with what they cause: Newton steps, whatever they do to the values' round-off."""
+    friction = record_at(machine).friction
+    for _ in range(SETTLING):
+        find_change(machine, 0.0, scale)
+        for k in range(friction.columns.shape[0]):
+            friction.force[k] += friction.work[CHANGE, k]
+    superpose(machine)
+
+
+@stage
+def newton(machine, anchor, scale):
+    """One Newton step for effort(F) = F, halved while it does not help."""
+    record = record_at(machine)
+    friction = record.friction
+    n = friction.columns.shape[0]
+    ahead, d = friction.work[AHEAD], friction.work[CHANGE]
+    before = find_change(machine, anchor, scale)
     share = 1.0
     for _ in range(6):
         for k in range(n):
@@ -513,6 +539,8 @@ def iterate(machine):
         anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
         largest, worst, scale = residual(machine, anchor, record.friction.work[DEFECT])
         if largest <= TOLERANCE * scale:
+            if is_whole(machine):
+                settle_slopes(machine, scale)
             break
         if iteration < SWEEPS:
             sweep(machine, anchor)

@@ -74,9 +74,9 @@ def apply(machine, number, t):
         backward = real(circuit.pressure[b]) > real(circuit.pressure[a])
         up, down = (b, a) if backward else (a, b)
         reduced = reduced_flow(n, circuit.pressure[up], circuit.pressure[down], circuit.secant[0])
-        flow = real(n[SONIC]) * opening_of(machine, index, n, t) * f[REFERENCE] * reduced
+        flow = n[SONIC] * opening_of(machine, index, n, t) * f[REFERENCE] * reduced
         flow = flow / np.sqrt(circuit.temperature[up])
-        flow += real(n[LEAK]) * circuit.density[up] * (circuit.pressure[up] - circuit.pressure[down])
+        flow += n[LEAK] * circuit.density[up] * (circuit.pressure[up] - circuit.pressure[down])
         if backward:
             flow = -flow
         lose(machine, transfer(machine, a, b, flow) - carry_heat(machine, a, b, flow))

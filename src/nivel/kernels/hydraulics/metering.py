@@ -86,7 +86,7 @@ def apply(machine, number, t):
             rise = by_difference(functions, index, n, real(u), real(difference))
             way = rise if real(difference) >= 0.0 else -rise
             conductance = conductance + way * (difference - real(difference))
-        flow = conductance * root_flow(difference, n[CORNER], secant) + real(n[LEAK]) * difference
+        flow = conductance * root_flow(difference, n[CORNER], secant) + n[LEAK] * difference
         lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
         record.outputs.value[index[OUTPUT]] = flow
     return OK

@@ -49,7 +49,7 @@ def swept(n, s):
             continue
         beyond = s - n[FIRST_STAGE + 2 * k + 1]
         volume += change * ramp(beyond, n[WIDTH])
-        area += change * step(beyond * (1.0 / real(n[WIDTH])))
+        area += change * step(beyond * (1.0 / n[WIDTH]))
     return volume, area
 
 

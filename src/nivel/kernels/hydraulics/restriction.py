@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_flow_by_column, add_flow_by_pressure
@@ -64,7 +63,7 @@ def apply(machine, number, t):
         a, b = index[FROM], index[TO]
         difference = circuit.pressure[a] - circuit.pressure[b]
         opening = opening_of(machine, index, n, t)
-        flow = real(n[FLOW]) * opening * root_flow(difference, n[CORNER], secant) + real(n[LEAK]) * difference
+        flow = n[FLOW] * opening * root_flow(difference, n[CORNER], secant) + n[LEAK] * difference
         lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
         record.outputs.value[index[OUTPUT]] = flow
     return OK

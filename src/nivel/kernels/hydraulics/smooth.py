@@ -15,7 +15,7 @@ def ramp(z, width):
         return 0.0 * z
     if real(z) >= real(width):
         return z - 0.5 * width
-    t = z * (1.0 / real(width))
+    t = z * (1.0 / width)
     return width * t * t * t * (1.0 - 0.5 * t)
 
 
@@ -54,7 +54,7 @@ def root_flow(difference, corner, secant):
     secant : on dual numbers, the derivative is that of a line through the origin. A linearly implicit step with the tangent in place of
     the secant rings for ever, because it is one step of Newton's method on a root.
     """
-    size = real(difference) * real(difference) + real(corner) * real(corner)
+    size = real(difference) * real(difference) + corner * corner
     slope = 1.0 / np.sqrt(np.sqrt(size))
     if secant == 1:
         return slope * difference

@@ -77,10 +77,10 @@ def lift(machine, number, t):
     elements = record.elements
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
-        opening = step(opening_pressure(machine, index, n, t) * (1.0 / real(n[RANGE])))
+        opening = step(opening_pressure(machine, index, n, t) * (1.0 / n[RANGE]))
         if index[STATE] != NONE:
             own = index[STATE]
-            elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / real(n[LAG]))
+            elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / n[LAG])
             opening = elements.state[own]
         record.outputs.value[index[OUTPUT]] = opening
     return OK

@@ -66,9 +66,9 @@ def without_dead_band(w, band):
 @leaf
 def balance(n, u, v, wish):
     """The acceleration of a spool at its position u and speed v, without the force of the flow."""
-    omega = real(n[FREQUENCY])
-    force = wish - u - n[PRELOAD] * sign_within(u, CENTRE) - n[FRICTION] * tanh(v * (1.0 / real(n[SLOW])))
-    acceleration = omega * omega * force - 2.0 * real(n[DAMPING]) * omega * v
+    omega = n[FREQUENCY]
+    force = wish - u - n[PRELOAD] * sign_within(u, CENTRE) - n[FRICTION] * tanh(v * (1.0 / n[SLOW]))
+    acceleration = omega * omega * force - 2.0 * n[DAMPING] * omega * v
     over = beyond(u, 1.0 + 0.0 * u)
     if real(over) != 0.0:
         acceleration = acceleration - omega * omega * STOP * over - 2.0 * np.sqrt(STOP) * omega * v
@@ -124,7 +124,7 @@ def close(machine, number, t):
         index, n = elements.columns[k], elements.number[k]
         if index[STATE] == NONE:
             continue
-        omega = real(n[FREQUENCY])
+        omega = n[FREQUENCY]
         for i in range(MOST):
             first = FIRST_EDGE + WIDE * i
             if first >= index.shape[0] or index[first] == NONE:
@@ -151,10 +151,10 @@ def switch(machine, number, t):
             goal = -1.0
         e = elements.state[index[STATE]]
         growing = goal != 0.0 and goal * real(e) >= 0.0
-        pace = real(n[UP]) if growing else real(n[DOWN])
+        pace = n[UP] if growing else n[DOWN]
         elements.state_rate[index[STATE]] += pace * tanh((goal - e) * (1.0 / ROUNDED))
         size = magnitude_within(e, 1e-9)
-        opening = step((size - n[BEGIN]) * (1.0 / (real(n[END]) - real(n[BEGIN]))))
+        opening = step((size - n[BEGIN]) * (1.0 / (n[END] - n[BEGIN])))
         record.outputs.value[index[OUTPUT]] = opening if real(e) >= 0.0 else -opening
     return OK
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import MOMENTARY, NONE, record_at
@@ -19,6 +20,8 @@ from nivel.native.function import stage
 
 # A change this small against the accelerations is round-off; with the state's own matrix so is one that gets smaller by no more than SLOW.
 EXACT, SLOW, MOST = 1e-14, 0.2, 40
+# Changes for the slopes alone: the matrix leaves less than SLOW of what they are wrong by.
+SETTLING = 4
 # Changes that grow by more than this, with the state's own matrix, are none of round-off.
 GROWN = 10.0
 
@@ -62,6 +65,17 @@ def change_accelerations(machine):
 
 
 @stage
+def settle_slopes(machine, t):
+    """Slopes of accelerations and multipliers whose values are found: further changes with the matrix there. Returns a status."""
+    status = OK
+    for _ in range(SETTLING):
+        if status == OK:
+            status = call_hook(machine, MOMENTARY, 0, t)
+            change_accelerations(machine)
+    return status
+
+
+@stage
 def balance(machine, t, y):
     """Fill `residual.vdot` and `residual.lam` for the state y at time t, and all that the residual leaves. Returns a status.
 
@@ -92,13 +106,13 @@ def balance(machine, t, y):
             newton.balanced[0], fresh, last = 1.0, True, np.inf
         size, change = change_accelerations(machine)
         if size <= EXACT:
-            return OK
+            return settle_slopes(machine, t) if is_whole(machine) else OK
         if size <= SLOW * last:
             last = size
         elif not fresh:
             newton.balanced[0], last = 0.0, np.inf
         elif size < SLOW or change <= GROWN * noise:
-            return OK
+            return settle_slopes(machine, t) if is_whole(machine) else OK
         elif noise > 0.0:
             return NOT_CONVERGED
         else:

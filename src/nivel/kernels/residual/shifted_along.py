@@ -14,8 +14,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters
-from nivel.kernels.core.lanes import slope, unit
+from nivel.kernels.core.lanes import is_whole, slope, unit
+from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import NONE, record_at
@@ -44,16 +46,23 @@ def prepare_shifted(machine, t, y, rate, s):
 
 
 @leaf
-def move_along(newton, residual, moving, r, s):
-    """Move the twin's state along the direction that r asks for before the accelerations change. Leaves rotations in newton.moved."""
+def part_of(x, slopes):
+    """The value of x as the slope along direction 0; or its slopes alone, along the directions that they have."""
+    return x - real(x) if slopes else unit(0, real(x))
+
+
+@leaf
+def move_along(newton, residual, moving, r, s, slopes):
+    """Move the twin's state along the direction that r asks for before the accelerations change, or along those that its `slopes` ask for.
+    Leaves rotations in newton.moved."""
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
-    moved, factor = newton.moved, unit(0, 1.0)
+    moved = newton.moved
     for k in range(n):
         p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
-        moving.y[positions + k] += factor * r[positions + k]
+        moving.y[positions + k] += part_of(r[positions + k], slopes)
         if axis == NONE:
-            moving.y[p] += factor * (r[p] + s * r[positions + k])
+            moving.y[p] += part_of(r[p] + s * r[positions + k], slopes)
         elif axis == 0:
             turn = moved[k : k + 3]
             angular_velocity(residual.y[p : p + 4], r[p : p + 4], turn)
@@ -62,9 +71,28 @@ def move_along(newton, residual, moving, r, s):
             change = newton.last[0:4]
             rates_of_parameters(residual.y[p : p + 4], turn, change)
             for i in range(4):
-                moving.y[p + i] += factor * change[i]
+                moving.y[p + i] += part_of(change[i], slopes)
     for k in range(states):
-        moving.y[positions + n + k] += factor * r[positions + n + k]
+        moving.y[positions + n + k] += part_of(r[positions + n + k], slopes)
+
+
+@leaf
+def add_slopes(machine, t, r, s):
+    """Add to newton.b, the right-hand side for the value of r, what its slopes ask for: all of them in one evaluation. Returns a status."""
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    twin, moving = load_twin(newton, residual)
+    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
+    move_along(newton, residual, moving, r, s, True)
+    status = call_family(newton.address[1], twin, 0, t)
+    for k in range(n):
+        newton.b[k] -= number_of(machine, moving.value[k] - real(moving.value[k]))
+    for k in range(n, n + states):
+        newton.b[k] += number_of(machine, moving.value[k] - real(moving.value[k]))
+    for k in range(n + states, n + states + rows):
+        row = k + 2 * rows
+        newton.b[k] -= number_of(machine, moving.value[row] - real(moving.value[row]))
+    return status
 
 
 @leaf
@@ -75,7 +103,7 @@ def solve_shifted(machine, t, r, s, ahead):
     twin, moving = load_twin(newton, residual)
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
-    move_along(newton, residual, moving, r, s)
+    move_along(newton, residual, moving, r, s, False)
     status = call_family(newton.address[1], twin, 0, t + unit(0, ahead))
     if status != OK:
         return status
@@ -86,6 +114,10 @@ def solve_shifted(machine, t, r, s, ahead):
         b[n + k] = slope(moving.value[n + k], 0)
     for k in range(rows):
         b[n + states + k] = -slope(moving.value[n + states + 2 * rows + k], 0)
+    if is_whole(machine):
+        status = add_slopes(machine, t, r, s)
+        if status != OK:
+            return status
     solve(machine)
     for k in range(n + states):
         r[positions + k] += s * b[k]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
@@ -92,15 +93,15 @@ def add_compliance(newton, entries):
 
 @leaf
 def load_twin(newton, here):
-    """The twin's residual at the same state, accelerations and multipliers. Returns the twin's address and its residual."""
+    """The twin's residual at the same state, accelerations and multipliers, without slopes. Returns the twin's address and its residual."""
     twin = (newton.address[0],)
     moving = record_at(twin).residual
     for i in range(here.y.shape[0]):
-        moving.y[i] = here.y[i]
+        moving.y[i] = real(here.y[i])
     for i in range(here.vdot.shape[0]):
-        moving.vdot[i] = here.vdot[i]
+        moving.vdot[i] = real(here.vdot[i])
     for i in range(here.lam.shape[0]):
-        moving.lam[i] = here.lam[i]
+        moving.lam[i] = real(here.lam[i])
     return twin, moving
 
 
@@ -140,14 +141,14 @@ def still(newton, moving, here, j):
     n, states = here.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(here.y.shape[0]) - n - states - 2
     if j >= n + states:
-        moving.lam[j - n - states] = here.lam[j - n - states]
+        moving.lam[j - n - states] = real(here.lam[j - n - states])
     elif j >= n:
-        moving.y[positions + j] = here.y[positions + j]
+        moving.y[positions + j] = real(here.y[positions + j])
     else:
         p, axis = np.int64(newton.place[j, 0]), newton.place[j, 1]
         first, count = (j, 1) if axis == NONE else (j - np.int64(axis), 4)
         for i in range(count):
-            moving.y[p + i] = here.y[p + i]
+            moving.y[p + i] = real(here.y[p + i])
         for i in range(min(count, 3)):
-            moving.y[positions + first + i] = here.y[positions + first + i]
-            moving.vdot[first + i] = here.vdot[first + i]
+            moving.y[positions + first + i] = real(here.y[positions + first + i])
+            moving.vdot[first + i] = real(here.vdot[first + i])

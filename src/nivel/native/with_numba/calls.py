@@ -12,12 +12,13 @@ from numba.extending import intrinsic
 from nivel.native.signature import ROWS, Signature
 from nivel.native.with_numba.arrays import WORD, array_of, item_pointer, item_size
 from nivel.native.with_numba.duals import DUAL
-from nivel.native.with_numba.kinds import ARGUMENTS, RESULTS, TWIN, arguments_of
+from nivel.native.with_numba.kinds import ARGUMENTS, RESULTS, TWIN, WHOLE, arguments_of
 
 _DOUBLE = ir.DoubleType()
 _IN_C: dict[str, tuple[Any, ...]] = {
     "machine": (WORD,),
     "twin": (WORD,),
+    "whole": (WORD,),
     "entry": (WORD,),
     "number": (_DOUBLE,),
     "dual": (_DOUBLE.as_pointer(),),
@@ -41,7 +42,7 @@ def function_type(signature: Signature) -> Any:
 
 def to_c(context: Any, builder: Any, kind: str, value: Any) -> list[Any]:
     """An argument as C takes it."""
-    if kind == "twin":
+    if kind in ("twin", "whole"):
         return [builder.extract_value(value, 0)]
     if kind == "dual":
         return [builder.bitcast(cgutils.alloca_once_value(builder, value), _DOUBLE.as_pointer())]
@@ -55,14 +56,18 @@ def to_c(context: Any, builder: Any, kind: str, value: Any) -> list[Any]:
 
 def from_c(context: Any, builder: Any, kind: str, parts: list[Any]) -> Any:
     """An argument as Numba has it."""
-    if kind == "twin":
-        return builder.insert_value(ir.Constant(ir.ArrayType(WORD, 1), ir.Undefined), parts[0], 0)
+    if kind in ("twin", "whole"):
+        count = len(parts) if kind == "twin" else 2  # as the types of both have it
+        value: Any = ir.Constant(ir.ArrayType(WORD, count), ir.Undefined)
+        for k in range(count):
+            value = builder.insert_value(value, parts[0], k)
+        return value
     if kind == "dual":
         return builder.load(builder.bitcast(parts[0], DUAL.vector.as_pointer()), align=ALIGNMENT)
     if kind == "complex":
-        value = context.make_complex(builder, types.complex128)
-        value.real, value.imag = parts
-        return value._getvalue()
+        pair = context.make_complex(builder, types.complex128)
+        pair.real, pair.imag = parts
+        return pair._getvalue()
     if kind in ROWS:
         array: Any = ARGUMENTS[kind]
         data = builder.bitcast(parts[0], item_pointer(context, array))
@@ -70,16 +75,20 @@ def from_c(context: Any, builder: Any, kind: str, parts: list[Any]) -> Any:
     return parts[0]
 
 
-def _is_of_duals(kind: types.Type) -> bool:
-    return kind == TWIN or getattr(kind, "dtype", None) == DUAL
+def _for(arguments: tuple[Any, ...], plain: Signature) -> Signature:
+    """The signature of the code for these arguments: that on dual numbers where a record or a row is of these."""
+    if WHOLE in arguments:
+        return plain.wholly_on_duals
+    of_duals = any(kind == TWIN or getattr(kind, "dtype", None) == DUAL for kind in arguments)
+    return plain.on_duals if of_duals else plain
 
 
 def caller(plain: Signature) -> Any:
-    """An intrinsic `call(address, ...)` for the entry of this signature at an address, or of its code on dual numbers where the first
-    argument is of these."""
+    """An intrinsic `call(address, ...)` for the entry of this signature at an address, or of its code on dual numbers where its arguments
+    are of these."""
 
     def call(arguments: tuple[Any, ...]) -> tuple[Any, Any]:
-        signature = plain.on_duals if _is_of_duals(arguments[0]) else plain
+        signature = _for(arguments, plain)
         kinds = arguments_of(signature)
 
         def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:

@@ -20,6 +20,7 @@ from numba.core.datamodel.models import PrimitiveModel
 from numba.core.imputils import lower_builtin, lower_cast
 from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing import templates
+from numba.core.typing.builtins import NumberClassAttribute
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, signature
 from numba.extending import intrinsic, lower_getattr, overload, register_model
 
@@ -456,6 +457,7 @@ _unary((operator.neg,), lambda context, b, x, kind: b.fneg(x))
 _unary((operator.pos, float), lambda context, b, x, kind: x)
 _unary((np.square,), lambda context, b, x, kind: _square(b, x, kind))
 _unary((np.real,), lambda context, b, x, kind: value_of(b, x), _F)
+_unary((np.imag,), lambda context, b, x, kind: ZERO, _F)
 _unary((int,), lambda context, b, x, kind: context.cast(b, value_of(b, x), _F, types.int64), types.int64)
 _unary((bool,), lambda context, b, x, kind: b.fcmp_unordered("!=", value_of(b, x), ZERO), types.boolean)
 _unary((operator.not_,), lambda context, b, x, kind: b.fcmp_ordered("==", value_of(b, x), ZERO), types.boolean)
@@ -480,6 +482,33 @@ def _of_value(functions: Iterable[Any], result: Any) -> None:
 
 _of_value((np.isnan, math.isnan, np.isfinite, math.isfinite, np.isinf, math.isinf), types.boolean)
 _of_value((math.floor, math.ceil, math.trunc), types.int64)
+
+
+@infer_getattr
+class Int64Calls(AttributeTemplate):
+    """`np.int64(x)` is the whole part of the value; of other numbers it is what Numba takes it for."""
+
+    key = types.NumberClass(types.int64)
+
+    def resolve___call__(self, kind: Any) -> Any:
+        """What `np.int64` is called with, and gives."""
+        known: Any = NumberClassAttribute(self.context)
+        usual = known.resolve___call__(kind)
+
+        class Template(AbstractTemplate):
+            key = kind
+
+            def generic(self, args: Any, kws: Any) -> Any:
+                if len(args) == 1 and isinstance(args[0], Dual):
+                    return signature(types.int64, args[0])
+                return usual.get_call_type(self.context, args, kws)
+
+        return types.Function(Template)
+
+
+lower_builtin(types.NumberClass, Dual)(
+    lambda context, b, sig, args: context.cast(b, value_of(b, args[0]), _F, types.int64)
+)
 
 
 @infer_getattr
@@ -549,5 +578,7 @@ def unit(typingctx: Any, k: Any, size: Any) -> Any:
 
 @intrinsic
 def slope(typingctx: Any, x: Any, k: Any) -> Any:
-    """The slope of x along direction k."""
+    """The slope of x along direction k; of a real number none."""
+    if not isinstance(x, Dual):
+        return _F(x, k), lambda context, b, sig, args: ZERO
     return _F(x, k), lambda context, b, sig, args: b.extract_element(args[0], _lane(b, args[1]))

@@ -11,10 +11,13 @@ from nivel.native.with_numba.duals import DUAL
 
 # The address of a record whose work is dual numbers: a type of its own, so that kernels compile for it, and never take one for the other.
 TWIN = types.UniTuple(types.uint64, 1)
+# and that of a record of which all numbers are dual
+WHOLE = types.UniTuple(types.uint64, 2)
 ROW, DUALS = types.Array(types.float64, 1, "C"), types.Array(DUAL, 1, "C", aligned=False)
 ARGUMENTS: dict[str, types.Type] = {
     "machine": types.uint64,
     "twin": TWIN,
+    "whole": WHOLE,
     "entry": types.uint64,
     "number": types.float64,
     "dual": DUAL,
@@ -30,7 +33,6 @@ RESULTS: dict[str, types.Type] = {
     "nothing": types.void,
 }
 SCALARS: dict[str, types.Type] = {
-    "real": types.float64,
     "complex": types.complex128,
     "index": types.uint32,
     "count": types.int64,
@@ -43,15 +45,16 @@ def arguments_of(signature: Signature) -> tuple[types.Type, ...]:
     return tuple(ARGUMENTS[kind] for kind in signature.arguments)
 
 
-def record_type(record_class: type, work: types.Type = types.float64) -> Any:
-    """Numba's type of a record class; `work` is the type of what an evaluation leaves (dual numbers for exact derivatives)."""
+def record_type(record_class: type, work: types.Type = types.float64, real: types.Type = types.float64) -> Any:
+    """Numba's type of a record class; `work` is the type of what an evaluation leaves, `real` that of all other numbers (dual numbers for
+    exact derivatives)."""
     hints = get_type_hints(record_class, include_extras=True)
-    return types.BaseTuple.from_types([_field(hint, work) for hint in hints.values()], record_class)
+    return types.BaseTuple.from_types([_field(hint, work, real) for hint in hints.values()], record_class)
 
 
-def _field(hint: Any, work: types.Type) -> types.Type:
+def _field(hint: Any, work: types.Type, real: types.Type) -> types.Type:
     if get_origin(hint) is Annotated:
         _, dimensions, kind = get_args(hint)
-        number = work if kind == "work" else SCALARS[kind]
+        number = {"work": work, "real": real}.get(kind) or SCALARS[kind]
         return types.Array(number, dimensions, "C", aligned=number != DUAL)
-    return record_type(hint, work)
+    return record_type(hint, work, real)

@@ -15,7 +15,7 @@ from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, reg
 
 from nivel.native.with_numba.arrays import WORD, array_of, item_pointer
 from nivel.native.with_numba.duals import DUAL
-from nivel.native.with_numba.kinds import TWIN, record_type
+from nivel.native.with_numba.kinds import TWIN, WHOLE, record_type
 
 BYTES = 8
 # words of an array structure before its shape: owner, parent, items, item size, data
@@ -92,18 +92,26 @@ def _array_at(context: Any, builder: Any, kind: types.Array, start: Any) -> Any:
 
 def reader(record_class: type) -> Any:
     """An intrinsic that gives kernels a view of the record of this class at an address, or of its twin at the address of one."""
-    views = (
-        View(record_type(record_class), ""),
-        View(record_type(record_class, DUAL), " on dual numbers"),
-    )
+    views: dict[types.Type, View] = {
+        types.uint64: View(record_type(record_class), ""),
+        TWIN: View(record_type(record_class, DUAL), " on dual numbers"),
+        WHOLE: View(record_type(record_class, DUAL, DUAL), " wholly on dual numbers"),
+    }
 
     @intrinsic
     def record_at(typingctx: Any, address: Any) -> Any:
-        is_twin = address == TWIN
+        kind = address if address in (TWIN, WHOLE) else types.uint64
 
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            return builder.extract_value(args[0], 0) if is_twin else args[0]
+            return args[0] if kind == types.uint64 else builder.extract_value(args[0], 0)
 
-        return views[is_twin](TWIN if is_twin else types.uint64), generate
+        return views[kind](kind), generate
 
     return record_at
+
+
+@intrinsic
+def is_whole(typingctx: Any, address: Any) -> Any:
+    """Whether this is the address of a record of which all numbers are dual: a constant of the compiled code."""
+    found = address == WHOLE
+    return types.boolean(address), lambda context, builder, signature, args: ir.Constant(ir.IntType(1), int(found))

@@ -34,6 +34,20 @@ class Contents(Protocol):
         ...
 
 
+# what stands for a slash in names of variables in files, where that would make groups: `d(position)/d(parameters.length)`
+SLASH, IN_FILES = "/", "\N{DIVISION SLASH}"
+
+
+def name_in_file(name: str) -> str:
+    """The name of a variable as files have it."""
+    return name.replace(SLASH, IN_FILES)
+
+
+def name_of(in_file: str) -> str:
+    """The name of a variable that files have so."""
+    return in_file.replace(IN_FILES, SLASH)
+
+
 def present_variables(layout: FrameLayout) -> dict[str, Variable]:
     """The variables that have at least one column: a machine without joints has no joint forces."""
     return {variable.name: variable for variable in layout.variables if variable.columns.stop > variable.columns.start}

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nivel.errors import ModelError
+from nivel.results.frames.contents import name_in_file
 
 if TYPE_CHECKING:
     import xarray
@@ -18,7 +19,8 @@ def write_dataset(dataset: xarray.Dataset, path: str | PathLike[str], *, force: 
     if target.exists() and not force:
         raise ModelError(f"the file {target} exists; give another name, or replace it with force")
     try:
-        dataset.to_netcdf(target, engine="h5netcdf")
+        names = {name: name_in_file(str(name)) for name in dataset.data_vars if name_in_file(str(name)) != name}
+        dataset.rename(names).to_netcdf(target, engine="h5netcdf")
     except OSError as error:
         raise ModelError(f"the file {target} cannot be written: {str(error).lower()}") from error
     return target

@@ -8,6 +8,7 @@ import numpy as np
 import xarray
 
 from nivel.errors import ModelError
+from nivel.results.frames.contents import name_of
 from nivel.results.frames.stored import DAMAGE
 
 if TYPE_CHECKING:
@@ -36,7 +37,9 @@ def dataset(result: Result) -> xarray.Dataset:
     """Everything. The file of a finished run is read lazily; one that may still grow, and memory, at once."""
     if result.path is not None and result.outcome != "running":
         try:
-            return xarray.open_dataset(result.path, engine="h5netcdf", decode_times=False)
+            found = xarray.open_dataset(result.path, engine="h5netcdf", decode_times=False)
+            others = {name: name_of(str(name)) for name in found.data_vars if name_of(str(name)) != name}
+            return found.rename(others) if others else found
         except (OSError, RuntimeError, *DAMAGE) as error:
             raise ModelError(f"{result.path} is damaged and cannot be read: {error}") from None
     variables = {

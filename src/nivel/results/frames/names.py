@@ -43,7 +43,8 @@ def _selections(
     """For (name, dimensions after time) of variables and (dimension, names along it)."""
     every = slice(None)
     found, coordinates = {name: Selection(name, ()) for name, _ in variables}, dict(along)
-    for variable, dims in variables:
+    for whole, dims in variables:
+        variable, named = _within(whole)
         elements = [dim for dim in dims if dim not in COMPONENTS]
         starts: list[tuple[str, tuple[slice | int, ...]]] = [(variable, (every,))]
         if elements:
@@ -54,10 +55,25 @@ def _selections(
             ]
         components = coordinates[dims[-1]] if dims and dims[-1] in COMPONENTS else ()
         for name, where in starts:
-            found.setdefault(name, Selection(variable, where))
+            found.setdefault(named.format(name), Selection(whole, where))
             for k, component in enumerate(components):
-                found.setdefault(f"{name}.{component}", Selection(variable, (*where, k)))
+                found.setdefault(named.format(f"{name}.{component}"), Selection(whole, (*where, k)))
     return MappingProxyType(found)
+
+
+def _within(variable: str) -> tuple[str, str]:
+    """The variable of which this one is a derivative, and what makes a name of it one of the derivative; itself where it is none."""
+    if (parts := derivative(variable)) is None:
+        return variable, "{}"
+    return parts[0], f"d({{}})/d({parts[1].replace('{', '{{').replace('}', '}}')})"
+
+
+def derivative(name: str) -> tuple[str, str] | None:
+    """(what, by what) of the name `d(what)/d(by what)`; None for other names."""
+    if not (name.startswith("d(") and name.endswith(")")):
+        return None
+    what, between, by = name[2:-1].partition(")/d(")
+    return (what, by) if between else None
 
 
 def _suffix(variable: str, dimension: str) -> str:

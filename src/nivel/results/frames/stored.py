@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.results.frames.contents import name_in_file, name_of
 from nivel.results.frames.json_forms import FORMS, misshapen, strangers
 from nivel.results.frames.result_format import check_format, written_by_newer
 from nivel.system.layout import Variable
@@ -121,7 +122,7 @@ class StoredContents:
                 raise ValueError(f"`{name}` has {dataset.shape[1:]} numbers a frame, and other names of them")
             columns = slice(0, int(np.prod(dataset.shape[1:])))
             units, long_name = str(_plain(dataset.attrs["units"])), str(_plain(dataset.attrs["long_name"]))
-            self.variables[name] = Variable(name, dims, units, long_name, columns)
+            self.variables[name_of(name)] = Variable(name_of(name), dims, units, long_name, columns)
             self.frame_count = min(self.frame_count, dataset.shape[0])
         if "position" in self.variables and "scene" not in self.attributes:
             raise ValueError("it has positions and lacks the attribute `scene`, which says of what")
@@ -132,7 +133,7 @@ class StoredContents:
         index = slice(frames.start, frames.stop, frames.step) if isinstance(frames, range) else frames
         with opened(self.path) as file:
             try:
-                return np.asarray(_dataset(file, name)[(index, *rest)], dtype=np.float64)
+                return np.asarray(_dataset(file, name_in_file(name))[(index, *rest)], dtype=np.float64)
             except DAMAGE as error:
                 raise ModelError(f"{self.path} is damaged, `{name}` cannot be read: {error}") from None
 

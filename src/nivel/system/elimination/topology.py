@@ -65,9 +65,13 @@ def spanning_tree(
     *,
     heavy_first: bool = False,
 ) -> SpanningTree:
-    """Tree of `bodies` bodies and the ground. kept : joints that stay constraints. weight : of the bodies; what hangs on nothing gets its
-    root at the heaviest. heavy_first : the tree carries heavy bodies first, whatever the rows, so loops are cut where forces are small.
+    """Tree of `bodies` bodies and the ground.
+
+    kept : joints that stay constraints. weight : of the bodies, equal where they differ by round-off, as nodes of a beam do; what hangs on
+    nothing gets its root at the heaviest. heavy_first : the tree carries heavy bodies first, whatever the rows, so loops are cut where
+    forces are small.
     """
+    weight = [float(f"{each:.9g}") for each in weight]
     around: list[list[int]] = [[] for _ in range(bodies + 1)]
     for k, edge in enumerate(edges):
         if carries(edge.type) and edge.name not in kept:

@@ -1,0 +1,203 @@
+"""Gradients of runs: outputs, parameters, and a dataset of the slopes with their units and how far to trust them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray
+
+from nivel.analysis.gradients.check import LIGHTS, Checked, check
+from nivel.analysis.gradients.outputs import Array, Output, outputs_of
+from nivel.analysis.gradients.parameters import Parameter, parameters_of
+from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
+from nivel.analysis.plan.plan import Plan, plan_run
+from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.dynamics import Loop, march, start_loop
+from nivel.analysis.run.preparation import prepare
+from nivel.errors import Fault, ModelError, SolveError
+from nivel.integrate.loop.sink import Header
+from nivel.model import Model
+from nivel.results.frames.labelled import data_array
+from nivel.results.frames.occurrence import to_json
+from nivel.results.frames.row_units import per
+from nivel.results.memory import Memory
+from nivel.results.result import Result
+
+# integrators whose steps carry slopes right to their end
+FOLLOWED = (
+    "euler, heun, rk4, rkn4, dopri5, dop853, ab1 … ab5, abm4, am1 … am5, adams, bdf, newmark, hht, generalised-alpha"
+)
+HEADLINES = {
+    "green": "slopes agree with differences of runs along a direction of all parameters",
+    "amber": "differences of runs do not confirm all slopes: see the `verdict` of each",
+    "red": "differences of runs contradict slopes: see the `verdict` of each; something cuts them, as a contact or a branch may",
+    "not checked": "slopes were not compared with differences of runs",
+}
+
+
+class Varied:
+    """A machine and its runs with other values of parameters, by the methods and settings of one plan."""
+
+    def __init__(self, machine: Model, plan: Plan, source: str) -> None:
+        self._machine, self.plan, self._source = machine, plan, source
+        self.prepared = prepare(plan.methods)
+
+    @property
+    def settings(self) -> RunSettings:
+        """Those of all runs."""
+        return self.plan.settings
+
+    @property
+    def header(self) -> Header:
+        """What is known of the run."""
+        return self._header(self.plan, self.prepared)
+
+    def _header(self, plan: Plan, prepared: Prepared) -> Header:
+        attributes = run_attributes(plan.machine, self._source, prepared, plan.settings, plan.reason)
+        return Header(prepared.motion.system.layout, attributes)
+
+    def beside(self, parameter: Parameter, value: float) -> Loop:
+        """The loop at the start of a run with another value of a parameter."""
+        return start_loop(prepare(self._plan_with({parameter.path: value}).methods), self.settings)
+
+    def run(self, values: Mapping[str, float]) -> Result:
+        """The run with other values of parameters; none: the machine as it is. Raises SolveError where it fails."""
+        plan = self._plan_with(values) if values else self.plan
+        prepared = prepare(plan.methods) if values else self.prepared
+        sink = Memory(self.settings.frames + 1)
+        sink.begin(self._header(plan, prepared))
+        finished = march(prepared, self.settings, [sink])
+        result = sink.close({"outcome": finished.outcome, "events": to_json(finished.events)})
+        if finished.failure is not None:
+            message, advice, at = finished.failure
+            raise SolveError(message, time=at, advice=advice, result=result)
+        return result
+
+    def _plan_with(self, values: Mapping[str, float]) -> Plan:
+        other = self._machine.with_values(dict(values))
+        return plan_run(other.record, other.origin.settings_outside)
+
+
+def gradient(
+    machine: Model,
+    plan: Plan,
+    outputs: Sequence[str],
+    paths: Sequence[str],
+    *,
+    checked: bool,
+    source: str = "",
+    curves: bool = False,
+    listener: Listener | None = None,
+) -> xarray.Dataset:
+    """Derivatives of `outputs` of a run with respect to the numbers at `paths`: `nivel.api.Machine.gradient`. curves : a name alone is the
+    whole curve."""
+    listener = listener or Listener()
+    refuse(plan)
+    parameters = parameters_of(machine, paths)
+    listener.say("preparing")
+    varied = Varied(machine, plan, source)
+    plain = varied.run({})
+    asked = outputs_of(outputs, plain, curves=curves)
+    _refuse_events(asked, varied.prepared)
+    listener.say("running on dual numbers")
+    slopes = find_slopes(varied.prepared, plan.settings, varied.header, parameters, varied.beside, listener)
+    found = [slopes.evaluate(output) for output in asked]
+    verdicts: Sequence[Checked | None] = [None] * len(asked)
+    if checked:
+        listener.say("comparing with differences of runs")
+
+        def values_at(point: Array) -> list[Array]:
+            given = {each.path: float(value) for each, value in zip(parameters, point, strict=True)}
+            return values_of(asked, varied.run(given))
+
+        verdicts = check([each[1] for each in found], parameters, values_at, plan.settings.tolerance)
+    return _dataset(slopes, plain, asked, found, verdicts)
+
+
+def refuse(plan: Plan) -> None:
+    """Raise ModelError where the methods of a run carry no slopes."""
+    facts, settings, faults = plan.methods.integrator, plan.settings, []
+    name = settings.integrator
+    of_newmark = name in ("newmark", "hht", "generalised-alpha")
+    explicit = facts.kind == "explicit" and not facts.residual
+    multistep = facts.multistep and not name.startswith("gear")
+    if of_newmark and settings.steps == 0:
+        what = f"`integrator: {name}` with chosen steps has no gradients"
+        faults.append(Fault("", 0, 0, "simulation.step_control", f"{what}; `step_control: fixed` has them"))
+    elif not (of_newmark or explicit or multistep):
+        what = f"`integrator: {name}` has no gradients"
+        better = "dopri5, or generalised-alpha or bdf for what is stiff"
+        faults.append(Fault("", 0, 0, "simulation.integrator", f"{what}; these have them: {FOLLOWED}. Try {better}"))
+    if any(block.type == "fmu" for block in plan.machine.control):
+        faults.append(Fault("", 0, 0, "control", "FMUs give no slopes, so a machine with one has no gradients"))
+    if plan.stabilisation.CONSERVES:
+        faults.append(
+            Fault("", 0, 0, "simulation.stabilisation", "`geometric` has no gradients; `direct` closes constraints too")
+        )
+    if faults:
+        raise ModelError(faults)
+
+
+def _refuse_events(outputs: Sequence[Output], prepared: Prepared) -> None:
+    names = prepared.motion.system.events
+    faults = [
+        Fault("", 0, 0, each.label, f"there is no event `{each.name}`; events are: {', '.join(names) or 'none'}")
+        for each in outputs
+        if each.is_event and each.name not in names
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def _dataset(
+    slopes: Slopes,
+    plain: Result,
+    outputs: Sequence[Output],
+    found: Sequence[tuple[Array, Array]],
+    verdicts: Sequence[Checked | None],
+) -> xarray.Dataset:
+    data: dict[str, Any] = {}
+    lights: dict[str, str] = {}
+    for output, (value, slope), verdict in zip(outputs, found, verdicts, strict=True):
+        units = output.units(plain)
+        lights[output.label] = verdict.light if verdict is not None else "not checked"
+        data[output.label] = _like(output, plain, value, {"units": units, "long_name": output.label})
+        errors = verdict.errors() if verdict is not None else np.full_like(slope, np.nan)
+        for k, parameter in enumerate(slopes.parameters):
+            name = f"d({output.label})/d({parameter.path})"
+            worst = float(np.max(errors[k])) if np.size(errors[k]) else 0.0
+            attributes = {
+                "units": per(units, parameter.units),
+                "long_name": f"derivative of {output.label} with respect to {parameter.path}",
+                "output": output.label,
+                "parameter": parameter.path,
+                "parameter_value": parameter.value,
+                "estimated_error": worst,
+                "verdict": lights[output.label],
+            }
+            data[name] = _like(output, plain, slope[k], attributes)
+    known = [each for each in lights.values() if each in LIGHTS]
+    light = max(known, key=LIGHTS.index) if known else "not checked"
+    attributes = {"machine": plain.name, "verdict": light, "headline": HEADLINES[light], "verdicts": json.dumps(lights)}
+    return xarray.Dataset(data, attrs=attributes)
+
+
+def _like(output: Output, plain: Result, value: Array, attributes: dict[str, Any]) -> xarray.DataArray:
+    """The value with the dimensions of its curve, time only where it is the curve."""
+    if output.is_event:
+        return xarray.DataArray(float(value), attrs=attributes)
+    curve = data_array(plain, output.name)
+    if output.reduce is not None:
+        curve = curve.isel(time=-1, drop=True)
+    # which body a curve is of is said by its name
+    curve = curve.drop_vars([name for name, each in curve.coords.items() if each.ndim == 0])
+    made = curve.copy(data=np.asarray(value, dtype=float))
+    made.attrs = attributes
+    made.name = None
+    return made

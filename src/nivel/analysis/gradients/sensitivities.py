@@ -1,0 +1,107 @@
+"""Sensitivities of a result: curves d(x)/d(p) of all its variables x along parameters p, beside its own."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from nivel.analysis.gradients.check import check
+from nivel.analysis.gradients.gradient import HEADLINES, Varied, refuse
+from nivel.analysis.gradients.outputs import Array, outputs_of
+from nivel.analysis.gradients.parameters import Parameter, parameters_of
+from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.progress.listener import Listener
+from nivel.errors import ModelError
+from nivel.integrate.loop.sink import Header
+from nivel.model import Model
+from nivel.results.frames.row_units import per
+from nivel.results.memory import MemoryContents
+from nivel.results.result import Result
+from nivel.system.layout import FrameLayout
+
+# variables whose own slopes are compared with differences of runs: all others follow from these
+CHECKED = ("position", "velocity")
+
+
+def check_parameters(machine: Model, plan: Plan, paths: Sequence[str]) -> None:
+    """Before anything is computed: raise ModelError where a path leads to no parameter, or the methods carry no slopes."""
+    refuse(plan)
+    parameters_of(machine, paths)
+
+
+def with_sensitivities(
+    machine: Model,
+    plan: Plan,
+    result: Result,
+    paths: Sequence[str],
+    *,
+    source: str,
+    checked: bool,
+    listener: Listener | None = None,
+) -> Result:
+    """The result of a run of this plan with its sensitivities, in memory. checked : compare a direction with differences of runs.
+
+    Raises ModelError where a parameter has no gradient, SolveError where the run on dual numbers fails.
+    """
+    listener = listener or Listener()
+    listener.say("running on dual numbers")
+    varied, parameters = Varied(machine, plan, source), parameters_of(machine, paths)
+    slopes = find_slopes(varied.prepared, plan.settings, varied.header, parameters, varied.beside, listener)
+    if slopes.result.time.shape != result.time.shape:
+        raise ModelError("the run was interrupted: there are sensitivities of whole runs only")
+    light = _verdict(varied, slopes, result, parameters, listener) if checked else "not checked"
+    layout = varied.header.layout
+    told = {each.path: {"value": each.value, "units": each.units, "verdict": light} for each in parameters}
+    attributes = {**result.attributes, "sensitivities": json.dumps(told), "sensitivities_headline": HEADLINES[light]}
+    frames = [_frames_of(result, layout), *(_scaled(slopes, k) for k in range(len(parameters)))]
+    return Result(MemoryContents(Header(_with_slopes(layout, parameters), attributes), np.hstack(frames), attributes))
+
+
+def _verdict(
+    varied: Varied, slopes: Slopes, result: Result, parameters: Sequence[Parameter], listener: Listener
+) -> str:
+    listener.say("comparing with differences of runs")
+    asked = outputs_of([name for name in CHECKED if name in result.variables], result)
+    found = [slopes.evaluate(output)[1] for output in asked]
+
+    def values_at(point: Array) -> list[Array]:
+        given = {each.path: float(value) for each, value in zip(parameters, point, strict=True)}
+        return values_of(asked, varied.run(given))
+
+    lights = [each.light for each in check(found, parameters, values_at, varied.settings.tolerance)]
+    return next((light for light in ("red", "amber") if light in lights), "green")
+
+
+def _frames_of(result: Result, layout: FrameLayout) -> Array:
+    frames = np.zeros((len(result.time), layout.width))
+    frames[:, 0] = result.time
+    for variable in layout.variables:
+        if variable.name in result.variables:
+            frames[:, variable.columns] = result.array(variable.name).reshape(len(frames), -1)
+    return frames
+
+
+def _scaled(slopes: Slopes, k: int) -> Array:
+    """Slopes (n, width) along parameter k, for a change by one of its units."""
+    return slopes.lanes(k) / slopes.parameters[k].scale
+
+
+def _with_slopes(layout: FrameLayout, parameters: Sequence[Parameter]) -> FrameLayout:
+    """A block of columns for each parameter behind those of the run."""
+    more = [
+        replace(
+            variable,
+            name=f"d({variable.name})/d({parameter.path})",
+            # rows of which each has its own units have none together
+            units=per(variable.units, parameter.units) if variable.units else "",
+            long_name=f"derivative by {parameter.path}: {variable.long_name}",
+            columns=slice(variable.columns.start + at * layout.width, variable.columns.stop + at * layout.width),
+        )
+        for at, parameter in enumerate(parameters, 1)
+        for variable in layout.variables
+    ]
+    return replace(layout, width=layout.width * (1 + len(parameters)), variables=(*layout.variables, *more))

@@ -73,6 +73,31 @@ def machine_with_circuits(command="0.3 + 0.5*rail.displacement + 1e-9*line.press
                     "type": "directional-valve", "ways": "3/2", "frequency": "5 Hz", "rate_limit": 4,
                     "ports": {"P": "line", "T": "tank", "A": "swing.A"}, "command": 0.8, **RATED,
                 },
+                "notched": {
+                    "type": "spool-valve", "ports": {"P": "supply", "A": "line", "T": "tank"}, "frequency": "30 Hz",
+                    "edges": {
+                        "PA": {
+                            "flows": [
+                                {
+                                    "of": "position", "points": [0, 0.5, 1], "values": [0, "8 L/min", "20 L/min"],
+                                    "interpolation": "monotone",
+                                },
+                                {"of": "position", "points": [0, 1], "values": [0, "30 L/min"]},
+                            ],
+                            "pressure_drops": ["5 bar", "60 bar"],
+                        },
+                        "AT": {"notches": [{"shape": "triangle", "angle": "60 deg", "begins": -0.05}]},
+                    },
+                    "current": "0.4 + 0.1*sin(40*time)", "stroke": "5 mm", "hysteresis": 0.01, "dead_band": 0.01,
+                    "solenoid": {
+                        "force": {"of": "current", "points": [0, 0.8], "values": [0, "60 N"]}, "spring": "10 N/mm", "preload": "5 N",
+                        "friction": "0.5 N", "transition_speed": 0.5,
+                    },
+                },
+                "section": {
+                    "type": "section", "compensation": "post", "command": 0.4, "inner_volume": "20 cm^3", "margin": "2 bar",
+                    "ports": {"P": "supply", "T": "tank", "A": "line", "B": "swing.B", "LS": "ls"}, **RATED,
+                },
                 "hold": {
                     "type": "counterbalance-valve", "ports": {"L": "mast.A", "V": "line", "X": "supply"},
                     "opens_at": "180 bar", **RATED,

@@ -2,6 +2,8 @@
 
     Q = K(u, |Δp|) Δp (Δp² + c²)^(-1/4) + G Δp        ṁ = ½ (ρ_a + ρ_b) Q
 
+The force of the flow on its spool, f Q √Δp, closes the edge; it belongs to the balance of `nivel.kernels.hydraulics.spool_drive`.
+
 K lies on its curves at their differences of pressure and on a straight line between them; outside, the nearest curve holds. A single
 curve is that of a sharp edge, whose flow grows with √Δp.
 """
@@ -13,7 +15,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import root_flow
 from nivel.kernels.hydraulics.transfer import lose, transfer
 from nivel.kernels.record.function import table_value
@@ -21,11 +23,13 @@ from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
-# columns of `columns`; POSITION: output of the valve; then its curves, which are tables. Output: flow [m³/s]
-OUTPUT, FROM, TO, POSITION, FIRST_CURVE = 0, 1, 2, 3, 4
+# columns of `columns`; POSITION: output of the valve; SPEED: state of its spool on which the flow acts, or NONE; then its curves, which are
+# tables. Output: flow [m³/s]
+OUTPUT, FROM, TO, POSITION, SPEED, FIRST_CURVE = 0, 1, 2, 3, 4, 5
 MOST = 8  # curves of an edge
-# columns of `number`: corner c [Pa], leak G [m³/s/Pa], then the difference of pressure [Pa] of each curve
-CORNER, LEAK, FIRST_DROP = 0, 1, 2
+# columns of `number`: corner c [Pa], leak G [m³/s/Pa], acceleration of the spool over Q √Δp, then the difference of pressure [Pa] of each
+# curve
+CORNER, LEAK, FORCE, FIRST_DROP = 0, 1, 2, 3
 
 
 @leaf
@@ -58,7 +62,7 @@ def conductance_at(functions, index, n, u, difference):
 
 
 @leaf
-def by_difference(functions, index, n, u, difference):
+def rise_of_conductance(functions, index, n, u, difference):
     """∂K/∂|Δp| at a real position and difference of pressure."""
     size = np.abs(difference)
     low = curve_below(index, n, size)
@@ -83,12 +87,14 @@ def apply(machine, number, t):
         difference = circuit.pressure[a] - circuit.pressure[b]
         conductance, _ = conductance_at(functions, index, n, u, real(difference))
         if secant == 0:
-            rise = by_difference(functions, index, n, real(u), real(difference))
+            rise = rise_of_conductance(functions, index, n, real(u), real(difference))
             way = rise if real(difference) >= 0.0 else -rise
             conductance = conductance + way * (difference - real(difference))
         flow = conductance * root_flow(difference, n[CORNER], secant) + n[LEAK] * difference
         lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
         record.outputs.value[index[OUTPUT]] = flow
+        if index[SPEED] != NONE:
+            elements.state_rate[index[SPEED]] += n[FORCE] * flow * root_flow(difference, n[CORNER], 0)
     return OK
 
 
@@ -112,4 +118,13 @@ def add_slopes(machine, number, t):
         state = circuit.tangent.source[index[POSITION], 0]
         if state != NONE and slope != 0.0:
             add_flow_by_column(circuit, a, b, state, through * difference * slope)
+        if index[SPEED] != NONE:
+            size = np.sqrt(difference * difference + n[CORNER] * n[CORNER])
+            tangent = circuit.tangent
+            row = tangent.slopes[tangent.unknown[index[SPEED]]]
+            by_difference = n[FORCE] * record.outputs.value[index[OUTPUT]] / np.sqrt(size)
+            add_by_pressure(circuit, row, a, by_difference)
+            add_by_pressure(circuit, row, b, -by_difference)
+            if state != NONE:
+                row[state] += n[FORCE] * slope * difference * difference / size
     return OK

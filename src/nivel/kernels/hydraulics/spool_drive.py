@@ -5,7 +5,8 @@ A proportional spool, with everything over the force of the spring between its m
     ü = ω² (D(w) - u - P u/√(u² + U²) - F tanh(u̇/V) - φ - s) - 2 ζ ω u̇
 
 D is the input w without its dead band, P the preload of the springs, F friction, φ the steady force of the flow, which closes every edge
-that it passes, and s the stop at the end of the stroke. The input follows c = command + dither with a play of the width H:
+that it passes (`nivel.kernels.hydraulics.metering`), and s the stop at the end of the stroke. The input follows c = command + dither with
+a play of the width H:
 
     ẇ = (c - w - H/2)⁺/τ - (w - c - H/2)⁺/τ
 
@@ -22,7 +23,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.smooth import magnitude_within, root_flow, sign_within, step
+from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, step
 from nivel.kernels.hydraulics.spool import clipped
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.hook import family
@@ -30,10 +31,8 @@ from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
 # columns of `columns`; PLAY: state w, or NONE; STATE: u; CURVE: table of the force over the current that the command is, or NONE; output:
-# position. Edges whose flow acts on the spool: output of the flow, nodes
-OUTPUT, STATE, SPEED, COMMAND, PLAY, CURVE, FIRST_EDGE = 0, 1, 2, 3, 4, 5, 6
-EDGE_FLOW, EDGE_FROM, EDGE_TO, WIDE = 0, 1, 2, 3
-MOST = 6  # edges
+# position
+OUTPUT, STATE, SPEED, COMMAND, PLAY, CURVE = 0, 1, 2, 3, 4, 5
 # columns of `number`: least input, natural frequency ω [rad/s], ζ, P, F, V [1/s], H, dead band, dither: amplitude, frequency [rad/s];
 # corner of the flows [Pa]; then the force of each edge over its Q √Δp, negative where it acts towards smaller positions
 LEAST, FREQUENCY, DAMPING, PRELOAD, FRICTION, SLOW, PLAY_WIDTH, DEAD, DITHER, DITHER_FREQUENCY, CORNER, FIRST_FORCE = (
@@ -114,27 +113,6 @@ def drive(machine, number, t):
     return OK
 
 
-@called(Phase.BALANCE)
-@family
-def close(machine, number, t):
-    """Forces of flows on spools: each acts towards where its edge is closed."""
-    record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        if index[STATE] == NONE:
-            continue
-        omega = n[FREQUENCY]
-        for i in range(MOST):
-            first = FIRST_EDGE + WIDE * i
-            if first >= index.shape[0] or index[first] == NONE:
-                break
-            difference = circuit.pressure[index[first + EDGE_FROM]] - circuit.pressure[index[first + EDGE_TO]]
-            power = record.outputs.value[index[first + EDGE_FLOW]] * root_flow(difference, n[CORNER], 0)
-            elements.state_rate[index[SPEED]] += omega * omega * n[FIRST_FORCE + i] * power
-    return OK
-
-
 @called(Phase.POSITIONS)
 @family
 def switch(machine, number, t):
@@ -161,8 +139,7 @@ def switch(machine, number, t):
 
 @family
 def add_slopes(machine, number, t):
-    """Slopes of the inputs, positions and speeds of spools, for commands that do not depend on the state; those of flow forces are left
-    out."""
+    """Slopes of the inputs, positions and speeds of spools, for commands that do not depend on the state."""
     record = record_at(machine)
     elements, tangent = record.elements, record.circuit.tangent
     for k in range(elements.span[number, 0], elements.span[number, 1]):

@@ -186,7 +186,7 @@ def _history(result: Readable, name: str) -> NDArray[np.float64]:
 def _saturated(result: Readable) -> Iterator[Saturation]:
     for valve in json.loads(str(result.attributes.get("machine_record", "{}"))).get("hydraulics") or ():
         name, kind = valve["name"], valve["type"]
-        centred = kind == "directional-valve" and valve["ways"] in CENTRED
+        centred = kind == "section" or (kind == "directional-valve" and valve["ways"] in CENTRED)
         if not centred and kind != "relief-valve":
             continue
         position = _history(result, f"{START}{name}.position")[1:]

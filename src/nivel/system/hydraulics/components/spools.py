@@ -27,25 +27,22 @@ DIRECTING = 4.0  # size of the edges behind a compensator over that of the meter
 
 
 def add_spool_valve(builder: SystemBuilder, component: SpoolValve) -> None:
-    """The spool, its edges, and the force of their flows on it."""
-    position = _add_position(builder, component)
-    forces = []
+    """The spool, and its edges, whose flows act on it where solenoids hold it."""
+    position, speed = _add_position(builder, component)
     for pair, edge in component.edges.items():
-        forces.append(_add_edge(builder, component, pair, edge, position))
-    if component.solenoid is not None:
-        _add_drive(builder, component, position, forces if component.solenoid.flow_force else [])
+        _add_edge(builder, component, pair, edge, position, speed)
 
 
-def _add_position(builder: SystemBuilder, component: SpoolValve) -> int:
-    """The output that is the position."""
+def _add_position(builder: SystemBuilder, component: SpoolValve) -> tuple[int, int]:
+    """(the output that is the position, the state on which forces of flows act, or NONE)."""
     name = component.name
     position = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
     if component.switching is not None:
         assert component.command is not None  # the record was checked
         add_switch(builder, name, position, component.command, component.switching, component.two_sided)
-    elif component.solenoid is None:
-        _add_drive(builder, component, position, [])
-    return position
+        return position, NONE
+    speed = _add_drive(builder, component, position)
+    return position, speed if component.solenoid is not None and component.solenoid.flow_force else NONE
 
 
 def add_switch(
@@ -61,10 +58,8 @@ def add_switch(
     builder.elements.add(spool_drive.switch, [output, state, NONE, builder.function(command)], numbers)
 
 
-def _add_drive(
-    builder: SystemBuilder, component: SpoolValve, position: int, forces: list[tuple[int, int, int, float]]
-) -> None:
-    """A proportional spool. forces : of each edge its flow, its nodes, and its force over Q √Δp."""
+def _add_drive(builder: SystemBuilder, component: SpoolValve, position: int) -> int:
+    """A proportional spool. Returns the state that is its speed, or NONE."""
     name, omega = component.name, 2.0 * math.pi * (component.frequency or 0.0)
     solenoid, dither = component.solenoid, component.dither
     state, speed, play = NONE, NONE, NONE
@@ -89,11 +84,8 @@ def _add_drive(
     amplitude = dither.amplitude if dither is not None else 0.0
     numbers = [least, omega, component.damping_ratio, preload, friction, slow, component.hysteresis]
     numbers += [component.dead_band, amplitude, 2.0 * math.pi * (dither.frequency if dither is not None else 0.0)]
-    numbers += [component.transition, *(force for *_, force in forces)]
-    columns = [position, state, speed, command, play, curve, *(column for *its, _ in forces for column in its)]
-    builder.elements.add(spool_drive.drive, columns, numbers)
-    if forces:
-        builder.elements.add(spool_drive.close, columns, numbers)
+    builder.elements.add(spool_drive.drive, [position, state, speed, command, play, curve], numbers)
+    return speed
 
 
 def _full_force(component: SpoolValve) -> float:
@@ -103,10 +95,8 @@ def _full_force(component: SpoolValve) -> float:
     return component.solenoid.spring * component.stroke
 
 
-def _add_edge(
-    builder: SystemBuilder, component: SpoolValve, pair: str, edge: Edge, position: int
-) -> tuple[int, int, int, float]:
-    """An edge with its curves. Returns its flow, its nodes, and the force of its flow over Q √Δp, of full springs."""
+def _add_edge(builder: SystemBuilder, component: SpoolValve, pair: str, edge: Edge, position: int, speed: int) -> None:
+    """An edge with its curves; speed : state of the spool on which its flow acts, or NONE."""
     ports = ends_of(pair)
     assert ports is not None  # the record was checked
     a, b = (builder.node(component.ports[port]) for port in ports)
@@ -116,13 +106,14 @@ def _add_edge(
     density = builder.circuit.fluids[builder.circuit.nodes[component.ports[ports[0]]].fluid][4]
     drops, curves = conductances(component, edge, density)
     tables = [_curve(builder, curve) for curve in curves]
-    numbers = [component.transition, edge.leakage, *drops]
-    builder.elements.add(metering.apply, [output, a, b, position, *tables], numbers)
-    if component.solenoid is None:
-        return output, a, b, 0.0
-    opens = -1.0 if opens_backwards(curves[0]) else 1.0
-    force = math.sqrt(2.0 * density) * math.cos(edge.jet_angle) / _full_force(component)
-    return output, a, b, -opens * force
+    force = 0.0
+    if speed != NONE:
+        builder.touch_state(speed)
+        opens = -1.0 if opens_backwards(curves[0]) else 1.0
+        jet = math.sqrt(2.0 * density) * math.cos(edge.jet_angle) / _full_force(component)
+        force = -opens * jet * (2.0 * math.pi * (component.frequency or 0.0)) ** 2
+    numbers = [component.transition, edge.leakage, force, *drops]
+    builder.elements.add(metering.apply, [output, a, b, position, speed, *tables], numbers)
 
 
 def conductances(component: SpoolValve, edge: Edge, density: float) -> tuple[list[float], list[Table]]:
@@ -236,6 +227,6 @@ OF_VALVES = {
 }
 OF_SECTIONS = {spool.move: MOVE, spool.lift: LIFT, restriction.apply: RESTRICT}
 KINDS = (
-    ComponentKind(SpoolValve, add_spool_valve, (*OF_VALVES, spool_drive.close), symbols.spool_valve, OF_VALVES),
+    ComponentKind(SpoolValve, add_spool_valve, tuple(OF_VALVES), symbols.spool_valve, OF_VALVES),
     ComponentKind(Section, add_section, tuple(OF_SECTIONS), symbols.section, OF_SECTIONS, inner_nodes("M", "C")),
 )

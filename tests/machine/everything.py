@@ -337,6 +337,14 @@ EVERYTHING = {
             "backward_efficiency": 0.8,
         },
         {
+            "name": "capstan",
+            "type": "rope",
+            "markers": ["tip", "base", "eye"],
+            "radii": [0, "5 cm", 0],
+            "stiffness": "1 kN/m",
+            "friction": 0.2,
+        },
+        {
             "name": "hoist",
             "type": "rope",
             "markers": ["tip", "eye"],

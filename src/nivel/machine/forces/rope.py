@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Damping, NotNegativeNumber, Stiffness
+from nivel.machine.core.coefficient import Damping, NotNegativeNumber, PositiveNumber, Stiffness
 from nivel.machine.core.marker import ManyMarkers, Marker
 from nivel.machine.core.record import BodyName
 from nivel.machine.forces.between import End, GlobalPoint
@@ -26,10 +26,10 @@ class Rope(ForceElement):
 
     Its tension is stiffness · (s - length) + damping · (ṡ - speed), s being the way along the points; it never pushes. With a `speed`
     its first end is on a winch: the unstressed length is a state, which begins at `length` and changes by the speed.
-    Pulleys have no friction. An end with a radius is a drum, on which the rope is fixed and `wound`.
+    Pulleys have no friction, unless it is given. An end with a radius is a drum, on which the rope is fixed and `wound`.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch")
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch", "last_tension")  # the latter with `friction`
 
     type: Literal["rope"] = "rope"
     markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
@@ -58,6 +58,11 @@ class Rope(ForceElement):
     wound: Annotated[Maybe[TwoNumbers[NotNegativeNumber]], BeforeValidator(listed)] = Field(
         default=None,
         description="turns on the drums at the first and the last end, as placed; the rope is fixed behind them",
+    )
+    friction: Maybe[PositiveNumber] = Field(
+        default=None,
+        description="coefficient of friction on the wheels between the ends, on which the rope sticks or slips",
+        absent="none, of wheels that turn freely on the rope",
     )
     speed: Maybe[Speed] = Field(default=None, description="by which a winch pays rope out, negative: hauls it in")
 
@@ -93,11 +98,15 @@ class Rope(ForceElement):
 
     def _problems_of_wheels(self) -> Iterator[Problem]:
         if self.radii is None:
-            for name in ("axis", "wound"):
+            for name in ("axis", "wound", "friction"):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "belongs to `radii`, one for each point")
             return
         count = len(self.markers or self.points or ())
+        if self.friction is not None and not any(self.radii[1:-1]):
+            yield superfluous("friction", "belongs to a wheel between the ends, and none has a radius")
+        if self.friction is not None and not self.stiffness:
+            yield Problem(("stiffness",), "`stiffness` is zero: a rope with `friction` needs one")
         if len(self.radii) != count:
             yield Problem(("radii",), f"one radius for each point is needed, 0 for a point; there are {count} points")
         elif not any(self.radii):

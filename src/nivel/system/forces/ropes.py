@@ -9,8 +9,8 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.bodies.coordinate import DISTANCE
+from nivel.kernels.forces import capstan_rope, wound_rope
 from nivel.kernels.forces import rope as straight
-from nivel.kernels.forces import wound_rope
 from nivel.kernels.forces.wound_rope import WIDTH, tangent
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Rope
@@ -42,7 +42,8 @@ def add(builder: SystemBuilder, rope: Rope) -> None:
 
 def _numbered(builder: SystemBuilder, rope: Rope, unstressed: float) -> tuple[int, int, int]:
     """The first output, the state of the length and the function of the winch's speed, or NONE."""
-    first = force_outputs(builder, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
+    last = [("last_tension", "N", "tension at the last end")] if rope.friction is not None else []
+    first = force_outputs(builder, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"), *last)
     if rope.speed is None:
         return first, NONE, NONE
     fact = StateFact(f"{rope.name}.length", "m", f"unstressed length of {rope.name}", unstressed, scale=unstressed)
@@ -61,7 +62,13 @@ def _add_wound(builder: SystemBuilder, rope: Rope, radii: tuple[float, ...]) -> 
     for radius, arc, fixed in zip(radii, way.arcs, way.fixed, strict=True):
         numbers += [radius, arc, fixed, *[0.0] * (WIDTH - 3)]
     columns = [*_numbered(builder, rope, unstressed), len(markers), carrier, *markers]
-    builder.elements.add(wound_rope.apply, columns, numbers, memory=1 + len(markers), surfaces=(0,))
+    if rope.friction is None:
+        builder.elements.add(wound_rope.apply, columns, numbers, memory=1 + len(markers), surfaces=(0,))
+        return
+    numbers += [rope.friction, way.length]
+    for part, share in zip(way.parts, way.shares, strict=True):
+        numbers += [rope.stiffness * way.length / share, *part, *[0.0] * (capstan_rope.PART - 3)]
+    builder.elements.add(capstan_rope.apply, columns, numbers, memory=1 + 2 * len(way.parts) + len(markers))
 
 
 @dataclass(frozen=True)
@@ -69,7 +76,8 @@ class Way:
     """The way of a rope around wheels as its bodies are placed.
 
     axes (3, 3) : global, z along those of the wheels. places : body and centre (3,) of each. arcs [rad], fixed [rad] : of each place, the
-    latter the direction in which the rope is fixed on a drum. length [m] : in all.
+    latter the direction in which the rope is fixed on a drum. length [m] : in all. parts : of each free one L - ρ α and α, as
+    `nivel.kernels.forces.capstan_rope` has them. shares [m] : of the length that each has, with half of the arcs at its ends.
     """
 
     axes: Array
@@ -77,6 +85,8 @@ class Way:
     arcs: list[float]
     fixed: list[float]
     length: float
+    parts: list[tuple[float, float]]
+    shares: list[float]
 
 
 def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> Way:
@@ -105,7 +115,15 @@ def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) 
             touched = float(np.angle(-1j * sign * parts[k][1]))
             fixed[k] = touched + (-sign if k == 0 else sign) * arcs[k]
     length = sum(part for part, _ in parts) + sum(abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True))
-    return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length)
+    angles = [float(np.angle(direction)) for _, direction in parts]
+    ways = [
+        (part - (radii[k + 1] - radii[k]) * angle, angle)
+        for k, ((part, _), angle) in enumerate(zip(parts, angles, strict=True))
+    ]
+    rims = [abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True)]
+    ends = [1.0 if k in (0, len(radii) - 1) else 0.5 for k in range(len(radii))]
+    shares = [part + ends[k] * rims[k] + ends[k + 1] * rims[k + 1] for k, (part, _) in enumerate(parts)]
+    return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length, ways, shares)
 
 
 def first_wheel(radii: tuple[float, ...]) -> int:
@@ -136,4 +154,4 @@ def _with_z(axis: Array) -> Array:
     return np.column_stack([x, np.cross(axis, x), axis])
 
 
-KINDS = (ForceKind(Rope, add, (straight.apply, wound_rope.apply)),)
+KINDS = (ForceKind(Rope, add, (straight.apply, wound_rope.apply, capstan_rope.apply)),)

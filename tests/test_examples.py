@@ -78,6 +78,13 @@ def test_machine_written_in_python_runs_and_round_trips(tmp_path):
     np.testing.assert_array_equal(again.array("position"), result.array("position"))
 
 
+def test_the_rod_that_is_found_puts_the_slider_there():
+    example = runpy.run_path(str(EXAMPLES / "mechanisms" / "slider_place.py"))
+    rod = example["machine"].with_values({example["LENGTH"]: example["find_length"]()})
+    place = rod.simulate().array(example["PLACE"])[-1]
+    assert place == pytest.approx(example["WANTED"], abs=1e-9)
+
+
 def test_double_pendulum_matches_its_two_equations():
     """Lagrange's equations of two bars, relative to the vertical, written here; DOP853 at 1e-12."""
     from scipy.integrate import solve_ivp

@@ -67,7 +67,11 @@ BY_ADDRESS = [f"joints.{name}" for name in ("call_motion", "carry_child", "joint
 # so are functions of FMUs and C: tests/fmu runs what calls them
 BY_ADDRESS += [f"fmu.{name}" for name in ("failed", "go_on", "initialise", "take_step", "transfer")]
 BY_ADDRESS += ["c_function.call"]
-LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS, *BY_ADDRESS}
+# what only slopes of whole runs need, which are compiled: tests/analysis/test_gradients.py
+OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction", "balance", "variable_corrector")]
+OF_SLOPES += ["lanes.steepest", "direct.are_steep", "independent.is_steep", "crossing.root", "shifted_along.add_slopes"]
+OF_SLOPES += ["residual_newton.steepness_of_change"]
+LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS, *BY_ADDRESS, *OF_SLOPES}
 
 
 def settings_of(path):

@@ -399,6 +399,17 @@ EVERYTHING = {
             "point": [0, 0, "1 cm"],
             "towards": ["0.1*time", 0, 1],
         },
+        {
+            "name": "heap",
+            "type": "contacts",
+            "between": ["a", "b"],
+            "planes": ["base"],
+            "stiffness": "5 N/m^1.5",
+            "exponent": 1.5,
+            "restitution": 0.5,
+            "friction": 0.3,
+            "friction_transition_speed": "1 mm/s",
+        },
         {"name": "billiards", "type": "contact", "bodies": ["a", "b"], "materials": [STEEL, STEEL], "restitution": 0.9},
     ],
     "inputs": [

@@ -178,8 +178,12 @@ CASES = {
     "spheres": Case({**CONTACT, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
                     {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
                                 "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
-    "capsule": Case(ON_FLOOR, ON, True, shape("c", "capsule", radius=0.2, length=0.5)),
-    "capsule, sticks": Case(ON_FLOOR_STICKING, ON, True, shape("c", "capsule", radius=0.2, length=0.5)),
+    "contacts": Case({"type": "contacts", "between": ["c", "ball"], "planes": ["floor"], "stiffness": 3e3, "restitution": 0.6,
+                      "friction": 0.3, "friction_transition_speed": 0.8}, ("c", "ball", [0.3, 0.4, 0.3]), True,
+                     {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
+                                 "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
+    "capsule": Case(ON_FLOOR, ON, True, shape("c", "capsule", radius=0.25, length=0.5)),
+    "capsule, sticks": Case(ON_FLOOR_STICKING, ON, True, shape("c", "capsule", radius=0.25, length=0.5)),
     **{f"sphere and {name}": round_pair({"type": "sphere", "radius": 0.35}, other, [-0.5, -0.3, 0.1])
        for name, other in OTHERS.items()},
     **{f"capsule and {name}": round_pair({"type": "capsule", "radius": 0.2, "length": 0.5}, other, [-0.45, -0.25, 0.15])

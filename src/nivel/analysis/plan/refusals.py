@@ -10,7 +10,7 @@ from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.screw_couplings import screws_as_couplings
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine.forces import Contact, Friction, Stop, TransmissionLoss, holds_by_capacity, is_sticking
+from nivel.machine.forces import Contact, Contacts, Friction, Stop, TransmissionLoss, holds_by_capacity, is_sticking
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.joints.driver import RATES
 from nivel.machine.laws.functions import functions_in
@@ -37,7 +37,7 @@ BLOW = 1e-3
 
 def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
     """Stops and contacts that start far inside what they touch: they would throw the machine apart."""
-    if not any(isinstance(force, Stop | Contact) for force in machine.forces):
+    if not any(isinstance(force, Stop | Contact | Contacts) for force in machine.forces):
         return
     motion.evaluate(0.0, y)
     system, faults = motion.system, []
@@ -45,7 +45,7 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
     reports = reported(system.layout, len(values))
     names = [variable.name for variable in reports]
     for force in machine.forces:
-        if isinstance(force, Stop | Contact):
+        if isinstance(force, Stop | Contact | Contacts):
             place = names.index(f"force.{force.name}.depth")
             depth, units = float(values[place]), reports[place].units
             deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
@@ -140,7 +140,7 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
     if machine.simulation.stabilisation != "geometric":
         return
     faults = []
-    sudden = [force.name for force in machine.forces if isinstance(force, Contact | Stop)]
+    sudden = [force.name for force in machine.forces if isinstance(force, Contact | Contacts | Stop)]
     if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
         message = (
             f"'geometric' scales all velocities to conserve energy. It would also correct the error of a fixed step in which "

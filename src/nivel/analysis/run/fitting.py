@@ -26,11 +26,12 @@ from nivel.errors import ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.core.status import NOT_FINITE
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces import Contact, Stop, is_sticking
+from nivel.machine.forces import Contact, Contacts, Stop, is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 from nivel.methods import chooses
 from nivel.system.forces.contacts import tangent_stiffness
+from nivel.system.forces.heaps import spheres_between
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
 
@@ -173,8 +174,8 @@ def _at(prepared: Prepared, y: Array, t: float) -> Fastest | None:
     return found
 
 
-def _touching(machine: MachineRecord) -> list[Contact | Stop]:
-    return [each for each in machine.forces if isinstance(each, Contact | Stop)]
+def _touching(machine: MachineRecord) -> list[Contact | Contacts | Stop]:
+    return [each for each in machine.forces if isinstance(each, Contact | Contacts | Stop)]
 
 
 def _of_contacts(machine: MachineRecord, *, sticking: bool = False) -> Iterator[Rate]:
@@ -184,21 +185,26 @@ def _of_contacts(machine: MachineRecord, *, sticking: bool = False) -> Iterator[
     for each in _touching(machine):
         if sticking and not is_sticking(each):
             continue
-        kind = "contact" if isinstance(each, Contact) else "end stop"
+        kind = "end stop" if isinstance(each, Stop) else "contact"
         mass = _mass_at(machine, each)
         stiffness = tangent_stiffness(machine, each, HIT * mass * gravity)
         if stiffness is not None and stiffness > 0.0:
             rate = sqrt(stiffness / mass)
             yield Rate(rate, IN_IMPACTS / rate, f"the {kind} {each.name}")
-        if isinstance(each, Contact) and each.friction > 0.0 and each.friction_transition_speed is not None:
+        if not isinstance(each, Stop) and each.friction > 0.0 and each.friction_transition_speed is not None:
             rate = each.friction * gravity / each.friction_transition_speed
             yield Rate(rate, INTEGRATORS["rk4"].held / rate, f"the friction of the contact {each.name}")
 
 
-def _mass_at(machine: MachineRecord, force: Contact | Stop) -> float:
+def _mass_at(machine: MachineRecord, force: Contact | Contacts | Stop) -> float:
     """What two bodies that touch move against each other, the ground being at rest: the mass 1/Σ 1/m, of angles the like of moments of
     inertia, at least [kg or kg m²]."""
-    if isinstance(force, Contact):
+    if isinstance(force, Contacts):
+        lightest = sorted(
+            spheres_between(machine, force), key=lambda name: mass_properties(machine.body_named[name]).mass
+        )
+        names, turns = lightest[:2], False
+    elif isinstance(force, Contact):
         names = force.bodies or (force.body,)
         turns = False
     else:

@@ -13,6 +13,7 @@ from nivel.machine.forces.bushing import Bushing
 from nivel.machine.forces.characteristic import Characteristic, EffortTable, ForceTable, TorqueTable
 from nivel.machine.forces.clutch import Brake, Clutch
 from nivel.machine.forces.contact import Contact, Material
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.forces.drive_line import DriveLine
 from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
@@ -50,6 +51,7 @@ FORCES: list[type[ForceElement]] = [
     Bushing,
     ThreeAxisSpring,
     Contact,
+    Contacts,
     Rope,
     Brake,
     Clutch,
@@ -90,6 +92,7 @@ __all__ = [
     "Characteristic",
     "Clutch",
     "Contact",
+    "Contacts",
     "DcMotor",
     "DriveLine",
     "EffortTable",

@@ -9,7 +9,7 @@ from typing import Any, Final
 from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
-from nivel.machine.forces import Contact
+from nivel.machine.forces import Contact, Contacts
 from nivel.machine.forces.contact import HULLS, ROUND, SHAPES_ON_PLANE
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
@@ -136,6 +136,12 @@ def _of_curve(coupling: Any, index: Index, parameters: Parameters, place: Place)
 def _of_force(force: Any, index: Index, place: Place) -> Faults:
     if entry(force, "type") == Contact.model_fields["type"].default:
         yield from _of_contact(force, index, place)
+        return
+    if entry(force, "type") == Contacts.model_fields["type"].default:
+        for at, name in enumerate(as_list(entry(force, "between"))):
+            yield from _of_shape(name, index, ("sphere",), (*place, "between", at))
+        for at, plane in enumerate(as_list(entry(force, "planes"))):
+            yield from _of_end(plane, index, (*place, "planes", at))
         return
     yield from _unknown_body(entry(force, "body"), index, (*place, "body"))
     marker = entry(force, "marker")

@@ -17,7 +17,7 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.core.placement import frame_from_axes
-from nivel.machine.forces import Bushing, Contact, Material, Stop
+from nivel.machine.forces import Bushing, Contact, Contacts, Material, Stop
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
@@ -112,10 +112,10 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     builder.elements.add(family, columns, numbers, points, tuple(range(points)))
 
 
-def tangent_stiffness(machine: MachineRecord, force: Contact | Stop, load: float) -> float | None:
+def tangent_stiffness(machine: MachineRecord, force: Contact | Contacts | Stop, load: float) -> float | None:
     """About the stiffness [N/m or N m/rad] of a contact at one point or an end stop under a `load` [N or N m], or of a foundation over a
     whole side of the smaller body; None with a law of its own."""
-    if isinstance(force, Stop):
+    if isinstance(force, Stop | Contacts):
         return force.exponent * load / (load / force.stiffness) ** (1.0 / force.exponent)
     if force.foundation_modulus is not None:
         hulls = [hull_of(machine.body_named[name]) for name in force.bodies or ()]

@@ -1,0 +1,65 @@
+"""Contacts of many spheres, each with each other and with planes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator
+
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, PositiveSpeed, Restitution
+from nivel.machine.core.marker import ManyMarkers
+from nivel.machine.core.record import GROUND, BodyName
+from nivel.machine.forces.contact import HERTZ
+from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.given import Field, ManyNames, Maybe
+from nivel.machine.power_stiffness import PowerStiffness
+from nivel.machine.units.quantity import listed
+
+ALL = "all"
+
+
+def _all_or_names(value: Any) -> Any:
+    return () if isinstance(value, str) and value == ALL else listed(value)
+
+
+class Contacts(ForceElement):
+    """Spheres that push each other and planes apart: force stiffness · depth ** exponent, damped; with Coulomb friction that creeps."""
+
+    outputs: ClassVar[tuple[str, ...]] = (
+        *OUTPUTS,
+        "depth",
+        "normal_force",
+        "friction_force",
+        "friction_power",
+        "count",
+    )
+
+    type: Literal["contacts"] = "contacts"
+    between: Annotated[ManyNames[BodyName], BeforeValidator(_all_or_names)] = Field(
+        description="`all` bodies whose shape is a sphere, or the names of some: each touches each other"
+    )
+    planes: Annotated[ManyMarkers, BeforeValidator(listed)] = Field(
+        default=(), description="markers: all bodies touch them too, on the side of the z axis"
+    )
+    stiffness: PowerStiffness = Field(description="force by depth ** exponent")
+    exponent: Exponent = Field(default=HERTZ, description="of the depth")
+    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
+    friction_transition_speed: Maybe[PositiveSpeed] = Field(
+        default=None, description="friction goes as tanh(sliding speed / this), so bodies creep"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        if len(self.between) == 1:
+            yield Problem(("between",), "at least two bodies are needed: names, or `all`")
+        if GROUND in self.between:
+            yield Problem(("between",), f"`{GROUND}` has no shape: give `planes`")
+        if len(set(self.between)) < len(self.between):
+            twice = next(each for each in self.between if self.between.count(each) > 1)
+            yield Problem(("between",), f"`{twice}` is there twice")
+        if self.friction > 0 and self.friction_transition_speed is None:
+            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        if self.friction_transition_speed is not None and not self.friction:
+            yield superfluous("friction_transition_speed", "belongs to `friction`, and none is given")

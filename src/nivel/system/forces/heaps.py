@@ -1,0 +1,49 @@
+"""Contacts of many spheres in numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.forces import heap
+from nivel.machine.bodies.shape import Sphere
+from nivel.machine.forces import Contacts
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.builder import SystemBuilder
+from nivel.system.forces.kind import ForceKind
+from nivel.system.forces.outputs import force_outputs, magnitude_and_power
+from nivel.system.forces.restitution import damping_of_restitution
+
+
+def spheres_between(machine: MachineRecord, force: Contacts) -> list[str]:
+    """Names of the bodies that touch each other."""
+    return list(force.between) or [body.name for body in machine.bodies if isinstance(body.shape, Sphere)]
+
+
+def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
+    """One row for all pairs, with a place to remember for each: of every sphere those with the planes, then with the spheres before it."""
+    first = force_outputs(
+        builder,
+        force.name,
+        *magnitude_and_power("N"),
+        ("depth", "m", "deepest overlap"),
+        ("normal_force", "N", "sum of the normal forces"),
+        ("friction_force", "N", "sum of the friction forces"),
+        ("friction_power", "W", "power that friction turns to heat"),
+        ("count", "1", "number of pairs that touch"),
+    )
+    names = spheres_between(builder.machine, force)
+    markers, radii = [], []
+    for name in names:
+        shape = builder.machine.body_named[name].shape
+        assert isinstance(shape, Sphere)  # the record was checked
+        markers.append(builder.place((name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), np.eye(3))))
+        radii.append(shape.radius)
+    planes = [builder.end(plane) for plane in force.planes]
+    numbers = [force.stiffness, force.exponent, damping_of_restitution(force.restitution), force.friction]
+    numbers += [force.friction_transition_speed or 1.0, *[0.0] * (heap.RADII - heap.POINT), *radii]
+    places = len(names) * len(planes) + len(names) * (len(names) - 1) // 2
+    columns = [first, len(names), len(planes), *markers, *planes]
+    builder.elements.add(heap.apply, columns, [float(each) for each in numbers], places, tuple(range(places)))
+
+
+KINDS = (ForceKind(Contacts, add_contacts, (heap.apply,)),)

@@ -1,0 +1,83 @@
+"""Contacts of many spheres from one entry: those of pairs, impacts in a row, heaps at rest."""
+
+import numpy as np
+import pytest
+
+from nivel.errors import ModelError
+from simulating import G, simulate
+
+BALL = {"shape": {"type": "sphere", "radius": 0.05}, "density": 2500}
+PAIR = {"stiffness": 2e5, "exponent": 1, "restitution": 0.6}
+FLOOR = {"body": "ground", "axis": [0, 0, 1]}
+
+
+def balls(*places, **more):
+    return {f"ball_{k}": {**BALL, "position": list(place), **more} for k, place in enumerate(places)}
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "dopri5"])
+def test_one_entry_is_all_pairs(integrator):
+    """Three balls that are thrown at each other on a floor move as with six contacts."""
+    bodies = balls([0, 0, 0.0499], [0.11, 0.01, 0.0499], [0.05, 0.12, 0.06])
+    bodies["ball_0"]["velocity"], bodies["ball_2"]["velocity"] = [1, 0.2, 0], [0, -1, 0]
+    sections = {"gravity": [0, 0, -G], "bodies": bodies, "markers": {"floor": FLOOR}}
+    rub = {"friction": 0.3, "friction_transition_speed": 0.1}
+    names = list(bodies)
+    single = {f"{name}_floor": {"type": "contact", "body": name, "plane": "floor"} for name in names}
+    for k, name in enumerate(names):
+        single |= {f"{name}_{other}": {"type": "contact", "bodies": [name, other]} for other in names[:k]}
+    single = {name: {**each, **PAIR, **rub, "friction_model": "coulomb"} for name, each in single.items()}
+    group = {"heap": {"type": "contacts", "between": "all", "planes": ["floor"], **PAIR, **rub}}
+    settings = {"integrator": integrator, "step": 2e-5, "duration": 0.2, "output_interval": 0.01}
+    if integrator == "dopri5":
+        settings["tolerance"] = 1e-9
+    first, second = (simulate({**sections, "forces": forces}, **settings) for forces in (single, group))
+    for name in names:
+        np.testing.assert_allclose(second.array(f"{name}.position"), first.array(f"{name}.position"), atol=1e-8)
+    assert second.array("force.heap.count").max() >= 2
+    total = sum(first.array(f"force.{name}.normal_force") for name in single)
+    np.testing.assert_allclose(second.array("force.heap.normal_force"), total, rtol=1e-5, atol=1e-3)
+
+
+def test_a_row_of_balls_passes_its_momentum_on():
+    """Newton's cradle without loss and with gaps: the last ball leaves with the speed of the first."""
+    bodies = balls(*([0.12 * k, 0, 0] for k in range(5)))
+    bodies["ball_0"]["velocity"] = [1, 0, 0]
+    group = {"heap": {"type": "contacts", "between": list(bodies), **PAIR, "restitution": 1}}
+    settings = {"integrator": "dopri5", "tolerance": 1e-9, "duration": 0.3}
+    r = simulate({"gravity": [0, 0, 0], "bodies": bodies, "forces": group}, **settings)
+    speeds = [r.array(f"ball_{k}.velocity.x")[-1] for k in range(5)]
+    np.testing.assert_allclose(speeds, [0, 0, 0, 0, 1], atol=1e-6)
+    assert np.abs(r.array("energy_error")).max() < 1e-6
+
+
+def test_a_heap_presses_on_the_floor_with_its_weight():
+    """Four balls in a pit of four walls: at rest the vertical forces of the walls are the weight, whatever the balls do between them."""
+    s = np.sqrt(0.5)
+    walls = [{"body": "ground", "axis": axis} for axis in ([s, 0, s], [-s, 0, s], [0, s, s], [0, -s, s])]
+    bodies = balls([0.06, 0, 0.2], [-0.06, 0.001, 0.2], [0, 0.06, 0.32], [0.002, -0.06, 0.32])
+    group = {"heap": {"type": "contacts", "between": "all", "planes": walls, **PAIR, "restitution": 0.2}}
+    r = simulate({"gravity": [0, 0, -G], "bodies": bodies, "forces": group}, integrator="rk4", step=1e-4, duration=2.0)
+    mass = 4 * 2500 * 4 / 3 * np.pi * 0.05**3
+    # momentum: ∫ (walls - weight) dt = change; at rest the whole is still
+    assert sum(np.abs(r.array(f"ball_{k}.velocity")[-1]).max() for k in range(4)) < 0.05
+    fallen = sum(r.array(f"ball_{k}.position.z")[0] - r.array(f"ball_{k}.position.z")[-1] for k in range(4)) / 4
+    assert r.array("dissipated_energy")[-1] == pytest.approx(mass * G * fallen, rel=1e-2)
+    assert np.abs(r.array("energy_error")).max() < 1e-3 * mass * G * fallen
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"between": ["ball_0"]}, "at least two"),
+        ({"between": ["ball_0", "box"]}, "sphere"),
+        ({"between": ["ball_0", "ball_0"]}, "twice"),
+        ({"friction": 0.3}, "friction_transition_speed"),
+        ({"planes": ["flor"]}, "flor"),
+    ],
+)
+def test_what_cannot_be_a_heap_is_refused(changes, said):
+    bodies = {**balls([0, 0, 0], [1, 0, 0]), "box": {"mass": 1, "shape": {"type": "box", "size": [1, 1, 1]}}}
+    forces = {"heap": {"type": "contacts", "between": ["ball_0", "ball_1"], **PAIR, **changes}}
+    with pytest.raises(ModelError, match=said):
+        simulate({"bodies": bodies, "markers": {"floor": FLOOR}, "forces": forces}, duration=0.1)

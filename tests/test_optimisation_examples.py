@@ -18,20 +18,25 @@ from friction_and_damping import identified  # noqa: E402
 from swing_free import swing_free  # noqa: E402
 
 
-def reached_the_linkage(starts, seed):
-    machine, found = synthesised(starts, seed)
+def reached_the_linkage(starts, seed, **given):
+    machine, found = synthesised(starts, seed, **given)
     for path in LENGTHS:
         assert found.values[path] == pytest.approx(machine.parameters[path.partition(".")[2]], rel=1e-6)
-    return int((found.reached < 1e-12).sum())
+    return int((found.reached < 1e-12).sum()), found.evaluations
 
 
 def test_a_linkage_is_found_from_its_coupler_curve():
-    assert reached_the_linkage(1, 0) == 1
+    """With exact slopes one run gives outputs and slopes, where differences of five parameters take eleven."""
+    reached, evaluations = reached_the_linkage(1, 0)
+    assert reached == 1
+    reached, by_differences = reached_the_linkage(1, 0, exact_slopes=False)
+    assert reached == 1
+    assert evaluations <= 0.1 * by_differences
 
 
 @pytest.mark.full
 def test_a_linkage_is_found_from_eight_of_ten_starts():
-    assert reached_the_linkage(10, 1) >= 8
+    assert reached_the_linkage(10, 1)[0] >= 8
 
 
 def chi_square(seed):
@@ -52,8 +57,8 @@ def test_the_covariance_covers_the_truth_of_100_records():
 
 
 def test_a_load_hangs_at_rest_and_costs_no_more_than_theory_allows():
-    """The least effort of the linear model is ΔᵀW⁻¹Δ with the Gramian W = ∫ e^{At} B Bᵀ e^{Aᵀt} dt (Kalman 1960); ten pieces are near."""
-    machine, tables, found = swing_free()
+    """The least effort of the linear model is ΔᵀW⁻¹Δ with the Gramian W = ∫ e^{At} B Bᵀ e^{Aᵀt} dt (Kalman 1960); eight pieces are near."""
+    machine, tables, found = swing_free(8)
     assert found.kept
     result = machine.simulate(inputs=tables, verify=False)
     assert result.array("rail.displacement")[-1] == pytest.approx(3.0, abs=1e-6)

@@ -24,10 +24,12 @@ def curve(machine: nivel.Machine):
     return {f"coupler.position.{axis}": (result.time, result.array(f"coupler.position.{axis}")) for axis in "xy"}
 
 
-def synthesised(starts: int = 10, seed: int = 1):
+def synthesised(starts: int = 10, seed: int = 1, exact_slopes: bool = True):
     """The linkage that the curve of the file was drawn with, and what was found without knowing it."""
     machine = nivel.load(HERE / "coupler-curve.yaml")
-    return machine, machine.identify(curve(machine), LENGTHS, starts=starts, seed=seed, iterations=60)
+    return machine, machine.identify(
+        curve(machine), LENGTHS, starts=starts, seed=seed, iterations=60, exact_slopes=exact_slopes
+    )
 
 
 if __name__ == "__main__":

@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from nivel.analysis.check.check import Check
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
+    from nivel.analysis.optimise.evaluations import Exact
     from nivel.analysis.optimise.identify import Identified
     from nivel.analysis.optimise.optimise import Optimum
     from nivel.analysis.run.many import Simulations
@@ -538,6 +539,7 @@ class Machine(Model):
         seed: int = 0,
         iterations: int = 200,
         accuracy: float = 1e-8,
+        exact_slopes: bool = False,
         threads: int | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
@@ -550,7 +552,8 @@ class Machine(Model):
         `scipy.optimize.minimize`, or `differential-evolution`. starts : the first is the machine's own values, the others are drawn from a
         Latin hypercube with `seed`. iterations : of each start, at most. accuracy : of the objective, as a share. settings : of the runs.
 
-        Slopes are differences of runs. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
+        Slopes are differences of runs; with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
+        outputs and slopes. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
         ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective.
         """
         from nivel.analysis.optimise.evaluations import box_of
@@ -569,8 +572,25 @@ class Machine(Model):
             most=iterations,
             tolerance=accuracy,
             threads=threads or processors(),
+            exact=chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
             listener=listener,
         )
+
+    def _exact_outputs(self, said: Sequence[str | Callable[..., float]]) -> Exact:
+        """Outputs and their slopes from one run. Raises ModelError for outputs that are functions."""
+        names = [each for each in said if isinstance(each, str)]
+        if len(names) < len(said):
+            message = "exact slopes are those of outputs in words, such as 'max(hinge.angle)', not of functions"
+            raise ModelError(Fault("", 0, 0, "exact_slopes", message))
+
+        def exact(values: Mapping[str, float]) -> tuple[Any, Any]:
+            import numpy as np
+
+            found = self.with_values(values).gradient(list(dict.fromkeys(names)), list(values), check=False)
+            rows = [[float(found[f"d({name})/d({path})"]) for path in values] for name in names]
+            return np.array([float(found[name]) for name in names]), np.array(rows)
+
+        return exact
 
     @checked_arguments
     def optimal_inputs(
@@ -623,6 +643,7 @@ class Machine(Model):
         seed: int = 0,
         iterations: int = 100,
         accuracy: float = 1e-10,
+        exact_slopes: bool = False,
         threads: int | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
@@ -632,7 +653,8 @@ class Machine(Model):
         data : a file (CSV, MAT, Parquet) with a column `time` and columns with names of results, each with its unit in the heading,
         ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. parameters : as in `optimise`. deviations : standard
         deviations of the signals, where they are known; else each signal is measured by how much it varies, and the covariance follows from
-        what is left. starts, seed, iterations, accuracy, settings : as in `optimise`.
+        what is left. exact_slopes : those of the run on dual numbers, in place of differences.
+        starts, seed, iterations, accuracy, settings : as in `optimise`.
 
         `found.covariance` is that of the parameters in their order, `found.undetermined` names those that the measurements do not tell
         apart. Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
@@ -647,6 +669,7 @@ class Machine(Model):
             chosen,
             box_of(chosen, parameters),
             signals_of(data, deviations or {}),
+            with_slopes=chosen._with_slopes if exact_slopes else None,
             starts=starts,
             seed=seed,
             most=iterations,
@@ -654,6 +677,10 @@ class Machine(Model):
             threads=threads or processors(),
             listener=listener,
         )
+
+    def _with_slopes(self, values: Mapping[str, float]) -> Result:
+        """The run with these values, with the slopes of all that it computes with respect to them."""
+        return self.with_values(values).simulate(verify=False, sensitivities=list(values))
 
     def _ready(self, settings: RunSettingsDict, listener: Listener | None) -> Machine:
         """The machine with these settings, whose runs are compiled."""

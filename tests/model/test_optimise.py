@@ -66,6 +66,14 @@ def test_several_starts_and_every_variant_are_kept(oscillator):
     assert found.dataset.attrs["prepared_because"] == "", "stiffness and damping are patched"
 
 
+def test_exact_slopes_lead_to_the_same_optimum(oscillator):
+    given = "rms(rail.displacement)", {STIFFNESS: (20.0, 80.0), DAMPING: (1.0, 9.0)}
+    differences, exact = (oscillator.optimise(*given, exact_slopes=each) for each in (False, True))
+    assert exact.objective == pytest.approx(differences.objective, rel=1e-7)
+    assert exact.evaluations < differences.evaluations
+    assert exact.dataset.sizes["variant"] == exact.evaluations
+
+
 def measured(machine, noise, seed, count=100):
     result = machine.simulate(verify=False)
     times = result.time[1 : count + 1]
@@ -139,6 +147,7 @@ def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
         (lambda m: m.optimise("maxx(rail.displacement)", {STIFFNESS: (1, 2)}), "did you mean `max`"),
         (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (2, 1)}), "bounds were expected"),
         (lambda m: m.optimise("max(rail.displacement)", {}), "nothing varies"),
+        (lambda m: m.optimise(result_stiffness, {STIFFNESS: (1, 2)}, exact_slopes=True), "not of functions"),
         (lambda m: m.optimise("block.position", {STIFFNESS: (1, 2)}), "one number was expected"),
         (lambda m: m.optimise("block.position.x at soon", {STIFFNESS: (1, 2)}), "a time was expected after `at`"),
         (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, method="SLQP"), "did you mean `SLSQP`"),

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.sweep.batch import VariantRuns, formulas_for
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, NivelError
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model
@@ -21,7 +21,7 @@ from nivel.words.wording import shown
 
 Array = NDArray[np.float64]
 Reader = Callable[[Result], Array]
-# exact slopes: parameters by path to outputs (m,) and slopes (m, d)
+# parameters by path to outputs (m,) and exact slopes (m, d), from one run
 Exact = Callable[[Mapping[str, float]], tuple[Array, Array]]
 
 # differences are taken over this share of the range of a parameter
@@ -111,8 +111,14 @@ class Evaluations:
     def __init__(
         self, machine: Model, box: Box, read: Reader, count: int, *, threads: int = 1, exact: Exact | None = None
     ) -> None:
-        """read : the outputs (count,) of a result."""
+        """read : the outputs (count,) of a result. exact : outputs with their slopes; None: differences."""
         self.box, self._read, self._count, self._exact = box, read, count, exact
+        self._slopes: dict[bytes, Array] = {}
+        self.made: list[Evaluated] = []
+        self._known: dict[bytes, Array] = {}
+        self.start, self._threads, self.prepared_because = 0, 1, "slopes are exact"
+        if exact is not None:
+            return
         rng = np.random.default_rng(0)
         rows = [
             box.values(z) for z in (np.zeros(len(box.low)), np.ones(len(box.low)), *rng.random((SAMPLED, len(box.low))))
@@ -122,9 +128,6 @@ class Evaluations:
         self._threads = threads if self._patches is not None else 1
         for _ in range(self._threads):
             self._runs.put(VariantRuns(machine, self._patches))
-        self.made: list[Evaluated] = []
-        self._known: dict[bytes, Array] = {}
-        self.start = 0
 
     def at(self, z: Array) -> Array:
         """(m,) at a place in the unit cube."""
@@ -144,6 +147,24 @@ class Evaluations:
         return [self._known[z.tobytes()] for z in places]
 
     def _one(self, z: Array) -> Evaluated:
+        return self._run(z) if self._exact is None else self._with_slopes(z, self._exact)
+
+    def _with_slopes(self, z: Array, exact: Exact) -> Evaluated:
+        """A run on dual numbers."""
+        try:
+            outputs, slopes = exact(self.box.values(z))
+        except ModelError as error:
+            return self._without(z, "refused", error)
+        except NivelError as error:
+            return self._without(z, "failed", error)
+        self._slopes[z.tobytes()] = slopes * (self.box.high - self.box.low)
+        return Evaluated(z.copy(), outputs, "done", "", self.start)
+
+    def _without(self, z: Array, outcome: str, error: NivelError) -> Evaluated:
+        self._slopes[z.tobytes()] = np.full((self._count, len(z)), np.nan)
+        return Evaluated(z.copy(), np.full(self._count, np.nan), outcome, str(error), self.start)
+
+    def _run(self, z: Array) -> Evaluated:
         runs = self._runs.get()
         try:
             ran = runs.run(self.box.values(z))
@@ -159,8 +180,8 @@ class Evaluations:
     def slopes(self, z: Array) -> Array:
         """(m, d) derivatives with respect to places in the unit cube: exact ones, or differences to the side where there is room."""
         if self._exact is not None:
-            _, slopes = self._exact(self.box.values(z))
-            return slopes * (self.box.high - self.box.low)
+            self.at(z)
+            return self._slopes[z.tobytes()]
         d = len(z)
         steps = np.full(d, SHARE)
         places = []

@@ -7,7 +7,7 @@ found, the covariance is s² (Jᵀ J)⁻¹; s² = Σ r²/(n - p) where deviation
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any, Final
@@ -74,10 +74,11 @@ def identify(
     most: int = 100,
     tolerance: float = 1e-10,
     threads: int = 1,
-    exact: Any = None,
+    with_slopes: Callable[[Mapping[str, float]], Result] | None = None,
     listener: Listener | None = None,
 ) -> Identified:
-    """The parameters with the least squares. most : iterations of each start. Raises ModelError where no start has results."""
+    """The parameters with the least squares. with_slopes : the run of a variant with the slopes of its results; None: differences. most :
+    iterations of each start. Raises ModelError where no start has results."""
     from scipy.optimize import least_squares
 
     known = [each.deviation for each in signals]
@@ -96,7 +97,21 @@ def identify(
         ]
         return np.concatenate(rows)
 
-    begin = perf_counter()
+    def read_exact(values: Mapping[str, float]) -> tuple[Array, Array]:
+        assert with_slopes is not None
+        result = with_slopes(values)
+        columns = [
+            np.concatenate(
+                [
+                    at_times(result, f"d({each.name})/d({path})", each.times) / unit
+                    for each, unit in zip(signals, units, strict=True)
+                ]
+            )
+            for path in box.paths
+        ]
+        return read(result), np.array(columns).T
+
+    begin, exact = perf_counter(), None if with_slopes is None else read_exact
     evaluations = Evaluations(machine, box, read, count, threads=threads, exact=exact)
 
     def residuals(z: Array) -> Array:

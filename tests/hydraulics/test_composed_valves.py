@@ -161,6 +161,19 @@ def test_a_pilot_reducing_valve_closes_by_the_flow_of_its_pilot(a):
     assert (opening == 0.0) == (a == 95)
 
 
+@pytest.mark.parametrize(("drain", "pilot"), [(None, 24.0), (0.6e-3, 14.0)])
+def test_orifices_in_the_pilot_line_give_the_pilot_a_share_of_its_pressure(drain, pilot):
+    """Alike orifices from X at 24 bar and to V at 4 bar halve the difference, but for the densities; T drains the spring chamber."""
+    valve = {"type": "counterbalance-valve", **RATED, "opens_at": "120 bar", "lag": 0, "pilot_orifice": "0.6 mm"}
+    valve |= {} if drain is None else {"drain_orifice": drain}
+    flow, y, through = at_rest(valve, ("flow", "pressure_Y", "pilot_flow"), L=100, V=4, X=24, T=2)
+    assert y / BAR == pytest.approx(pilot, rel=2e-3)
+    control = 100 + 3 * y / BAR - 4 * 2 - 120
+    assert flow == pytest.approx(K * step(control / 80) * root(96 * BAR), rel=1e-6, abs=1e-9)
+    area = 0.65 * math.pi / 4 * 0.6e-3**2 * math.sqrt(2 / (0.995 * 870 + 0.005 * 1.2))
+    assert through == pytest.approx(area * root(24 * BAR - y), rel=1e-6, abs=1e-10)
+
+
 # --- sections ---
 def section(**more):
     return {"type": "section", **RATED, "overlap": 0.0, "lag": "1 ms"} | more

@@ -513,8 +513,10 @@ EVERYTHING = {
         {
             "name": "hold",
             "type": "counterbalance-valve",
-            "ports": {"L": "ram.A", "V": "line", "X": "ram.B"},
+            "ports": {"L": "ram.A", "V": "line", "X": "ram.B", "T": "tank"},
             "opens_at": "180 bar",
+            "pilot_orifice": "0.6 mm",
+            "drain_orifice": "0.4 mm",
             **_RATED,
         },
         {

@@ -13,13 +13,15 @@ from nivel.machine.core.coefficient import (
     PositiveNumber,
     Pressure,
     Truth,
+    Volume,
     VolumeFlow,
 )
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE
+from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME
 from nivel.machine.laws.time_function import OneFunction, varying
+from nivel.machine.units.quantity import PositiveLength
 
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
 
@@ -78,12 +80,17 @@ class ReliefValve(Rated):
 class CounterbalanceValve(Rated):
     """Holds a load at L until L and the pilot X open it towards V; from V to L fluid passes through a check valve.
 
-    Control pressure p_L + R p_X - (1 + R) p_V - opens_at; without p_V where the spring chamber is vented.
+    Control pressure p_L + R p_X - (1 + R) p_V - opens_at; without p_V where the spring chamber is vented, with p_T in its place where a
+    port T drains it. An orifice in the pilot line gives the pilot a chamber of its own, NAME.Y, and a delay.
     """
 
     needs: ClassVar[tuple[str, ...]] = ("L", "V", "X")
+    may: ClassVar[tuple[str, ...]] = ("T",)
+    nodes: ClassVar[tuple[str, ...]] = (".Y",)
+    sensing: ClassVar[tuple[str, ...]] = ("X", "T")
+    early: ClassVar[tuple[str, ...]] = ("pressure_Y",)
     functions: ClassVar[tuple[str, ...]] = ("opens_at",)
-    late: ClassVar[tuple[str, ...]] = ("flow", "check_flow", "position")
+    late: ClassVar[tuple[str, ...]] = ("flow", "check_flow", "position", "pilot_flow")
 
     type: Literal["counterbalance-valve"] = "counterbalance-valve"
     opens_at: VaryingPressure = Field(
@@ -102,6 +109,29 @@ class CounterbalanceValve(Rated):
     check_opens_at: NotNegativePressure = Field(default=0.5e5, usual=DIFFERENCE)
     check_opening_range: Pressure = Field(default=4e5, usual=DIFFERENCE)
     leakage: Leakage = Field(default=0.0)
+    pilot_orifice: Maybe[PositiveLength] = Field(
+        default=None, description="diameter of an orifice in the pilot line; default: none", usual=BORE
+    )
+    drain_orifice: Maybe[PositiveLength] = Field(
+        default=None, description="diameter of an orifice from behind it to V: the pilot is a share of X", usual=BORE
+    )
+    inner_volume: Volume = Field(default=2e-6, description="of the pilot chamber behind its orifice", usual=VOLUME)
+
+    @classmethod
+    def nodes_in(cls, data: Any) -> tuple[str, ...]:
+        return cls.nodes if entry(data, "pilot_orifice") is not None else ()
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        piloted = ("pressure_Y", "pilot_flow") if cls.nodes_in(data) else ()
+        return ("flow", "check_flow", "position", *piloted)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.vented and "T" in self.ports:
+            yield Problem(("vented",), "a spring chamber with a drain T is not vented; remove `vented`, or the port T")
+        if self.drain_orifice is not None and self.pilot_orifice is None:
+            yield Problem((), "`pilot_orifice` is missing: the pilot chamber stands between it and the `drain_orifice`")
 
     @property
     def check_conductance(self) -> float:

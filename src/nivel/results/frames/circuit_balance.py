@@ -20,7 +20,7 @@ from nivel.machine.hydraulics.spool_valve import ends_of
 from nivel.results.scales import Readable
 
 START: Final = "hydraulics."
-# ports that the flows of components go from and to, where their names do not say; "" is the component itself, M, N, C, X nodes within it
+# ports that the flows of components go from and to, where their names do not say; "" is the component itself, M, N, C, X, Y nodes within it
 ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "orifice": {"flow": ("A", "B")},
     "pipe": {"flow": ("A", "B")},
@@ -31,7 +31,12 @@ ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "sequence-valve": {"flow": ("P", "A"), "check_flow": ("A", "P")},
     "reducing-valve": {"flow": ("P", "A"), "relief_flow": ("A", "T")},
     "compensator": {"flow": ("P", "A")},
-    "counterbalance-valve": {"flow": ("L", "V"), "check_flow": ("V", "L")},
+    "counterbalance-valve": {
+        "flow": ("L", "V"),
+        "check_flow": ("V", "L"),
+        "pilot_flow": ("X", "Y"),
+        "drain_flow": ("Y", "V"),
+    },
     "cartridge-valve": {"flow": ("A", "B")},
     "shuttle-valve": {"flow_A": ("A", "C"), "flow_B": ("B", "C")},
     "priority-valve": {"flow_CF": ("P", "CF"), "flow_EF": ("P", "EF")},
@@ -61,7 +66,7 @@ ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "flow-source": {"flow": ("A", "B")},
 }
 DRIVEN: Final = ("pump", "hydraulic-motor", "flow-source")
-INNER: Final = ("M", "N", "C", "X")
+INNER: Final = ("M", "N", "C", "X", "Y")
 
 
 @dataclass(frozen=True)

@@ -131,7 +131,11 @@ def counterbalance(data: Mapping[str, Any]) -> Symbol:
     pilots = path("M-16 -15 H-30 V-4 H-26 M-36 26 V4 H-26", "dashed")
     frame = path("M-33 -22 H31 V22 H-33 Z", "frame")
     body, below = square + sides + check + pilots + frame, {"V": 0.0, "X": -36.0}
-    return Symbol(body, 36.0, 26.0, {"L": 0.0}, below, settings=in_bar(data, "opens_at"))
+    if data.get("pilot_orifice") is not None:
+        body += path("M-40 12 Q-36 15.5 -40 19 M-32 12 Q-36 15.5 -32 19")
+    if "T" in (data.get("ports") or {}):
+        body, below = body + path("M5 0 H10 V26", "dashed"), {**below, "T": 10.0}
+    return Symbol(body, 40.0, 26.0, {"L": 0.0}, below, settings=in_bar(data, "opens_at"))
 
 
 def pump(data: Mapping[str, Any]) -> Symbol:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nivel.kernels.hydraulics import restriction, spool
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from nivel.kernels.hydraulics.tangent import LIFT, RESTRICT
@@ -9,8 +11,10 @@ from nivel.machine.hydraulics import CheckValve, Compensator, CounterbalanceValv
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
+from nivel.system.hydraulics.nodes import inner_nodes
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppet, rated
 
+BORE_COEFFICIENT = 0.65  # discharge coefficient of orifices in pilot lines
 SLOPES = {spool.lift: LIFT, restriction.apply: RESTRICT}
 
 
@@ -35,13 +39,27 @@ def add_relief(builder: SystemBuilder, component: ReliefValve) -> None:
 
 
 def add_counterbalance(builder: SystemBuilder, component: CounterbalanceValve) -> None:
-    """p_L + R p_X - (1 + R) p_V against the spring; where that is vented, the air in place of p_V. And its check valve."""
+    """p_L + R p_X - (1 + R) p_V against the spring; where that is vented or drained, the air or p_T in place of p_V. And its check valve.
+
+    An orifice in the pilot line fills a chamber, whose pressure is that of the pilot; another one may drain that to V.
+    """
     ports, ratio = component.ports, component.pilot_ratio
+    pilot = ports["X"] if component.pilot_orifice is None else f"{component.name}.Y"
     factors = {ports["L"]: 1.0}
-    factors[ports["X"]] = factors.get(ports["X"], 0.0) + ratio
+    factors[pilot] = factors.get(pilot, 0.0) + ratio
     constant = -(1.0 + ratio) * ATMOSPHERE
     if not component.vented:
-        factors[ports["V"]], constant = factors.get(ports["V"], 0.0) - (1.0 + ratio), 0.0
+        behind = ports.get("T", ports["V"])
+        factors[behind], constant = factors.get(behind, 0.0) - (1.0 + ratio), 0.0
+    if component.pilot_orifice is not None:
+        density = builder.circuit.fluids[builder.circuit.nodes[ports["L"]].fluid][4]
+
+        def bore(diameter: float) -> list[float]:
+            return [BORE_COEFFICIENT * 0.25 * math.pi * diameter**2 * math.sqrt(2.0 / density), TRANSITION, 0.0]
+
+        add_flow(builder, component.name, "pilot_flow", (ports["X"], pilot), bore(component.pilot_orifice))
+        if component.drain_orifice is not None:
+            add_flow(builder, component.name, "drain_flow", (pilot, ports["V"]), bore(component.drain_orifice))
     numbers = (component.opening_range, component.lag, -1.0, constant)
     opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
     add_flow(builder, component.name, "flow", (ports["L"], ports["V"]), rated(component, component.leakage), opening)
@@ -74,12 +92,12 @@ def add_compensator(builder: SystemBuilder, component: Compensator) -> None:
 
 
 KINDS = tuple(
-    ComponentKind(words, add, tuple(SLOPES), symbol, SLOPES)
-    for words, add, symbol in (
-        (CheckValve, add_check, symbols.check),
-        (ReliefValve, add_relief, symbols.relief),
-        (CounterbalanceValve, add_counterbalance, symbols.counterbalance),
-        (ReducingValve, add_reducing, symbols.reducing),
-        (Compensator, add_compensator, symbols.compensator),
+    ComponentKind(words, add, tuple(SLOPES), symbol, SLOPES, nodes)
+    for words, add, symbol, nodes in (
+        (CheckValve, add_check, symbols.check, None),
+        (ReliefValve, add_relief, symbols.relief, None),
+        (CounterbalanceValve, add_counterbalance, symbols.counterbalance, inner_nodes("Y")),
+        (ReducingValve, add_reducing, symbols.reducing, None),
+        (Compensator, add_compensator, symbols.compensator, None),
     )
 )

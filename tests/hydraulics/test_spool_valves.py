@@ -144,10 +144,20 @@ def test_friction_of_a_spool_makes_hysteresis_of_its_current():
     assert down - up > 0.09
 
 
-def test_a_valve_that_switches_has_its_delays():
+@pytest.mark.parametrize("type_", ["spool-valve", "directional-valve"])
+def test_a_valve_that_switches_has_its_delays(type_):
     command = {"of": "time", "times": [0, 0.01, 0.0101, 0.2, 0.2001], "values": [0, 0, 1, 1, 0]}
     switching = {"on_delay": "20 ms", "off_delay": "40 ms", "time": "10 ms"}
     built = valve(METERED, command=command, switching=switching)
+    if type_ == "directional-valve":
+        built = {
+            "type": type_,
+            "ways": "2/2",
+            "command": command,
+            "switching": switching,
+            "flow": "40 L/min",
+            "pressure_drop": "8 bar",
+        }
     result = circuit(between(built, P=20 * BAR, A=10 * BAR)).simulate(
         duration=0.3, integrator="radau", tolerance=1e-7, output_interval=2e-4
     )

@@ -34,7 +34,8 @@ from nivel.machine.hydraulics.pressure_valves import (
 )
 from nivel.machine.hydraulics.restrictions import Line, Orifice, Pipe
 from nivel.machine.hydraulics.sections import Section
-from nivel.machine.hydraulics.spool_valve import Edge, Notch, Solenoid, SpoolValve, Switching
+from nivel.machine.hydraulics.spool_valve import Edge, Notch, Solenoid, SpoolValve
+from nivel.machine.hydraulics.switching import Switching
 from nivel.machine.hydraulics.valves import (
     CheckValve,
     Compensator,

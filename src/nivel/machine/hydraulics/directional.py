@@ -10,8 +10,9 @@ from pydantic import AfterValidator
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Frequency, Leakage, PositiveNumber, Share
 from nivel.machine.core.record import entry
-from nivel.machine.given import Field, Maybe, OneNumber
+from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.hydraulics.component import Rated, problem_of_share
+from nivel.machine.hydraulics.switching import Switching
 from nivel.machine.hydraulics.usual import SPOOL_FREQUENCY
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, fault
@@ -85,6 +86,9 @@ class DirectionalValve(Rated):
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     rate_limit: Maybe[Rate] = Field(default=None, description="greatest speed of the spool, full strokes per second")
     leakage: Leakage = Field(default=0.0, description="of each edge")
+    switching: Maybe[OneRecord[Switching]] = Field(
+        default=None, description="whether it is on or off alone, with its delays; `command` then counts above one half"
+    )
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:
@@ -110,5 +114,7 @@ class DirectionalValve(Rated):
             yield Problem(
                 ("rounding",), "an edge would not open within the stroke: overlap and rounding are more than 1"
             )
+        if self.switching is not None and self.frequency is not None:
+            yield superfluous("frequency", "belongs to a proportional valve; `switching` states how this one moves")
         if self.rate_limit is not None and self.frequency is None:
             yield Problem((), "`frequency` is missing: a spool with a `rate_limit` follows its command with it")

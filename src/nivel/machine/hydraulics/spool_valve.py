@@ -13,7 +13,6 @@ from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Frequency,
     Leakage,
-    NotNegativeDuration,
     NotNegativeForce,
     NotNegativeNumber,
     PositiveNumber,
@@ -25,10 +24,11 @@ from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Given, ManyNumbers, ManyRecords, Maybe, OneNumber, OneRecord
 from nivel.machine.hydraulics.component import Component, problem_of_share
 from nivel.machine.hydraulics.curve import Curve, CurveOf, SomeCurve
+from nivel.machine.hydraulics.switching import Switching
 from nivel.machine.hydraulics.usual import CURRENT, DIFFERENCE, SPOOL_FREQUENCY, SPOOL_STROKE
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.quantity import Angle, Duration, PositiveLength, Quantity, Whole, fault, listed
+from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, Whole, fault, listed
 
 POSITION, CURRENT_SYMBOL = "position", "current"
 PORTS = ("P", "T", "A", "B", "C", "R", "S", "LS")
@@ -154,14 +154,6 @@ class Dither(Checked):
 
     amplitude: PositiveNumber = Field(description="share of the full command, of the full force of solenoids")
     frequency: Frequency
-
-
-class Switching(Checked):
-    """Delays of a valve that is on or off: on where its command is above one half."""
-
-    on_delay: NotNegativeDuration = Field(default=0.0, description="from the command until it moves")
-    off_delay: NotNegativeDuration = Field(default=0.0, description="the same when it is switched off")
-    time: Duration = Field(default=0.01, description="from where it begins to move until it is open, or closed")
 
 
 def _edges(value: Any) -> Any:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from nivel.kernels.hydraulics import load_signal, restriction, spool
+from nivel.kernels.hydraulics import load_signal, restriction, spool, spool_drive
 from nivel.kernels.hydraulics.tangent import MOVE, RESTRICT, SIGNAL
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import DirectionalValve, LoadSensing, Section, SpoolValve
 from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
-from nivel.system.hydraulics.components.spools import closed_until
+from nivel.system.hydraulics.components.spools import add_switch, closed_until
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import signal_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
@@ -57,6 +57,9 @@ def _add_spool(builder: SystemBuilder, component: DirectionalValve) -> int:
     """The output that is the position of the spool."""
     name = component.name
     output = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
+    if component.switching is not None:
+        add_switch(builder, name, output, component.command, component.switching, component.ways in CENTRED)
+        return output
     state, speed = NONE, NONE
     if component.frequency is not None:
         state = builder.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
@@ -99,7 +102,11 @@ def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
     builder.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)
 
 
-OF_SPOOLS = {spool.move: MOVE, restriction.apply: RESTRICT}
+OF_SPOOLS = {
+    spool.move: MOVE,
+    spool_drive.switch: spool_drive.add_slopes_of_switches,
+    restriction.apply: RESTRICT,
+}
 OF_SIGNALS = {load_signal.apply: SIGNAL}
 KINDS = (
     ComponentKind(DirectionalValve, add_directional, tuple(OF_SPOOLS), symbols.directional, OF_SPOOLS),

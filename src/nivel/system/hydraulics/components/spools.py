@@ -10,8 +10,8 @@ import numpy as np
 from nivel.kernels.hydraulics import metering, restriction, spool, spool_drive
 from nivel.kernels.hydraulics.tangent import LIFT, MOVE, RESTRICT
 from nivel.kernels.record.record import NONE
-from nivel.machine.hydraulics import Section, SpoolValve
-from nivel.machine.hydraulics.spool_valve import Edge, Switching, ends_of
+from nivel.machine.hydraulics import Section, SpoolValve, Switching
+from nivel.machine.hydraulics.spool_valve import Edge, ends_of
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.system.builder import SystemBuilder

@@ -94,6 +94,8 @@ class Study:
             record.save,
             record.verify,
             record.time_limit,
+            record.judge,
+            () if record.judge else variants.values,
         )
         listener = listener or Listener()
         target = None if out is None else Path(fspath(out))

@@ -286,3 +286,26 @@ def test_a_worker_of_a_cluster_that_dies_takes_no_other_variants_with_it(spring)
     assert outcome.count("done") == 38
     assert (outcome[6], outcome[22]) == ("killed", "failed")
     assert "worker of Dask" in str(found["reason"].values[6])
+
+
+def test_variants_without_trust_reports_have_the_same_numbers_in_any_process(spring, monkeypatch):
+    """x(0.5 s) = 0.1 cos(√(k/m) t)."""
+    content = {
+        "format": 1,
+        "machine": "machine.yaml",
+        "parameters": {"block.mass": {"type": "range", "from": 1, "to": 2, "count": 30}},
+        "outputs": {"x": {"type": "final", "of": "rail.displacement"}},
+        "judge": False,
+    }
+    (spring / "plain.yaml").write_text(json.dumps(content), encoding="utf-8")
+    study = load_study(spring / "plain.yaml")
+    there = study.sweep(workers=2)
+    monkeypatch.setattr(sweeping, "Engine", lambda *_, **__: Engine(1))
+    here = study.sweep()
+    np.testing.assert_allclose(here["x"], 0.1 * np.cos(5 / np.sqrt(here["block.mass"])), atol=1e-9)
+    np.testing.assert_array_equal(here["x"], there["x"])
+    assert here.attrs["verdict"] == "not verified"
+    content["outputs"]["x"] = {"type": "event-time", "event": "middle"}
+    (spring / "plain.yaml").write_text(json.dumps(content), encoding="utf-8")
+    with pytest.raises(ModelError, match="which `event-time` needs"):
+        load_study(spring / "plain.yaml")

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Generator, Iterable, Mapping
 from contextlib import suppress
 from threading import Lock
+from time import monotonic
 from typing import TYPE_CHECKING, Any, Final
 
 from nivel.analysis.sweep.processes import Job, Worker
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 AHEAD: Final = 2  # tasks that are submitted for each thread of the cluster, so that none waits for the next
+LOOK: Final = 2.0  # s between two looks at how many threads there are
 PATIENCE: Final = "10 s"
 
 _free: list[Worker] = []  # in a worker of Dask: processes that wait for a variant
@@ -50,7 +52,7 @@ def run_on_cluster(jobs: Iterable[Job], client: Client) -> Generator[tuple[int, 
     import distributed
 
     left, alone = deque(jobs), deque[Job]()
-    together = distributed.as_completed(loop=client.loop)
+    together = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
     pending: dict[Any, Job] = {}
     packed: dict[int, bytes] = {}
 
@@ -61,24 +63,28 @@ def run_on_cluster(jobs: Iterable[Job], client: Client) -> Generator[tuple[int, 
         pending[future] = job
         together.add(future)
 
+    room, asked = 0, -LOOK
+
     def fill() -> None:
-        room = AHEAD * threads_of(client)
+        nonlocal room, asked
+        if monotonic() - asked >= LOOK:
+            room, asked = AHEAD * threads_of(client), monotonic()
         while left and len(pending) < room:
             submit(left.popleft())
 
     try:
         fill()
-        for future in together:
+        for future, result in together:
             job = pending.pop(future)
-            error = future.exception()
-            if isinstance(error, distributed.KilledWorker):
-                alone.append(job)
-            elif error is not None:
-                raise error
-            else:
-                yield job[0], future.result()
             if left:
                 fill()
+            if future.status == "finished":
+                yield job[0], result
+                continue
+            error: Any = future.exception()
+            if not isinstance(error, distributed.KilledWorker):
+                raise error
+            alone.append(job)
         for job in alone:
             yield job[0], _alone(client, job)
     finally:

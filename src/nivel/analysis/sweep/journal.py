@@ -36,7 +36,7 @@ def fingerprint(task: Task, variants: Variants) -> str:
         task.analysis,
         repr(sorted(task.settings.items())),
         json.dumps(outputs, sort_keys=True),
-        repr((task.save, task.verify, task.time_limit)),
+        repr((task.save, task.verify, task.time_limit, task.judge)),
         repr(variants.values),
     )
     return sha256("\n".join(parts).encode()).hexdigest()

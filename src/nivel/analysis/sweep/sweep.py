@@ -212,6 +212,8 @@ def _subject(
         for each, run in zip(values, runs, strict=True)
     )
     outcome = "interrupted" if interrupted else "done"
+    if not task.judge:
+        return Sweep(outcome=outcome, variants=seen, without="no trust report was made of any variant")
     if task.analysis in ("run", "statics"):
         return Sweep(outcome=outcome, variants=seen)
     return Sweep(outcome=outcome, variants=seen, by="checks of each", without="not all of them were checked")

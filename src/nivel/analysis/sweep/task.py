@@ -17,6 +17,8 @@ class Task:
 
     outputs : numbers of each variant. save : names of results whose history is kept; none where there are outputs, else all joint
     coordinates and sensors, or where there are none the positions of the bodies. time_limit [s] : of the computation.
+    judge : each variant has a trust report; runs without one are patched where their numbers follow from `rows`, the values by path of
+    all variants, by formulas.
     """
 
     machine: Model
@@ -26,3 +28,5 @@ class Task:
     save: tuple[str, ...] = ()
     verify: bool = False
     time_limit: float | None = None
+    judge: bool = True
+    rows: tuple[Mapping[str, Any], ...] = ()

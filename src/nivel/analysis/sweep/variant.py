@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
+from nivel.analysis.sweep.batch import WORTH_FORMULAS, VariantRuns, formulas_for
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
 from nivel.analysis.sweep.task import Task
 from nivel.errors import ModelError, NivelError, SolveError
@@ -61,6 +62,8 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
 
     Raises ModelError where the result has no name that is saved or that an output asks for.
     """
+    if not task.judge:
+        return _unjudged(task, values)
     reason, failed = "", False
     try:
         machine = task.machine.with_values(values) if values else task.machine
@@ -85,6 +88,32 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
         return replace(kept, outputs=outputs_of(found, task.outputs))
     except OutputFailedError as error:
         return replace(kept, outcome=FAILED, reason=str(error))
+
+
+class _Patched:
+    """The runs of the last task without trust reports: all variants of a study have the same."""
+
+    task: Task | None = None
+    runs: VariantRuns | None = None
+
+
+def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
+    """A run without a trust report. Raises ModelError as `run_variant`."""
+    if _Patched.task is not task or _Patched.runs is None:
+        patches = formulas_for(task.machine, task.rows)[0] if len(task.rows) >= WORTH_FORMULAS else None
+        _Patched.task, _Patched.runs = task, VariantRuns(task.machine, patches)
+    ran = _Patched.runs.run(values)
+    if ran.result is None:
+        return VariantRun(ran.outcome, ran.reason)
+    save = task.save or (() if task.outputs else _usual(ran.result))
+    # the memory of the result is that of the next run
+    saved = {name: replace(each, values=each.values.copy()) for name in save for each in [_saved(ran.result, name)]}
+    time = ran.result.time.copy() if saved else np.zeros(0)
+    outputs = {} if ran.outcome == FAILED else outputs_of(ran.result, task.outputs)
+    end = _end(ran.result)
+    return VariantRun(
+        ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, time=time, saved=saved, outputs=outputs
+    )
 
 
 def _computed(machine: Model, task: Task) -> Found:

@@ -12,7 +12,7 @@ from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.record import NAME
 from nivel.machine.given import Field, Maybe
 from nivel.machine.settings.values import Count, Names
-from nivel.machine.study.output import Output
+from nivel.machine.study.output import AtTime, FinalValue, Output, Reduced
 from nivel.machine.study.parameter import Range, StudyParameter, Values
 from nivel.machine.study.search import IdentifySearch, OptimiseSearch
 from nivel.machine.units.quantity import Duration, Whole, fault
@@ -75,6 +75,10 @@ class StudyRecord(Checked):
     identify: IdentifySearch | None = Field(
         default=None, description="the search of `nivel identify`: for what explains measurements", absent="none"
     )
+    judge: bool = Field(
+        default=True,
+        description="a trust report of each variant; without it numbers of runs are patched where they follow by formulas",
+    )
     time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
 
     def problems(self) -> Iterator[Problem]:
@@ -99,6 +103,8 @@ class StudyRecord(Checked):
             yield Problem(
                 ("analysis",), f"`{self.analysis}` needs `outputs`: the numbers that are kept of each variant"
             )
+        if not self.judge:
+            yield from self._without_report()
         if self.settings.get("arc_length") and (self.save or not self.outputs):
             yield Problem(
                 ("settings", "arc_length"), "histories along arcs are not kept, as their times differ; take `outputs`"
@@ -117,6 +123,15 @@ class StudyRecord(Checked):
         if self.optimise is not None and self.optimise.output not in self.outputs:
             known = list(self.outputs)
             yield Problem(("optimise", "output"), unknown_word(self.optimise.output, known, "output"))
+
+    def _without_report(self) -> Iterator[Problem]:
+        if self.analysis != "run" or self.verify:
+            other = "verify: true" if self.verify else f"analysis: {self.analysis}"
+            yield Problem(("judge",), f"`judge: false` is for runs that are not verified, and not for `{other}`")
+        for name, output in self.outputs.items():
+            if not isinstance(output, Reduced | FinalValue | AtTime):
+                message = f"`judge: false` keeps no events and no facts of a run, which `{output.type}` needs"
+                yield Problem(("outputs", name, "type"), message)
 
     def _without_values(self) -> Iterator[Problem]:
         counts: dict[str, int] = {}

@@ -280,7 +280,7 @@ def _beside_functions(
 
 def _is_about_unread(tree: Tree, message: str) -> bool:
     """Whether something is missing that may stand in a file which could not be read."""
-    if message == "a machine needs at least one body or beam":
+    if message == "a machine needs at least one body, beam or circuit":
         return bool(tree.unread)
     return message.startswith("there is no ") and any(f" `{prefix}" in message for prefix in tree.unread)
 

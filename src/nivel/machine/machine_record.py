@@ -82,6 +82,10 @@ def _solids(value: Any) -> Any:
 Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"})]
 
 
+# sections of which a machine has one at least
+MOVING: Final = ("bodies", "beams", "hydraulics")
+
+
 class MachineRecord(Checked):
     """Everything that describes a machine. SI, angles in radians."""
 
@@ -152,10 +156,9 @@ class MachineRecord(Checked):
         data = with_whole_coordinates(data)
         faults = reference_faults(data, parameters_of(info))
         lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in faults]
-        if _has_none(data, "bodies") and _has_none(data, "beams"):
-            lines.append(
-                InitErrorDetails(type=fault("a machine needs at least one body or beam"), loc=("bodies",), input=None)
-            )
+        if all(_has_none(data, section) for section in MOVING):
+            message = "a machine needs at least one body, beam or circuit"
+            lines.append(InitErrorDetails(type=fault(message), loc=("bodies",), input=None))
         try:
             record = handler(data)
         except ValidationError as error:

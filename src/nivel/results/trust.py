@@ -201,6 +201,8 @@ class Trust:
         until = (
             f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
         )
+        if (self.found.get("degrees_of_freedom") or {}).get("circuit"):
+            return f"{self._of_circuit()}{until}"
         by_elements = self.elements_estimate or 0.0
         total, larger = self.accuracy_estimate + by_elements, by_elements > self.accuracy_estimate
         body, time = (self.elements_body, self.elements_time) if larger else (self.accuracy_body, self.accuracy_time)
@@ -218,6 +220,17 @@ class Trust:
         if exact or (red and "accuracy" not in red):
             return f"{name} {'off by up to' if red else 'within'} {error} ({rest['name']} most); {bodies}"
         return f"{motion}; {name} within {error} ({rest['name']} most)"
+
+    def _of_circuit(self) -> str:
+        """Errors of a circuit without bodies: pressures and flows first."""
+        found = {each["quantity"]: each for each in self.found.get("quantities", ()) if each["error"] > 0.0}
+        usual = [found.pop(name) for name in ("pressures", "flows") if name in found]
+        usual += [each for each in found.values() if each["error"] > ROUNDED * each["extent"]]
+        said = [
+            f"{each['quantity']} within {amount(each['largest'], each['units'])} ({each['name']} most)"
+            for each in usual[:3]
+        ]
+        return " and ".join(said) if said else "exact for this model, except for round-off"
 
     def _examined(self) -> str:
         """What has examined a result, and what of it nothing has."""

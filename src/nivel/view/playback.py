@@ -202,6 +202,8 @@ def _cast(result: Result, scene: dict[str, Any], record: dict[str, Any], block: 
 
 
 def _refuse_empty(result: Result, scene: dict[str, Any]) -> None:
+    if not scene.get("bodies") and any(name.startswith("hydraulics.") for name in result.variables):
+        raise ModelError(f"{_title(result)} is of a circuit without bodies, which has no picture; its report has plots")
     if not scene.get("bodies"):
         raise ModelError(
             f"{_title(result)} says nothing about bodies to draw: it was written by another version of nivel"

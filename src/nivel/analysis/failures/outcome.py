@@ -405,6 +405,8 @@ def _worst(motion: MotionEquations) -> str:
     if len(violation) and np.any(np.isfinite(violation)):
         row = int(np.nanargmax(violation / record.constraints.scale))
         return f"the largest violation before it is {violation[row]:.3g} {unit_of(system, row)} at {named_row(system, row)}"
+    if not system.body_count:
+        return "there are no bodies: look at the components of the circuit"
     accelerations = np.nan_to_num(np.linalg.norm(record.bodies.Rddot[: system.body_count], axis=1), nan=np.inf)
     body = int(np.argmax(accelerations))
     return f"the body with the largest acceleration before it is {system.bodies[body]}"

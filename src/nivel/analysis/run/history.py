@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -233,6 +234,10 @@ def _watch(system: System, *, chosen: bool) -> int:
     return count
 
 
+# energy that counts in a circuit without bodies [J]
+JOULE: Final = 1.0
+
+
 def _scales(system: System, y: Array, duration: float) -> Array:
     """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy at
     such a speed; states of elements by their own scales.
@@ -245,7 +250,7 @@ def _scales(system: System, y: Array, duration: float) -> Array:
         _weight_energy(system),
         0.5 * mass * (system.size / duration) ** 2,
     )
-    energy = max(*energies, 1e-300)
+    energy = max(*energies, 1e-300 if mass else JOULE)
     floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
     units = np.array(system.map.units)
     scale = np.array([floors.get(unit, 0.0) for unit in units])

@@ -18,6 +18,7 @@ from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values
+from nivel.analysis.sweep.variant import usual_names
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result
@@ -113,7 +114,7 @@ def run_batch(
     begin = perf_counter()
     listener.say(f"running {len(rows)} variants", float(len(rows)))
     first = _first(base, rows)
-    names = tuple(save) or usual(first)
+    names = tuple(save) or usual_names(first)
     about = {name: _About.of(first, name) for name in names}
     patches, why = formulas_for(base, rows) if len(rows) >= WORTH_FORMULAS else (None, "there are few variants")
     left, kept = deque(range(len(rows))), [_Kept() for _ in rows]
@@ -157,12 +158,6 @@ def _first(base: Model, rows: Sequence[Values]) -> Result:
         if ran.result is not None:
             return ran.result
     raise ModelError(ran.reason)
-
-
-def usual(result: Result) -> tuple[str, ...]:
-    """Joint coordinates and sensors, or the positions of the bodies."""
-    sensors = tuple(name for name in result.variables if name.startswith("sensor."))
-    return (*result.coordinates.get("joint_coordinate_name", ()), *sensors) or ("position",)
 
 
 @dataclass(frozen=True)

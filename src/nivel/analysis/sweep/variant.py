@@ -127,11 +127,16 @@ def _computed(machine: Model, task: Task) -> Found:
     return getattr(machine, task.analysis)(**settings)  # of `nivel.Machine`
 
 
-def _usual(result: Result) -> tuple[str, ...]:
-    """Joint coordinates and sensors, or the positions of the bodies."""
+def usual_names(result: Result) -> tuple[str, ...]:
+    """Joint coordinates and sensors, or the positions of the bodies; of a circuit alone its pressures."""
     sensors = tuple(name for name in result.variables if name.startswith("sensor."))
     names = (*result.coordinates.get("joint_coordinate_name", ()), *sensors)
-    return names or ("position",)
+    return names or (("position",) if "position" in result.variables else pressures(result))
+
+
+def pressures(result: Result) -> tuple[str, ...]:
+    """Names of the pressures of a circuit."""
+    return tuple(name for name in result.variables if name.startswith("hydraulics.") and name.endswith(".pressure"))
 
 
 def _kept(found: Found, outcome: str, reason: str, task: Task) -> VariantRun:
@@ -142,7 +147,7 @@ def _kept(found: Found, outcome: str, reason: str, task: Task) -> VariantRun:
         if task.save:
             raise ModelError("histories are kept of runs, statics and kinematics; take numbers with `outputs`")
         return about
-    save = task.save or (() if task.outputs else _usual(found))
+    save = task.save or (() if task.outputs else usual_names(found))
     loop = float(found.timing.get("loop_seconds", 0.0))
     saved = {name: _saved(found, name) for name in save}
     return replace(about, loop_seconds=loop, time=found.time if saved else about.time, saved=saved)

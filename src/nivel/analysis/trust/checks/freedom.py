@@ -12,18 +12,21 @@ from nivel.results.trust import Item
 @dataclass(frozen=True)
 class Freedom:
     """Degrees of freedom of velocities, and of positions where that is another number. modes : of flexible bodies among them. drivers :
-    motions that are prescribed."""
+    motions that are prescribed. circuit : whether there are no bodies, and a circuit is all."""
 
     velocities: int | None = None
     positions: int | None = None
     modes: int = 0
     drivers: int = 0
+    circuit: bool = False
 
 
 def look(subject: Run | Equilibria) -> Freedom:
     """As the machine is built."""
     prepared = subject.prepared
     redundancy, drivers = prepared.redundancy, prepared.drivers
+    if not prepared.motion.system.bodies:
+        return Freedom(0, circuit=True)
     if isinstance(subject, Equilibria):
         return Freedom(redundancy.degrees_of_freedom, drivers=drivers)
     modes = len(prepared.motion.system.modes)
@@ -35,6 +38,8 @@ def say(found: Freedom) -> Item | None:
     count = found.velocities
     if count is None:
         return None
+    if found.circuit:
+        return Item("degrees_of_freedom", "green", "Freedom: a circuit without bodies (green)")
     if count < 1 and found.drivers:
         prescribed = "the driver prescribes" if found.drivers == 1 else f"{found.drivers} drivers prescribe"
         return Item("degrees_of_freedom", "green", f"Freedom: 0 degrees of freedom, {prescribed} every motion (green)")

@@ -255,3 +255,18 @@ def test_matrix_is_the_derivative_of_the_residual(element, coordinates, rng):
             assert Unknowns(here, rng.uniform(-0.5, 0.5, here.n)).error(3) < 5e-11
             branches |= set(np.sign(residual.branch).tolist())
     assert len(branches) > 1
+
+
+@pytest.mark.parametrize("kind", ["shaft", "chain"])
+def test_without_an_integrator_play_is_known_before_it_is_used_up(kind):
+    """The flank of a stiff shaft, or the strand of a chain, is apart at the start; its rate is that of k (1/J₁ + 1/J₂)."""
+    ends = {"coordinate": "p", "against": "q"}
+    forces = {
+        "shaft": {"type": "shaft", **ends, "stiffness": 1e6, "damping": 30, "backlash": 0.01},
+        "chain": {"type": "belt-drive", **ends, "radii": [0.1, 0.1], "stiffness": 1e7, "damping": 3e3, "slack": 5e-4},
+    }
+    result = simulate(shafts({"it": forces[kind]}, (2.0, 0.0)), duration=0.1)
+    assert result.settings["integrator"] == "radau"
+    assert balance(result) < 1e-3 * 0.5 * 0.02 * 4.0
+    # angular momentum stays, and the blow is soon over
+    assert 0.02 * rates(result)[0] + 0.05 * rates(result)[1] == pytest.approx(0.04, rel=1e-6)

@@ -8,7 +8,7 @@ is implicit: with steps that it chooses, or for live operation, stepping and C l
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import sqrt
 
@@ -26,7 +26,7 @@ from nivel.errors import ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.core.status import NOT_FINITE
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces import Contact, Contacts, Stop, is_sticking
+from nivel.machine.forces import BeltDrive, Contact, Contacts, Shaft, Stop, is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 from nivel.methods import chooses
@@ -157,7 +157,7 @@ def _implicit(plan: Plan, found: Rate) -> str:
 
 def fastest_rate(plan: Plan, prepared: Prepared, y: Array, t: float) -> Rate | None:
     """That which needs the shortest steps, in the state y at time t [s] or, of what may touch, ever; None where nothing is known."""
-    rates = [*_of_contacts(plan.machine), *_of_beams(plan.machine)]
+    rates = [*_of_contacts(plan.machine), *_of_play(plan.machine), *_of_beams(plan.machine)]
     now = _at(prepared, y, t)
     if now is not None:
         rates.append(Rate(now.rate, FOLLOWED / now.rate, now.part or "the motion"))
@@ -203,18 +203,40 @@ def _mass_at(machine: MachineRecord, force: Contact | Contacts | Stop) -> float:
         lightest = sorted(
             spheres_between(machine, force), key=lambda name: mass_properties(machine.body_named[name]).mass
         )
-        names, turns = lightest[:2], False
-    elif isinstance(force, Contact):
-        names = force.bodies or (force.body,)
-        turns = False
-    else:
-        joint, coordinate = resolve(force.coordinate, machine.joints)
-        names = bodies_of(machine, next(each for each in machine.joints if each.name == joint))
-        turns = COORDINATE_KINDS[coordinate] == "angle"
+        return _mass(machine, lightest[:2], turns=False)
+    if isinstance(force, Stop):
+        return _mass_of(machine, force.coordinate)
+    return _mass(machine, force.bodies or (force.body,), turns=False)
+
+
+def _mass_of(machine: MachineRecord, reference: str) -> float:
+    """The same of the bodies of a joint coordinate."""
+    joint, coordinate = resolve(reference, machine.joints)
+    names = bodies_of(machine, next(each for each in machine.joints if each.name == joint))
+    return _mass(machine, names, turns=COORDINATE_KINDS[coordinate] == "angle")
+
+
+def _mass(machine: MachineRecord, names: Iterable[str | None], *, turns: bool) -> float:
     bodies = [machine.body_named[name] for name in names if name is not None and name in machine.body_named]
     its = [mass_properties(body) for body in bodies]
     parts = [float(np.linalg.eigvalsh(each.inertia)[-1]) if turns else each.mass for each in its]
     return 1.0 / sum(1.0 / part for part in parts if part > 0.0) if any(part > 0.0 for part in parts) else np.inf
+
+
+def _of_play(machine: MachineRecord) -> Iterator[Rate]:
+    """Of shafts with play and chains with slack, which may be apart at the time: springs between two coordinates."""
+    for each in machine.forces:
+        if isinstance(each, Shaft) and each.backlash and each.against is not None:
+            factors = (1.0, each.ratio)
+        elif isinstance(each, BeltDrive) and each.slack:
+            factors = each.radii
+        else:
+            continue
+        coordinates = (each.coordinate, str(each.against))
+        moved = sum(factor**2 / _mass_of(machine, one) for factor, one in zip(factors, coordinates, strict=True))
+        rate = sqrt(each.stiffness * moved)
+        if rate > 0.0:
+            yield Rate(rate, IN_IMPACTS / rate, f"the {each.type} {each.name}")
 
 
 def _of_beams(machine: MachineRecord) -> Iterator[Rate]:

@@ -17,7 +17,9 @@ import nivel
 import plain
 import stiff_machines
 import tangent_zoo
+import test_capstan_ropes
 import test_contact_location
+import test_drive_trains
 import test_driver_corners
 import test_eliminated_rails
 import test_friction
@@ -134,6 +136,25 @@ def test_stiction(integrator):
 def test_frictions_that_load_each_other(model, integrator):
     sections = test_friction.two_sliders(0.9, -40.0, model)
     short(machine(sections).record, integrator, steps=5)
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha"])
+def test_drive_trains_that_hold(integrator):
+    """A clutch, a freewheel and the loss of a gear; a brake on what a driver moves."""
+    forces = {
+        "clutch": {"type": "clutch", "coordinate": "p", "against": "q", "capacity": "0.1 + 0.1*time"},
+        "backstop": {"type": "freewheel", "coordinate": "q"},
+        "loss": {"type": "transmission-loss", "coupling": "g", "coordinate": "p", "efficiency": 0.7},
+    }
+    couplings = {"g": {"type": "linear", "coordinates": ["p", "q"], "factors": [1, -2]}}
+    short(machine(test_drive_trains.shafts(forces, (2.0, 1.0), couplings=couplings)).record, integrator)
+    driven = {"turn": {"coordinate": "p", "speed": 3.0}}
+    brake = {"brake": {"type": "brake", "coordinate": "p", "capacity": 1.0}}
+    short(machine(test_drive_trains.shafts(brake, drivers=driven)).record, integrator)
+
+
+def test_a_rope_that_slips_on_its_wheel():
+    short(machine(test_capstan_ropes.loads(10.0, 3.0)).record, steps=5)
 
 
 def test_functions_of_laws():

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import force_zoo
-from simulating import G, hinge, simulate, wheel
+from nivel.errors import ModelError
+from simulating import G, hinge, machine, simulate, wheel
 from unknowns import Unknowns, moving
 
 EXPLICIT = {"integrator": "rk4", "step": "1 ms", "coordinates": "absolute"}
@@ -270,3 +271,39 @@ def test_without_an_integrator_play_is_known_before_it_is_used_up(kind):
     assert balance(result) < 1e-3 * 0.5 * 0.02 * 4.0
     # angular momentum stays, and the blow is soon over
     assert 0.02 * rates(result)[0] + 0.05 * rates(result)[1] == pytest.approx(0.04, rel=1e-6)
+
+
+def test_equilibrium_of_a_shaft_with_play():
+    # the torque of 2 N m goes through both springs, and the flank is half of the play away
+    forces = {
+        "s": {"type": "shaft", "coordinate": "p", "against": "q", "stiffness": 100, "backlash": 0.01},
+        "spring": {"type": "joint-spring-damper", "coordinate": "q", "stiffness": 10},
+        "twist": {"type": "motor", "coordinate": "p", "effort": 2},
+    }
+    found = machine(shafts(forces)).statics().array("joint_coordinate")[-1]
+    assert found == pytest.approx([0.2 + 0.02 + 0.005, 0.2], rel=1e-9)
+
+
+@pytest.mark.parametrize("analysis", ["statics", "linearise"])
+def test_what_holds_has_no_equilibrium_and_no_derivative(analysis):
+    held = machine(shafts({"c": {"type": "clutch", "coordinate": "p", "against": "q", "capacity": 3}}))
+    with pytest.raises(ModelError, match=r"forces\.c: a clutch (holds at rest|has no derivative)"):
+        getattr(held, analysis)()
+
+
+@pytest.mark.parametrize(
+    ("force", "said"),
+    [
+        ({"type": "clutch", "coordinate": "p", "against": "p", "capacity": 3}, "is the `coordinate` itself"),
+        ({"type": "clutch", "coordinate": "p", "against": "r", "capacity": 3}, "there is no joint `r`"),
+        ({"type": "clutch", "coordinate": "p", "against": "q", "capacity": 3, "ratio": 0}, "`ratio` is zero"),
+        ({"type": "brake", "coordinate": "p", "capacity": 3, "static_ratio": 0.5}, "smaller than one"),
+        ({"type": "freewheel", "coordinate": "p", "damping": 1}, "belongs to a `stiffness`"),
+        ({"type": "transmission-loss", "coupling": "x", "coordinate": "p", "efficiency": 0.9}, "no coupling or screw joint `x`"),
+        ({"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [1, 1], "stiffness": 1, "friction": 0.3},
+         "`pretension` is missing"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said_where_it_stands(force, said):
+    with pytest.raises(ModelError, match=said):
+        simulate(shafts({"f": force}), duration=0.01)

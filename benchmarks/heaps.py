@@ -38,7 +38,7 @@ def spheres():
     ]
 
 
-def nivel_boxes():
+def nivel_boxes() -> tuple[str, list[str]]:
     """The conveyor as a machine file."""
     touch = "stiffness: 5e4, exponent: 1, restitution: 0.3, friction: 0.4"
     lines = [
@@ -59,7 +59,7 @@ def nivel_boxes():
     return "\n".join(lines), [f"b{k}" for k in range(len(boxes()))]
 
 
-def nivel_spheres():
+def nivel_spheres() -> tuple[str, list[str]]:
     """The hopper as a machine file."""
     shape = f"shape: {{type: sphere, radius: {RADIUS}}}, density: 2500"
     planes = ", ".join(f"{{body: ground, axis: {list(wall)}}}" for wall in WALLS)
@@ -84,7 +84,7 @@ def run_nivel(text, names, step, duration):
     return places, 1e6 * result.timing["loop_seconds"] / result.timing["steps"]
 
 
-def mujoco_boxes():
+def mujoco_boxes() -> tuple[str, float]:
     """The same boxes as MuJoCo knows them; the belt is at rest."""
     bodies = "".join(
         f'<body pos="{x} {y} {z}"><freejoint/><geom type="box" size="{BOX[0] / 2} {BOX[1] / 2} {BOX[2] / 2}" density="120"/></body>'
@@ -93,7 +93,7 @@ def mujoco_boxes():
     return f'<geom type="plane" size="50 50 1"/>{bodies}', -BELT
 
 
-def mujoco_spheres():
+def mujoco_spheres() -> tuple[str, float]:
     """The same spheres."""
     walls = "".join(f'<geom type="plane" size="5 5 1" zaxis="{x} {y} {z}"/>' for x, y, z in WALLS)
     bodies = "".join(
@@ -139,12 +139,14 @@ def main():
     def height(places, fine):
         return float(abs(places[:, 2].mean() - fine[:, 2].mean()))
 
-    for scene, known, world, duration, friction, measure in (
-        ("ten boxes on a conveyor", nivel_boxes(), mujoco_boxes(), 0.5, 0.4, apart),
-        ("a hundred spheres", nivel_spheres(), mujoco_spheres(), 0.4, 0.3, height),
-    ):
-        report(scene, "nivel", lambda step, k=known, d=duration: run_nivel(*k, step, d), measure)
-        report(scene, "MuJoCo", lambda step, w=world, d=duration, f=friction: run_mujoco(*w, step, d, f), measure)
+    text, names = nivel_boxes()
+    world, speed = mujoco_boxes()
+    report("ten boxes on a conveyor", "nivel", lambda step: run_nivel(text, names, step, 0.5), apart)
+    report("ten boxes on a conveyor", "MuJoCo", lambda step: run_mujoco(world, speed, step, 0.5, 0.4), apart)
+    heap, balls = nivel_spheres()
+    hopper, still = mujoco_spheres()
+    report("a hundred spheres", "nivel", lambda step: run_nivel(heap, balls, step, 0.4), height)
+    report("a hundred spheres", "MuJoCo", lambda step: run_mujoco(hopper, still, step, 0.4, 0.3), height)
 
 
 if __name__ == "__main__":

@@ -445,6 +445,8 @@ EVERYTHING = {
             "ports": {"A": "supply"},
             "volume": "2 L",
             "precharge": "60 bar",
+            "thermal_time": "20 s",
+            "temperature": "300 K",
             **_RATED,
         },
         {"name": "ls", "type": "load-sensing", "valves": ["valve"], "lag": "10 ms"},
@@ -537,6 +539,14 @@ EVERYTHING = {
             "inertia": True,
         },
         {
+            "name": "quick",
+            "type": "quick-exhaust",
+            "ports": {"P": "supply", "A": "line", "R": "tank"},
+            "opens_at": "0.1 bar",
+            **_RATED,
+        },
+        {"name": "soft", "type": "soft-start", "ports": {"P": "supply", "A": "line"}, "throttle": 0.1, **_RATED},
+        {
             "name": "long",
             "type": "line",
             "ports": {"A": "line", "B": "supply"},
@@ -557,6 +567,7 @@ EVERYTHING = {
             "stroke": 1,
             "retracted_length": 1,
             "friction": {"sliding": "100 N"},
+            "seal_leakage": "1e-13 m^3/(s*Pa)",
         },
         {
             "name": "mast",

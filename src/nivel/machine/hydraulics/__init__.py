@@ -23,6 +23,7 @@ from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
 from nivel.machine.hydraulics.machines import Engine, FlowSource, HydraulicMotor, Pump
 from nivel.machine.hydraulics.maps import HoseExpansion
 from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
+from nivel.machine.hydraulics.pneumatic_valves import QuickExhaust, SoftStart
 from nivel.machine.hydraulics.pressure_valves import (
     BrakeValve,
     CartridgeValve,
@@ -71,6 +72,8 @@ COMPONENTS: list[type[Component]] = [
     CartridgeValve,
     CrossPortRelief,
     BrakeValve,
+    QuickExhaust,
+    SoftStart,
     FlowSource,
     Engine,
     Pump,
@@ -140,12 +143,14 @@ __all__ = [
     "PistonFriction",
     "PriorityValve",
     "Pump",
+    "QuickExhaust",
     "ReducingValve",
     "ReliefValve",
     "RotaryActuator",
     "Section",
     "SequenceValve",
     "ShuttleValve",
+    "SoftStart",
     "Solenoid",
     "SpoolValve",
     "Switching",

@@ -12,6 +12,7 @@ from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Damping,
     Displacement,
+    Leakage,
     NotNegativeForce,
     NotNegativeNumber,
     PositiveSpeed,
@@ -30,6 +31,7 @@ from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 StopStiffness = Annotated[OneNumber, Quantity(("stiffness", "torsional stiffness"), positive=True)]
+SINGLE = ("single", "plunger")  # what has no chamber B
 DEAD_SHARE = 0.02  # of the swept volume, that is left at the end of the stroke where nothing is said
 MOST_STAGES = 5
 
@@ -105,12 +107,12 @@ class Actuator(Component):
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:
-        single = entry(data, "acting") == "single" or ".B" not in cls.nodes
+        single = entry(data, "acting") in SINGLE or ".B" not in cls.nodes
         return tuple(each for each in (*cls.early, *cls.late) if not (single and each == "pressure_B"))
 
 
 class HydraulicCylinder(Ends, Actuator):
-    """A cylinder between two points, its rod to the second one; double or single acting: then B is open to the air.
+    """A cylinder between two points, its rod to the second one; double or single acting, or a plunger: then B is open to the air.
 
     With `ports`, its chambers are parts of volumes; without, they are volumes of their own: NAME.A (piston side) and NAME.B.
     """
@@ -125,7 +127,8 @@ class HydraulicCylinder(Ends, Actuator):
     retracted_length: PositiveLength = Field(
         description="distance of its ends at the start of the stroke", usual=STROKE
     )
-    acting: Literal["double", "single"] = "double"
+    acting: Literal["double", "single", "plunger"] = "double"
+    seal_leakage: Leakage = Field(default=0.0, description="flow from A to B past the piston, laminar")
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
     cushion_A: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the start of the stroke")
     cushion_B: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the end of the stroke")
@@ -146,7 +149,13 @@ class HydraulicCylinder(Ends, Actuator):
         yield from self.problems_of_ports((), self.chambers)
         if not 0.0 <= self.rod < self.piston:
             yield Problem(("rod",), f"a rod is thinner than its piston of {self.piston:g} m, got {self.rod:g} m")
-        if self.acting == "single":
+        if self.acting == "plunger" and self.rod:
+            yield superfluous("rod", "belongs to a piston; a plunger is as thick as `piston` says")
+        if self.acting in SINGLE:
+            if self.seal_leakage:
+                yield superfluous(
+                    "seal_leakage", "belongs to a double-acting cylinder; here it would leave the circuit"
+                )
             for name in ("dead_volume_B", "start_B", "cushion_B"):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "belongs to a double-acting cylinder; B is open to the air")
@@ -217,6 +226,7 @@ class RotaryActuator(Actuator):
     displacement: Displacement
     lower: Angle = Field(description="angle at the start of the stroke")
     upper: Angle = Field(description="angle at its end")
+    seal_leakage: Leakage = Field(default=0.0, description="flow from A to B past the vane, laminar")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
+from nivel.machine.core.coefficient import Exponent, Pressure, Share, Temperature, ThermalConductance, VolumeFlow
 from nivel.machine.core.coefficient import Volume as VolumeSize
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.hydraulics.maps import VolumeExpansion
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME, WALL_MODULUS
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, TEMPERATURE, VOLUME, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
 
@@ -78,12 +78,21 @@ class Accumulator(Component):
     needs: ClassVar[tuple[str, ...]] = ("A",)
     nodes: ClassVar[tuple[str, ...]] = ("",)
     early: ClassVar[tuple[str, ...]] = ("pressure",)
-    late: ClassVar[tuple[str, ...]] = ("flow",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "temperature")
 
     type: Literal["accumulator"] = "accumulator"
     volume: VolumeSize = Field(description="of the gas at its precharge", usual=VOLUME)
     precharge: Pressure = Field(description="pressure of the gas without oil, absolute", usual=PRESSURE)
-    gas_exponent: Exponent = Field(default=1.3, description="polytropic exponent of the gas")
+    gas_exponent: Maybe[Exponent] = Field(
+        default=None,
+        description="polytropic exponent of the gas, default 1.3; with a `thermal_time` the adiabatic one, default 1.4",
+    )
+    thermal_time: Maybe[Duration] = Field(
+        default=None, description="time constant with which the gas takes the temperature of its surroundings"
+    )
+    temperature: Temperature = Field(
+        default=293.15, description="of the surroundings, with a `thermal_time`", usual=TEMPERATURE
+    )
     dead_volume: Maybe[VolumeSize] = Field(
         default=None, description="of oil when it is empty; default 2 % of the volume"
     )
@@ -93,6 +102,21 @@ class Accumulator(Component):
         default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
     )
     fluid: Name | None = Field(default=None, description="default: the only one")
+
+    @property
+    def exponent(self) -> float:
+        """Of the law p Vⁿ of the gas."""
+        return self.gas_exponent or (1.3 if self.thermal_time is None else 1.4)
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        warm = entry(data, "thermal_time") is not None
+        return (*cls.early, *cls.late[: None if warm else 1])
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.thermal_time is not None and self.exponent == 1.0:
+            yield Problem(("gas_exponent",), "with a `thermal_time` an adiabatic exponent above 1 was expected, got 1")
 
 
 class LoadSensing(Component):

@@ -9,6 +9,7 @@ from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.record import entry
 from nivel.machine.hydraulic_fluids import fluid_faults
 from nivel.machine.hydraulics import COMPONENT_OF, Actuator, Component
+from nivel.machine.hydraulics.actuators import SINGLE
 from nivel.machine.hydraulics.component import SENSING
 from nivel.machine.laws.symbols import paths_in, symbol_faults
 from nivel.machine.units.tree import Parameters
@@ -49,7 +50,7 @@ def node_types(components: Any) -> dict[str, str]:
         if not isinstance(name, str) or type_ not in COMPONENT_OF:
             continue
         ports = ports_of(component)
-        single = entry(component, "acting") == "single"
+        single = entry(component, "acting") in SINGLE
         for node in COMPONENT_OF[type_].nodes_in(component):
             attached = node[1:] in ports and _has_chambers(type_)
             if not attached and not (single and node == ".B"):

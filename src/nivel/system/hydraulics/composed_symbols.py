@@ -214,3 +214,18 @@ def section(data: Mapping[str, Any]) -> Symbol:
         body += arrow(-28, 24, 8) + path("M-20 16 H40 V34", "dashed")
     body += path(f"M{-wide + 2:g} -32 H{wide - 2:g} V31 H{-wide + 2:g} Z", "frame")
     return Symbol(body, wide, 34.0, above, {**below, "LS": 40.0}, "valve", in_bar(data, "margin"))
+
+
+def quick_exhaust(_: Mapping[str, Any]) -> Symbol:
+    """A quick exhaust valve: a shuttle whose common port is A, with its exhaust."""
+    body = path("M-20 -9 H20 V9 H-20 Z M-13 -5 L-6 0 L-13 5 M13 -5 L6 0 L13 5 M0 -9 V-16")
+    body += path("M-20 0 H-26 V16 M20 0 H26 V16") + '<circle cx="10" cy="0" r="4"/>'
+    return Symbol(body, 26.0, 16.0, {"A": 0.0}, {"P": -26.0, "R": 26.0})
+
+
+def soft_start(_: Mapping[str, Any]) -> Symbol:
+    """A soft start valve: a throttle beside what its outlet opens."""
+    body = path("M-30 -12 H-6 V12 H-30 Z M-18 -20 V-12 M-18 12 V20 M-18 -8 V8 M-18 -8 l-3 6 h6 z")
+    body += path("M-18 -16 H14 V-8 M14 8 V16 H-18 M14 -8 V8 M6 -8 Q13 0 6 8 M22 -8 Q15 0 22 8")
+    body += path("M-18 -18 H-36 V0 H-30", "dashed")
+    return Symbol(body, 36.0, 20.0, {"A": -18.0}, {"P": -18.0})

@@ -132,8 +132,15 @@ def line_nodes(builder: SystemBuilder, component: Line, swept: Swept) -> Iterato
 def accumulator_nodes(builder: SystemBuilder, component: Accumulator, swept: Swept) -> Iterator[Node]:
     """The node behind the inlet of an accumulator."""
     dead = component.dead_volume or DEAD_SHARE * component.volume
-    room = (dead, 0.0, component.volume, component.precharge, component.gas_exponent)
+    room = (dead, 0.0, component.volume, first_charge(component), component.exponent)
     yield _volume(builder, component, component.name, "", room, component.start, swept)
+
+
+def first_charge(component: Accumulator) -> float:
+    """The precharge; with a thermal time that of the compression without heat that ends at the start at the temperature around it."""
+    if component.thermal_time is None or component.start is None:
+        return component.precharge
+    return component.precharge * min(1.0, component.precharge / component.start) ** (component.exponent - 1.0)
 
 
 def tank_nodes(builder: SystemBuilder, component: Tank, _: Swept) -> Iterator[Node]:

@@ -191,7 +191,10 @@ def cylinder(data: Mapping[str, Any]) -> Symbol:
         body += path("M-26 -4 H-18 V4 H-26 Z")
     if data.get("cushion_B"):
         body += path("M-12 -6 H-4 V6 H-12 Z")
-    both = data.get("acting") != "single"
+    both = data.get("acting") not in ("single", "plunger")
+    if data.get("acting") == "plunger":
+        body = path("M-46 -14 H22 V-8 M-46 -14 V14 H22 V8 M-34 -8 H48 V8 H-34 Z M-38 14 V22")
+        return Symbol(body, 48.0, 22.0, {}, {"A": -38.0}, "actuator")
     body += path("M14 14 V22") if both else path("M-12 0 m2 9 l6 -18 l6 18 l6 -18 l6 18 l4 -9")
     return Symbol(body, 48.0, 22.0, {}, {"A": -38.0} | ({"B": 14.0} if both else {}), "actuator")
 

@@ -9,14 +9,23 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import chamber_node, chamber_nodes
-from nivel.system.hydraulics.restrictions import add_flow, add_poppet, rated
+from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppet, rated
 
 OF_PISTONS = {piston.displace: DISPLACE, piston.guide: GUIDE, piston.press: PRESS}
+WITH_SEALS = {**OF_PISTONS, restriction.apply: RESTRICT}
 WITH_CUSHIONS = {**OF_PISTONS, spool.lift: LIFT, restriction.apply: RESTRICT}
 
 
-def add_cushions(builder: SystemBuilder, component: HydraulicCylinder) -> None:
-    """The throttled outlets of a cylinder, each with a check valve beside it."""
+def add_seal(builder: SystemBuilder, component: HydraulicCylinder | RotaryActuator) -> None:
+    """The leak past a piston or vane."""
+    if component.seal_leakage:
+        inner = (chamber_node(component, "A"), chamber_node(component, "B"))
+        add_flow(builder, component.name, "seal_flow", inner, [0.0, TRANSITION, component.seal_leakage])
+
+
+def add_cylinder(builder: SystemBuilder, component: HydraulicCylinder) -> None:
+    """The throttled outlets of a cylinder, each with a check valve beside it, and the leak past its piston."""
+    add_seal(builder, component)
     for chamber in component.chambers:
         cushion = getattr(component, f"cushion_{chamber}")
         if cushion is None:
@@ -38,8 +47,8 @@ def add_cushions(builder: SystemBuilder, component: HydraulicCylinder) -> None:
 
 KINDS = (
     ComponentKind(
-        HydraulicCylinder, add_cushions, tuple(WITH_CUSHIONS), symbols.cylinder, WITH_CUSHIONS, chamber_nodes
+        HydraulicCylinder, add_cylinder, tuple(WITH_CUSHIONS), symbols.cylinder, WITH_CUSHIONS, chamber_nodes
     ),
     ComponentKind(TelescopicCylinder, None, tuple(OF_PISTONS), symbols.telescope, OF_PISTONS, chamber_nodes),
-    ComponentKind(RotaryActuator, None, tuple(OF_PISTONS), symbols.rotary, OF_PISTONS, chamber_nodes),
+    ComponentKind(RotaryActuator, add_seal, tuple(WITH_SEALS), symbols.rotary, WITH_SEALS, chamber_nodes),
 )

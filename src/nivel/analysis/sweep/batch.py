@@ -18,7 +18,7 @@ from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values
-from nivel.analysis.sweep.variant import usual_names
+from nivel.analysis.sweep.usual_names import usual_names
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result

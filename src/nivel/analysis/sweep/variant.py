@@ -14,6 +14,7 @@ from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.batch import WORTH_FORMULAS, VariantRuns, formulas_for
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
 from nivel.analysis.sweep.task import Task
+from nivel.analysis.sweep.usual_names import usual_names
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel
@@ -105,7 +106,7 @@ def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
     ran = _Patched.runs.run(values)
     if ran.result is None:
         return VariantRun(ran.outcome, ran.reason)
-    save = task.save or (() if task.outputs else _usual(ran.result))
+    save = task.save or (() if task.outputs else usual_names(ran.result))
     # the memory of the result is that of the next run
     saved = {name: replace(each, values=each.values.copy()) for name in save for each in [_saved(ran.result, name)]}
     time = ran.result.time.copy() if saved else np.zeros(0)
@@ -125,18 +126,6 @@ def _computed(machine: Model, task: Task) -> Found:
     if task.analysis == "statics":
         settings["verify"] = task.verify
     return getattr(machine, task.analysis)(**settings)  # of `nivel.Machine`
-
-
-def usual_names(result: Result) -> tuple[str, ...]:
-    """Joint coordinates and sensors, or the positions of the bodies; of a circuit alone its pressures."""
-    sensors = tuple(name for name in result.variables if name.startswith("sensor."))
-    names = (*result.coordinates.get("joint_coordinate_name", ()), *sensors)
-    return names or (("position",) if "position" in result.variables else pressures(result))
-
-
-def pressures(result: Result) -> tuple[str, ...]:
-    """Names of the pressures of a circuit."""
-    return tuple(name for name in result.variables if name.startswith("hydraulics.") and name.endswith(".pressure"))
 
 
 def _kept(found: Found, outcome: str, reason: str, task: Task) -> VariantRun:

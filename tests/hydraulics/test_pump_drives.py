@@ -190,3 +190,18 @@ def test_what_is_missing_is_said():
     with pytest.raises(ModelError) as said:
         circuit(between({"type": "pump", "displacement": D, "engine": "disel"}, A=1e5, B=2e5))
     assert "disel" in str(said.value)
+
+
+def test_an_engine_refuses_a_ninth_pump():
+    from nivel.errors import ModelError
+
+    tanks = {"a": {"type": "tank"}, "b": {"type": "tank", "pressure": "9 bar"}}
+    pump = {"type": "pump", "displacement": D, "engine": "diesel", "ports": {"A": "a", "B": "b"}}
+    curve = {"speeds": [100, 250], "torques": [200, 200]}
+    diesel = {"type": "engine", "speed": 200, "torque_curve": curve, "inertia": 0.5}
+    pumps = {f"pump{k}": pump for k in range(9)}
+    circuit({**tanks, "diesel": diesel, **{name: pumps[name] for name in list(pumps)[:8]}})
+    with pytest.raises(ModelError, match="up to 8 pumps") as said:
+        circuit({**tanks, "diesel": diesel, **pumps})
+    assert "pump8" in str(said.value)
+    assert "pump7" not in str(said.value)

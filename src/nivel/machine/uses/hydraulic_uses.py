@@ -17,6 +17,7 @@ from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, find
 
 Faults = Iterator[tuple[Place, str]]
 SIGNAL: Final = "load-sensing"
+MOST_PUMPS: Final = 8  # of an engine
 BOUNDING: Final = ("margin", "cut_off_curve")  # with these the pressure sets the displacement of a pump
 
 
@@ -152,6 +153,10 @@ def _of_engine(component: Any, index: Index, place: Place) -> Faults:
     if isinstance(name, str) and entry(index.hydraulics.get(name), "type") != "engine":
         known = [each for each, its in index.hydraulics.items() if entry(its, "type") == "engine"]
         yield (*place, "engine"), unknown_name("engine", name, tuple(known))
+    elif isinstance(name, str):
+        turned = [each for each, its in index.hydraulics.items() if entry(its, "engine") == name]
+        if entry(component, "name") in turned[MOST_PUMPS:]:
+            yield (*place, "engine"), f"an engine turns up to {MOST_PUMPS} pumps, `{name}` already has as many"
 
 
 def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Parameters, place: Place) -> Faults:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from scipy.optimize import linprog
 
 import nivel
 
@@ -15,7 +16,7 @@ sys.path.insert(0, str(FOLDER))
 from counterbalance import VALVE, tuned  # noqa: E402
 from coupler_curve import LENGTHS, synthesised  # noqa: E402
 from friction_and_damping import identified  # noqa: E402
-from swing_free import swing_free  # noqa: E402
+from swing_free import fastest, swing_free  # noqa: E402
 
 
 def reached_the_linkage(starts, seed, **given):
@@ -56,6 +57,41 @@ def test_the_covariance_covers_the_truth_of_100_records():
     assert sum(chi_square(seed) <= 5.99 for seed in range(100)) >= 90
 
 
+def linear_trolley():
+    """A, B and C of the trolley about its start: place, angle and their rates."""
+    model = nivel.load(FOLDER / "trolley.yaml").linearise(
+        inputs=["motor"], outputs=["rail.displacement", "rod.angle", "rail.displacement.rate", "rod.angle.rate"]
+    )
+    return model.A, model.B, model.C
+
+
+def reaches(duration, pieces=100):
+    """Whether the linear trolley can come to rest three metres away with steps of forces within ±400 N: a linear programme."""
+    A, B, C = linear_trolley()
+    step, n = duration / pieces, len(A)
+    whole = expm(step * np.block([[A, B], [np.zeros((1, n + 1))]]))
+    columns, power = [], np.eye(n)
+    for _ in range(pieces):
+        columns.append(C @ power @ whole[:n, n])
+        power = power @ whole[:n, :n]
+    found = linprog(np.zeros(pieces), A_eq=np.array(columns).T, b_eq=[3.0, 0.0, 0.0, 0.0], bounds=(-400.0, 400.0))
+    return found.status == 0
+
+
+@pytest.mark.full
+def test_the_fastest_motion_is_about_that_of_a_linear_programme():
+    """The programme has more freedom, 100 steps for 16 straight lines; angles stay below 0.2 rad."""
+    low, high = 3.0, 5.0
+    while high - low > 0.01:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if reaches(middle) else (middle, high)
+    machine, duration, tables = fastest()
+    result = machine.simulate(inputs=tables, duration=duration, verify=False)
+    assert result.array("rail.displacement")[-1] == pytest.approx(3.0, abs=1e-5)
+    assert abs(result.array("rod.angle")[-1]) < 1e-6
+    assert high - 0.05 < duration < 1.05 * high + 0.05
+
+
 def test_a_load_hangs_at_rest_and_costs_no_more_than_theory_allows():
     """The least effort of the linear model is ΔᵀW⁻¹Δ with the Gramian W = ∫ e^{At} B Bᵀ e^{Aᵀt} dt (Kalman 1960); eight pieces are near."""
     machine, tables, found = swing_free(8)
@@ -64,10 +100,7 @@ def test_a_load_hangs_at_rest_and_costs_no_more_than_theory_allows():
     assert result.array("rail.displacement")[-1] == pytest.approx(3.0, abs=1e-6)
     for name in ("rod.angle", "sensor.speed", "sensor.swing_speed"):
         assert abs(result.array(name)[-1]) < 1e-6
-    model = nivel.load(FOLDER / "trolley.yaml").linearise(
-        inputs=["motor"], outputs=["rail.displacement", "rod.angle", "rail.displacement.rate", "rod.angle.rate"]
-    )
-    A, B, C = model.A, model.B, model.C
+    A, B, C = linear_trolley()
     times = np.linspace(0.0, 5.0, 2001)
     columns = np.array([expm(A * t) @ B for t in times])
     gramian = np.trapezoid(np.einsum("tik,tjk->tij", columns, columns), times, axis=0)

@@ -18,6 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.elements.friction import is_apart
 from nivel.kernels.record.record import record_at
 from nivel.kernels.tree.tree import swing
 from nivel.native.function import leaf, stage
@@ -292,6 +293,15 @@ def whiten_bundle(machine, first, last):
 
 
 @stage
+def are_apart(record, first, last):
+    """Whether frictions first to last - 1 are of patches where nothing touches."""
+    for k in range(first, last):
+        if not is_apart(record, k):
+            return False
+    return True
+
+
+@stage
 def whiten_bundles(machine, whiten):
     """W of all rows that are left, and of friction; their γ becomes the right-hand side for joint accelerations.
 
@@ -302,6 +312,8 @@ def whiten_bundles(machine, whiten):
     rows, all_rows = saddle.row.shape[0], record.constraints.C.shape[0]
     for n in range(tree.bundle.shape[0] - 1):
         first, last = np.int64(tree.bundle[n]), np.int64(tree.bundle[n + 1])
+        if first >= rows and are_apart(record, first - rows, last - rows):
+            continue  # nothing reads their W
         for k in range(first, last):
             bias = load_row(machine, k, k - first)
             gamma[saddle.row[k] if k < rows else all_rows + k - rows] -= bias

@@ -24,7 +24,7 @@ SHARES = np.array([0.001, 0.1, 0.25, 0.5, 0.8, 0.999])
         (Tolerance(type="tolerance", nominal=5, tolerance=1, distribution="uniform"), stats.uniform(4, 2)),
         (Tolerance(type="tolerance", nominal=5, tolerance=1, distribution="triangular"), stats.triang(0.5, 4, 2)),
     ],
-    ids=str,
+    ids=["uniform", "logarithmic", "normal", "bounded", "triangular", "tolerance", "even", "peaked"],
 )
 def test_quantiles_are_those_of_scipy(parameter, reference):
     np.testing.assert_allclose(quantiles(parameter, SHARES), reference.ppf(SHARES), rtol=1e-12)

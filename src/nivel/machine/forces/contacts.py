@@ -43,8 +43,8 @@ class Contacts(ForceElement):
     planes: Annotated[ManyMarkers, BeforeValidator(listed)] = Field(
         default=(), description="markers: all bodies touch them too, on the side of the z axis"
     )
-    stiffness: PowerStiffness = Field(description="force by depth ** exponent")
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
+    stiffness: PowerStiffness = Field(description="force by depth ** exponent")
     restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
     friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
     friction_transition_speed: Maybe[PositiveSpeed] = Field(

@@ -1,11 +1,13 @@
 """Fluids by name, without air, with dissolved air and vapour."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from circuits import BAR, PA, circuit, history
+from nivel.errors import ModelError
 from nivel.kernels.hydraulics.fluid import specific_volume
 from nivel.machine.hydraulics import Fluid
 from nivel.machine.hydraulics.fluid import GradeName
@@ -42,6 +44,21 @@ def test_a_mineral_oil_has_haywards_bulk_modulus_and_falls_in_density():
     assert oil.liquid.bulk_modulus == pytest.approx(1e9 * (1.57 + 0.15 * math.log10(cold)) * 10 ** (-0.096), rel=1e-12)
     assert oil.liquid.density == pytest.approx(879 * (1 - 7e-4 * 45), rel=1e-12)
     assert Fluid(name="oil", grade="HLP 46", density=860.0).liquid.density == 860.0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (
+            {"grade": "HLP 46", "temperature": 20.0},
+            "from 223.15 to 423.15 K was expected, got 20 K; 20 °C are 293.15 K",
+        ),
+        ({"temperature": 293.15}, "`temperature` belongs to a `grade`"),
+    ],
+)
+def test_a_temperature_without_effect_or_sense_is_refused(words, said):
+    with pytest.raises(ModelError, match=re.escape(said)):
+        Fluid(name="oil", **words)
 
 
 def test_without_air_the_bulk_modulus_is_constant():

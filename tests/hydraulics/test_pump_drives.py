@@ -205,3 +205,18 @@ def test_an_engine_refuses_a_ninth_pump():
         circuit({**tanks, "diesel": diesel, **pumps})
     assert "pump8" in str(said.value)
     assert "pump7" not in str(said.value)
+
+
+@pytest.mark.parametrize(
+    ("words", "pressure", "said"),
+    [({}, 601, "more torque at t = 0 than the `torque_curve` has"), ({"load": -100, "drag": 40}, 2, "than its `drag`")],
+)
+def test_an_engine_without_a_steady_speed_is_refused(words, pressure, said):
+    """D Δp is 430 N m for a curve up to 320; and without Δp a load of -100 N m turns an engine that brakes with 40."""
+    from nivel.errors import ModelError
+
+    curve = {"speeds": [80, 150, 210], "torques": [250, 320, 260]}
+    hydraulics = between({"type": "pump", "displacement": D, "engine": "diesel"}, A=1 * BAR, B=pressure * BAR)
+    hydraulics["diesel"] = {"type": "engine", "speed": 210, "torque_curve": curve, "inertia": 0.9, **words}
+    with pytest.raises(ModelError, match=said):
+        circuit(hydraulics).simulate(duration=1e-2, step=1e-2, verify=False)

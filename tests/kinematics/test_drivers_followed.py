@@ -47,6 +47,29 @@ def test_a_driver_that_is_not_followed_is_told(off, verdict):
     assert followed.say(found).verdict == verdict
 
 
+@pytest.mark.parametrize(
+    ("asked", "way"),
+    [
+        ({"speed": "3*cos(2*time)"}, lambda t: 1.5 * np.sin(2 * t)),
+        ({"acceleration": "6*time", "start_speed": 2.0}, lambda t: 2 * t + t**3),
+        ({"speed": nivel.Table((0.0, 0.5), (0.0, 1.0))}, lambda t: np.where(t < 0.5, t**2, t - 0.25)),
+    ],
+)
+@pytest.mark.parametrize(("off", "verdict"), [(0.0, "green"), (1e-3, "red")])
+def test_drivers_by_speed_and_acceleration_are_compared_with_their_way(asked, way, off, verdict):
+    """The way in closed form, and another one that is longer by `off` in a second; both begin elsewhere than at zero."""
+    time = np.linspace(0.0, 1.0, 5)
+    place = way(time) + off * time + 0.7
+    subject = SimpleNamespace(
+        result=SimpleNamespace(time=time, array=lambda _: place[:, None]),
+        drivers=turned(None, **asked).record.drivers,
+        joint_coordinates={"hinge.angle": "rad"},
+        scales=SimpleNamespace(size=1.0, size_kind="size"),
+    )
+    assert followed.say(followed.look(subject)).verdict == verdict
+    assert followed.not_compared(subject) == []
+
+
 def test_efforts_compare_their_motion_with_drivers_that_hold():
     """The motion of another driver: where the driver holds, the motion contradicts it; where the actuator takes its place, it is said."""
     made = turned("2.01*time").kinematics(duration=1, positions=5)

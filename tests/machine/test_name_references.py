@@ -144,6 +144,13 @@ def test_the_machine_of_these_tests_is_right():
             "joints.hinge.start.angle: the driver `d` says how this coordinate starts",
         ),
         (
+            {
+                "drivers": ({"name": "d", "coordinate": "hinge", "speed": 1},),
+                "joints": ({**JOINTS[0], "start": {"angle": 1}}, *JOINTS[1:]),
+            },
+            "joints.hinge.start.angle: the driver `d` by a speed or an acceleration begins where the bodies are placed",
+        ),
+        (
             {"forces": ({**MOTOR, "coordinate": "hinge.displacement", "effort": 1},)},
             "forces.m.coordinate: of joint `hinge`, the coordinate `displacement` is not known; there is angle",
         ),

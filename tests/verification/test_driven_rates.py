@@ -84,6 +84,18 @@ def test_speed_that_jumps_is_refused_where_it_stands():
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
+        ({"speed": "1/time"}, r"drivers\.d\.speed: there is no value at t = 0 s: division by zero"),
+        ({"acceleration": "sqrt(time - 0.5)"}, r"drivers\.d\.acceleration: there is no value at t = 0 s: outside"),
+    ],
+)
+def test_what_has_no_value_is_refused_where_it_stands(keys, said):
+    with pytest.raises(ModelError, match=said):
+        driven({}, **keys)
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
         ({"speed": 1, "value": 2}, "`speed` stands in place of `value`"),
         ({"speed": "p.angle"}, "only known while the machine moves"),
         ({"speed": 1, "from_start": True}, "the coordinate begins where it is placed"),

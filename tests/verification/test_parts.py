@@ -87,3 +87,15 @@ def test_energies_that_all_frames_meet_at_rest_are_seen_between_them():
     assert np.abs(result.array("velocity")).max() < 1e-9
     assert result.trust.energy_scale == pytest.approx(0.5 / omega**2, rel=0.02)
     assert next(item for item in result.trust.items if item.name == "energy").verdict == "green"
+
+
+def test_spheres_that_touch_are_one_part():
+    """Three spheres in a row: the last one is at rest until it is hit, and its energy is that of the blow."""
+    ball = {"mass": 1.0, "shape": {"type": "sphere", "radius": 0.1}}
+    balls = {f"ball{k}": {**ball, "position": [0.21 * k, 0, 0]} for k in range(3)}
+    balls["ball0"]["velocity"] = [1.0, 0, 0]
+    blow = {"type": "contacts", "between": "all", "stiffness": 1e5, "exponent": 1, "restitution": 0.5}
+    machine = {"name": "row", "gravity": [0, 0, 0], "bodies": balls, "forces": {"blow": blow}}
+    result = simulating.simulate(machine, duration=0.1, integrator="rk4", step=1e-4)
+    assert result.array("velocity")[-1, 2, 0] == pytest.approx(0.75**2, abs=1e-3)  # (1 + e)/2 of the speed in each blow
+    assert not [item for item in result.trust.items if item.name == "parts"]

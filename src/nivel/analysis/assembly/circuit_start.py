@@ -26,7 +26,7 @@ from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, SURROUNDINGS
 from nivel.kernels.hydraulics.piston import ORIGIN, guide
 from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record.record import NONE
-from nivel.machine.hydraulics import Actuator, HydraulicMotor, RotaryActuator
+from nivel.machine.hydraulics import Actuator, Engine, HydraulicMotor, RotaryActuator
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.fluid_law import mass_at
@@ -46,6 +46,8 @@ FIRST, FACTOR, MOST, AT_REST = 1e-6, 3.0, 200, 1e-9
 ITERATIONS, CLOSE, DIFFERENCE = 8, 1e-6, 1e-7
 # a change above this share of the last one asks for new derivatives
 FALLING = 0.1
+# Engines that come to rest turn forwards, and not faster than this many times the largest speed of their torque curve.
+LEAST_SPEED, MOST_SPEED = -1e-3, 2.0
 # A piston may stand beyond the end of its stroke by this share of it.
 BEYOND = 1e-3
 
@@ -65,7 +67,7 @@ class _Pair:
 def circuit_start(machine: MachineRecord, motion: MotionEquations, y: Array) -> tuple[System, Array]:
     """The system and its state y (absolute coordinates) with the start of its circuits.
 
-    Raises ModelError where a piston stands beyond its stroke.
+    Raises ModelError where a piston stands beyond its stroke, and where an engine has no steady speed.
     """
     if not machine.hydraulics:
         return motion.system, y
@@ -75,6 +77,7 @@ def circuit_start(machine: MachineRecord, motion: MotionEquations, y: Array) -> 
     start = _Start(machine, motion, y)
     start.carry_loads()
     start.come_to_rest()
+    start.refuse_engines()
     start.y[start.velocities] = start.moving
     system, first = motion.system, start.first
     x = start.y[first : first + len(system.states)]
@@ -272,6 +275,24 @@ class _Start:
             if rate is None or np.all(np.abs(rate) <= AT_REST * scale):
                 return
             step *= FACTOR if self._step(free, scale, step) else 1.0 / FACTOR**2
+
+    def refuse_engines(self) -> None:
+        """Engines that cannot turn what they drive: they have no steady speed."""
+        speed = {fact.name: float(self.y[self.first + k]) for k, fact in enumerate(self.system.states)}
+        faults = []
+        for engine in (each for each in self.machine.hydraulics if isinstance(each, Engine)):
+            share = speed[f"{engine.name}.speed"] / max(engine.torque_curve.speeds)
+            if LEAST_SPEED <= share <= MOST_SPEED:
+                continue
+            if share < 0.0:
+                told = "pumps and `load` ask for more torque at t = 0 than the `torque_curve` has, and stall it"
+                advice = "give it more torque, or its pumps a `torque_limit` or a smaller `setting`"
+            else:
+                told = "pumps and `load` drive it at t = 0 with more torque than its `drag`"
+                advice = "give it more `drag`, or drive it with less"
+            faults.append(Fault("", 0, 0, f"hydraulics.{engine.name}", f"no speed is steady: {told}; {advice}"))
+        if faults:
+            raise ModelError(faults)
 
     def _rates(self, free: NDArray[np.intp]) -> Array | None:
         for node in self.gas:

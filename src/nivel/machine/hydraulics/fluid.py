@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import CoreSchema
 
-from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Exponent,
     NotNegative,
@@ -40,6 +40,8 @@ LEAST_AIR, MOST_AIR = 1e-4, 0.2
 REFERENCE_PRESSURE, REFERENCE_TEMPERATURE = 1e5, 293.15  # Pa, K: of ISO 8778, to which sonic conductances refer
 MINERAL = Liquid(870.0, 1.5e9, 10.0, 46e-6, 0.0)  # without a grade
 GradeName = Literal["HLP 32", "HLP 46", "HLP 68", "HVLP 32", "HVLP 46", "HVLP 68", "HEES 46", "HFC 46"]
+# [K] at which the defaults hold; between which the law of viscosity holds
+OF_CONSTANTS, COLDEST, HOTTEST = 313.15, 223.15, 423.15
 MOST_RATIO = 5.0 / 3.0  # of c_p over c_v, of gases of one atom
 
 
@@ -55,7 +57,7 @@ class Fluid(Checked):
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
     grade: GradeName | None = Field(default=None, description="a fluid by name; values that are given override its own")
     temperature: Temperature = Field(
-        default=313.15, description="at which a `grade` has its constants", usual=TEMPERATURE
+        default=OF_CONSTANTS, description="at which a `grade` has its constants", usual=TEMPERATURE
     )
     density: Maybe[Density] = Field(
         default=None, description="of the liquid at atmospheric pressure; default 870 kg/m³", usual=LIQUID_DENSITY
@@ -102,6 +104,13 @@ class Fluid(Checked):
         return self.vapour_pressure or (LOW_VAPOUR if self.air < LEAST_AIR else 0.0)
 
     def problems(self) -> Iterator[Problem]:
+        if self.grade is None and self.temperature != OF_CONSTANTS:
+            yield superfluous(
+                "temperature", "belongs to a `grade`, and none is given; the constants are those of this liquid"
+            )
+        if self.grade is not None and not COLDEST <= self.temperature <= HOTTEST:
+            asked = f"a temperature from {COLDEST:g} to {HOTTEST:g} K was expected, got {self.temperature:g} K"
+            yield Problem(("temperature",), f"{asked}; 20 °C are 293.15 K")
         if not (self.air == 0.0 or LEAST_AIR <= self.air <= MOST_AIR):
             asked = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume, or 0, was expected, got {self.air:g}"
             yield Problem(("air",), asked)

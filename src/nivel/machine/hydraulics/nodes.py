@@ -19,6 +19,7 @@ from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, listed
 
 ATMOSPHERE = 101325.0  # Pa
+ROOM = 293.15  # K
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
 
 
@@ -91,7 +92,7 @@ class Accumulator(Component):
         default=None, description="time constant with which the gas takes the temperature of its surroundings"
     )
     temperature: Temperature = Field(
-        default=293.15, description="of the surroundings, with a `thermal_time`", usual=TEMPERATURE
+        default=ROOM, description="of the surroundings, with a `thermal_time`", usual=TEMPERATURE
     )
     dead_volume: Maybe[VolumeSize] = Field(
         default=None, description="of oil when it is empty; default 2 % of the volume"
@@ -115,6 +116,8 @@ class Accumulator(Component):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        if self.thermal_time is None and self.temperature != ROOM:
+            yield superfluous("temperature", "belongs to a `thermal_time`, and none is given")
         if self.thermal_time is not None and self.exponent == 1.0:
             yield Problem(("gas_exponent",), "with a `thermal_time` an adiabatic exponent above 1 was expected, got 1")
 

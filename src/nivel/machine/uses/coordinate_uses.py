@@ -59,8 +59,9 @@ def coordinate_faults(machine: Any, index: Index) -> Faults:
             yield from _held(found, index, place)
             if found in driven:
                 yield place, f"`{'.'.join(found)}` is driven by `{driven[found]}`: it is not free"
+    by_rate = {str(entry(each, "name")) for each in elements(machine, "drivers") if entry(each, "value") is None}
     for at, joint in enumerate(elements(machine, "joints")):
-        yield from _started(joint, driven, ("joints", at))
+        yield from _started(joint, driven, by_rate, ("joints", at))
 
 
 def _of_coupling(coupling: Any, index: Index, place: Place) -> Faults:
@@ -158,13 +159,16 @@ def _motions(driver: Any) -> Iterator[tuple[str, str]]:
             yield str(None), axis
 
 
-def _started(joint: Any, driven: Mapping[tuple[object, ...], str], place: Place) -> Faults:
-    """Start values of coordinates that are driven."""
+def _started(joint: Any, driven: Mapping[tuple[object, ...], str], by_rate: set[str], place: Place) -> Faults:
+    """Start values of coordinates that are driven. by_rate : drivers by speeds and accelerations."""
     for key in ("start", "start_rates"):
         given = entry(joint, key)
         for coordinate in given.given if isinstance(given, CoordinateValues | CoordinateRates) else as_mapping(given):
             driver = driven.get((str(entry(joint, "name")), coordinate))
-            if driver is not None:
+            if driver in by_rate and key == "start":
+                told = f"the driver `{driver}` by a speed or an acceleration begins where the bodies are placed"
+                yield (*place, key, coordinate), f"{told}: place them there, without `start`"
+            elif driver is not None:
                 yield (*place, key, coordinate), f"the driver `{driver}` says how this coordinate starts"
 
 

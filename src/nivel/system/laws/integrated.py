@@ -17,6 +17,7 @@ from nivel.errors import Fault, ModelError
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.units.tree import ExpressionError
 
 Array = NDArray[np.float64]
 COEFFICIENTS = 6
@@ -39,7 +40,7 @@ def integrated(function: TimeFunction, times: int, end: float, speed: float = 0.
 
     times : 1 for a speed, 2 for an acceleration. speed : at t = 0, of an acceleration.
 
-    Raises ModelError where a speed jumps.
+    Raises ModelError where a speed jumps, and where the function has no value.
     """
     points, pieces = _of_table(function, end) if _is_exact(function) else _sampled(function, times, PAST * end)
     for constant in (speed, 0.0)[2 - times :]:
@@ -125,7 +126,22 @@ def _values(function: TimeFunction) -> Callable[[Array], Array]:
         raise ModelError(Fault("", 0, 0, "", "a function in Python drives by its `value`, rate and acceleration"))
     if isinstance(function, int | float):
         return partial(_constant, float(function))
-    return np.vectorize(function, otypes=[float])
+    return partial(_evaluated, function)
+
+
+def _evaluated(function: TimeFunction, t: Array) -> Array:
+    """Raises ModelError where the function has no finite value."""
+    assert callable(function)
+    out = np.empty_like(t)
+    for k, each in enumerate(t):
+        try:
+            out[k] = function(float(each))
+        except ExpressionError as fault:
+            raise ModelError(Fault("", 0, 0, "", f"there is no value at t = {each:.6g} s: {fault}")) from None
+    if not np.isfinite(out).all():
+        when = float(t[~np.isfinite(out)][0])
+        raise ModelError(Fault("", 0, 0, "", f"there is no finite value at t = {when:.6g} s"))
+    return out
 
 
 def _constant(value: float, t: Array) -> Array:

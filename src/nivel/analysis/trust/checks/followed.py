@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import polynomial
 
 from nivel.analysis.trust.check import FRAMES, Check
 from nivel.analysis.trust.subject import Actuated, Positions, Scales
@@ -17,6 +18,7 @@ from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.trust import Item, Verdict, number
+from nivel.system.laws.integrated import integrated
 from nivel.system.system import Array
 
 # [lengths of the machine, rad] by which a driver may be missed: green, and no worse than amber
@@ -54,7 +56,7 @@ def farthest(subject: Positions | Actuated, drivers: Sequence[Driver]) -> Follow
             continue
         value = result.array("joint_coordinate")[:, list(known).index(name)]
         missed = np.abs(value - wanted)
-        if driver.from_start:
+        if driver.from_start or driver.value is None:
             missed = np.abs(value - value[0] - (wanted - wanted[0]))
         share = missed / (subject.scales.size if known[name] == "m" else 1.0)
         worst = int(np.argmax(share))
@@ -67,7 +69,7 @@ def farthest(subject: Positions | Actuated, drivers: Sequence[Driver]) -> Follow
 
 def not_compared(subject: Positions | Actuated) -> list[str]:
     """Drivers of which `look` cannot compare what they prescribe: those of markers, and functions in Python."""
-    names, start = list(subject.joint_coordinates), np.zeros(1)
+    names, start = list(subject.joint_coordinates), subject.result.time[:2]
     return [
         driver.name
         for driver in subject.drivers
@@ -78,14 +80,29 @@ def not_compared(subject: Positions | Actuated) -> list[str]:
 def wanted_values(driver: Driver, time: Array) -> Array | None:
     """(T,) [m or rad] what a driver of a coordinate asks for, by its own function of time; None of functions in Python."""
     value = driver.value
-    if driver.coordinate is None or value is None:
+    if driver.coordinate is None:
         return None
+    if value is None:
+        return _way(driver, time)
     if isinstance(value, Table | Expression):
         try:
             return np.array([value(float(t)) for t in time])
         except ExpressionError:
             return None
     return np.full(len(time), float(value)) if isinstance(value, int | float) else None
+
+
+def _way(driver: Driver, time: Array) -> Array | None:
+    """(T,) [m or rad] from where it begins, of a driver by a speed or an acceleration; None of functions in Python."""
+    end = float(time[-1]) or 1.0
+    if driver.speed is not None:
+        points, pieces = integrated(driver.speed, 1, end)
+    elif driver.acceleration is not None:
+        points, pieces = integrated(driver.acceleration, 2, end, driver.start_speed)
+    else:
+        return None
+    place = np.clip(np.searchsorted(points, time, side="right") - 1, 0, len(pieces) - 1)
+    return polynomial.polyval(time - points[place], pieces[place].T, tensor=False)
 
 
 def _coordinate(driver: Driver, names: list[str]) -> str | None:

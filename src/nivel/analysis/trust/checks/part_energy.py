@@ -17,7 +17,9 @@ from nivel.analysis.trust.check import STEPS, Check
 from nivel.analysis.trust.checks.energy import THRESHOLD
 from nivel.analysis.trust.subject import Run
 from nivel.machine.bodies.inertia import mass_properties
+from nivel.machine.bodies.shape import Sphere
 from nivel.machine.core.vectors import cross
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, largest_mechanical_energy, rotated, speed_of_rest
 from nivel.results.trust import Item, number, quantity
@@ -78,6 +80,8 @@ def separate_parts(machine: MachineRecord) -> list[Part]:
     words: dict[str, set[str]] = {}
     for each in (*machine.joints, *machine.couplings, *machine.drivers, *machine.forces):
         words.setdefault(each.name, set()).update(_words(each))
+        if isinstance(each, Contacts) and not each.between:  # all spheres
+            words[each.name] |= {body.name for body in machine.bodies if isinstance(body.shape, Sphere)}
     acts_on = {name: _bodies_of(machine, name, words) for name in words}
     groups = _joined([body.name for body in machine.bodies], acts_on.values())
     if not 1 < len(groups) <= MOST:

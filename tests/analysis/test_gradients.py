@@ -91,6 +91,7 @@ def test_of_a_fall_by_its_closed_form(tmp_path):
             "time(landing)",
             "max(ball.position.z)",
             "integral(ball.position.x)",
+            "peak(ball.velocity.z)",
         ],
         parameters,
         check=False,
@@ -109,6 +110,9 @@ def test_of_a_fall_by_its_closed_form(tmp_path):
         0.5 * t / (9.81 * t), rel=1e-7
     )
     assert slope(found, "max(ball.position.z)", parameters[0]).item() == pytest.approx(1.0, abs=1e-9)
+    # v = -g t is largest at the landing, where |v| = √(2 g h)
+    assert found["peak(ball.velocity.z)"].item() == pytest.approx(9.81 * t, rel=1e-9)
+    assert slope(found, "peak(ball.velocity.z)", parameters[0]).item() == pytest.approx(1.0 / t, rel=1e-7)
 
 
 @pytest.mark.parametrize("integrator", ["rk4", "dopri5", "bdf", "generalised-alpha"])

@@ -21,6 +21,7 @@ from nivel.machine import (
     Torque,
     Tube,
 )
+from nivel.machine.settings.statics import StaticsSettings
 
 BALL = {"mass": 1, "shape": Sphere(radius=0.1)}
 CRANK, ROD = Body(name="crank", **BALL), Body(name="rod", **BALL)
@@ -281,6 +282,10 @@ def force_record(component):
 )
 def test_settings_refused(given, part):
     assert part in refused(SimulationSettings, **given)
+
+
+def test_a_switch_that_is_neither_on_nor_off_is_refused():
+    assert "`true` or `false` was expected, got `perhaps`" in refused(StaticsSettings, verify="perhaps")
 
 
 def machine(**given):

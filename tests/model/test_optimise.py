@@ -142,6 +142,20 @@ def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("heading", "message"),
+    [
+        ("time [s],rail.displacement [deg]", "`1 deg` is an angle .rad.; the number is in m"),
+        ("time [kg],rail.displacement [mm]", "bench.csv:1:1: time: `1 kg` is a mass"),
+    ],
+)
+def test_measurements_in_another_unit_are_refused(oscillator, tmp_path, heading, message):
+    path = tmp_path / "bench.csv"
+    path.write_text(f"{heading}\n0,1\n0.1,1\n0.2,1\n")
+    with pytest.raises(ModelError, match=message):
+        oscillator.identify(path, {STIFFNESS: (20, 200)})
+
+
+@pytest.mark.parametrize(
     ("call", "message"),
     [
         (lambda m: m.optimise("maxx(rail.displacement)", {STIFFNESS: (1, 2)}), "did you mean `max`"),
@@ -151,6 +165,16 @@ def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
         (lambda m: m.optimise("block.position", {STIFFNESS: (1, 2)}), "one number was expected"),
         (lambda m: m.optimise("block.position.x at soon", {STIFFNESS: (1, 2)}), "a time was expected after `at`"),
         (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, method="SLQP"), "did you mean `SLSQP`"),
+        (
+            lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: ("1 kg", "2 kg")}),
+            "a stiffness .N/m. was expected",
+        ),
+        (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, starts=0), "starts of at least 1"),
+        (lambda m: m.optimise("time(lift)", {STIFFNESS: (1, 2)}), "the event `lift` is not known"),
+        (lambda m: m.optimise("rail.displacement at 9 s", {STIFFNESS: (1, 2)}), "its time is outside the run"),
+        (lambda m: m.optimise("rail.displacement", {STIFFNESS: (1, 2)}, limits={"objective": (2, 1)}), "2 and 1"),
+        (lambda m: m.optimise("rail.displacement", {STIFFNESS: (1, 2)}, limits={"objective": (np.nan, 1)}), "nan"),
+        (lambda m: m.optimise("rail.displacement", {STIFFNESS: (1, 2)}, limits={"objective": (None, "1 m")}), "in SI"),
         (
             lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, limits={"reach": (None, 1)}),
             "the output `reach` is not known",
@@ -163,6 +187,19 @@ def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
         (
             lambda m: m.identify({"rail.displacement": ([0.1, 5.0], [1.0, 1.0])}, {STIFFNESS: (1, 2)}),
             "no start has results at all measurements: the run ends before",
+        ),
+        (
+            lambda m: m.identify({"rail.displacement": ([-1.0, 0.1], [1.0, 1.0])}, {STIFFNESS: (1, 2)}),
+            "begins after them: they last from -1 to 0.1 s",
+        ),
+        (lambda m: m.identify({"rail.displacement": ([0.1, 0.2], [1, np.inf])}, {STIFFNESS: (1, 2)}), "not finite"),
+        (
+            lambda m: m.identify(
+                {"rail.displacement": ([0.1, 0.2], [1, 1])},
+                {STIFFNESS: (1, 2)},
+                deviations={"rail.displacement": "1 mm"},
+            ),
+            "a number above zero in SI units",
         ),
         (lambda m: m.identify(Path(__file__).parent / "nothing.csv", {STIFFNESS: (1, 2)}), "nothing.csv"),
     ],

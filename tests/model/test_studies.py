@@ -153,6 +153,12 @@ def test_outputs_that_do_not_fit_the_result_are_told(spring, output, path, messa
     assert message in error.value.faults[0].message
 
 
+def test_a_history_that_is_none_is_told_at_its_line(spring):
+    study = nivel.load_study(forty(spring, "saved.json", outputs={}, save=["rail.displacment"]), {"judge": False})
+    with pytest.raises(ModelError, match=r"saved\.json:\d+:\d+: save: .*did you mean `rail.displacement`"):
+        study.sweep(workers=1)
+
+
 def forty(folder, name, **more):
     content = {
         "format": 1,

@@ -77,12 +77,12 @@ def column_values(content: str | bytes, file: str, column: object, units: object
     return _with_units(found, units, "units")
 
 
-def numeric_columns(content: str | bytes, file: str) -> dict[str, list[float]]:
-    """Numbers of all columns in SI units, by name. Raises CsvError."""
+def numeric_columns(content: str | bytes, file: str) -> dict[str, tuple[list[float], str]]:
+    """Numbers of all columns in SI units with the unit of their heading, by name. Raises CsvError."""
     given = _Rows(content) if isinstance(content, str) else _Measured(content, file)
     found = zip(given.names, given.columns(*given.names), strict=True)
     return {
-        name: [float(read_quantity(each, ANY, {})) for each in _with_units(column, None, "csv")]
+        name: ([float(read_quantity(each, ANY, {})) for each in _with_units(column, None, "csv")], column.units or "")
         for name, column in found
     }
 

@@ -1,7 +1,8 @@
 """Outputs of gradients: a number, or an array of them, of the curves of a result; its value and its slopes.
 
 crank.position            at the end of the run           crank.position at 0.5 s      then
-max(…)  min(…)            the largest, smallest frame     rms(…)  mean(…)  integral(…) over the time of the run
+max(…)  min(…)  peak(…)   the largest, smallest frame, the largest magnitude
+rms(…)  mean(…)  integral(…)   over the time of the run
 time(lift)                when the event `lift` came for the first time
 """
 
@@ -56,6 +57,12 @@ def smallest(curve: Curve) -> tuple[Array, Array]:
     return -value, -slope
 
 
+def peak(curve: Curve) -> tuple[Array, Array]:
+    """The largest magnitude of all frames, entry by entry."""
+    sign = np.where(curve.value < 0.0, -1.0, 1.0)
+    return largest(curve._replace(value=sign * curve.value, slope=sign * curve.slope))
+
+
 def integral(curve: Curve) -> tuple[Array, Array]:
     """Over time, by trapezes between frames."""
     shape = (-1, *[1] * (curve.value.ndim - 1))
@@ -95,6 +102,7 @@ def at(t: float) -> Reduce:
 REDUCTIONS: dict[str, Reduce] = {
     "max": largest,
     "min": smallest,
+    "peak": peak,
     "rms": rms,
     "mean": mean,
     "integral": integral,

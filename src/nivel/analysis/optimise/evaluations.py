@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from nivel.analysis.sweep.batch import VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError
-from nivel.machine.units.quantity import ANY, read_quantity
-from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model
 from nivel.results.result import Result
 from nivel.words.wording import shown
@@ -51,6 +49,8 @@ class Box:
         """(count, d) places in the unit cube: the start, then those of a Latin hypercube."""
         from scipy.stats import qmc
 
+        if count < 1:
+            raise ModelError(Fault("", 0, 0, "starts", f"a number of starts of at least 1 was expected, got {count}"))
         first = self.scaled(self.start)[None]
         if count == 1:
             return first
@@ -67,8 +67,11 @@ def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
     rows, faults = [], []
     for path, given in parameters.items():
         try:
-            numbers = [float(read_quantity(each, ANY, {})) for each in given]
-        except (ExpressionError, TypeError, ValueError):
+            numbers = [_number(machine, path, each) for each in given]
+        except ModelError as error:
+            faults += error.faults
+            continue
+        except (TypeError, ValueError):
             numbers = []
         if len(numbers) not in (2, 3) or isinstance(given, str) or not numbers[0] < numbers[-1]:
             message = f"bounds were expected, (1, 3), or (1, 2, 3) with a start between them, got {shown(given)}"
@@ -83,6 +86,11 @@ def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
         raise ModelError(faults)
     low, high, start = np.array(rows).T
     return Box(tuple(parameters), low, high, start)
+
+
+def _number(machine: Model, path: str, given: Any) -> float:
+    """A bound in SI units; a text is read as what stands at the path, so that its unit has to fit."""
+    return float(machine.with_values({path: given})[path] if isinstance(given, str) else given)
 
 
 def _present(machine: Model, path: str, low: float, high: float) -> float:

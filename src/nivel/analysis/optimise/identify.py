@@ -20,6 +20,7 @@ from nivel.analysis.optimise.evaluations import Box, Evaluations
 from nivel.analysis.optimise.optimise import dataset_of
 from nivel.analysis.optimise.spoken_outputs import at_times
 from nivel.analysis.progress.listener import Listener
+from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError
 from nivel.model import Model
 from nivel.results.result import Result
@@ -34,12 +35,14 @@ FLAT: Final = 1e-7
 
 @dataclass(frozen=True)
 class Signal:
-    """Measurements of a result: times (n,) [s], values (n,) in SI units, and their standard deviation where it is known."""
+    """Measurements of a result: times (n,) [s], values (n,) in SI units, their standard deviation where it is known, and the unit in which
+    they were given, where there is one."""
 
     name: str
     times: Array
     values: Array
     deviation: float | None = None
+    units: str = ""
 
 
 @dataclass(frozen=True)
@@ -91,6 +94,7 @@ def identify(
         raise ModelError(Fault("", 0, 0, "data", message))
 
     def read(result: Result) -> Array:
+        _check_units(signals, result)
         rows = [
             (at_times(result, each.name, each.times) - each.values) / unit
             for each, unit in zip(signals, units, strict=True)
@@ -144,7 +148,12 @@ def identify(
     best = ends[int(np.argmin(reached))]
     if not np.isfinite(evaluations.at(best.x)).all():
         reasons = sorted({each.reason for each in evaluations.made if each.reason})
-        message = reasons[0] if reasons else "the run ends before the measurements do"
+        first, last = min(each.times.min() for each in signals), max(each.times.max() for each in signals)
+        message = (
+            reasons[0]
+            if reasons
+            else f"the run ends before the measurements do, or begins after them: they last from {first:g} to {last:g} s"
+        )
         raise ModelError(Fault("", 0, 0, "data", f"no start has results at all measurements: {message}"))
     span = box.high - box.low
     scaled, undetermined = _covariance(slopes(best.x), best.fun, box, of_known=known[0] is not None)
@@ -177,6 +186,17 @@ def identify(
         machine=machine.with_values(values),
         evaluations=len(evaluations.made),
     )
+
+
+def _check_units(signals: Sequence[Signal], result: Result) -> None:
+    """Raise ModelError where measurements are given in a unit that the result does not have."""
+    faults = [
+        Fault("", 0, 0, f"data.{each.name}", wrong)
+        for each in signals
+        if each.units and (wrong := another_measure(f"1 {each.units}", result.units(each.name)))
+    ]
+    if faults:
+        raise ModelError(faults)
 
 
 def _unit(signal: Signal) -> float:

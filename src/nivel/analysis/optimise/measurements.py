@@ -9,11 +9,14 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.analysis.optimise.identify import Signal
+from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
 from nivel.words.wording import shown, unknown_word
+
+Columns = tuple[np.ndarray, np.ndarray, str]  # times [s], values in SI units, and the unit of the heading
 
 TIME: Final = "time"
 
@@ -27,18 +30,18 @@ def signals_of(data: str | PathLike[str] | Mapping[str, Any], deviations: Mappin
         if name not in given
     ]
     faults += [
-        Fault("", 0, 0, f"deviations.{name}", f"a number above zero was expected, got {shown(value)}")
+        Fault("", 0, 0, f"deviations.{name}", f"a number above zero in SI units was expected, got {shown(value)}")
         for name, value in deviations.items()
-        if name in given and not float(value) > 0.0
+        if name in given and not (isinstance(value, int | float) and value > 0.0)
     ]
     if not given:
         faults.append(Fault("", 0, 0, "data", "there are no measurements"))
     if faults:
         raise ModelError(faults)
-    return [Signal(name, times, values, deviations.get(name)) for name, (times, values) in given.items()]
+    return [Signal(name, times, values, deviations.get(name), units) for name, (times, values, units) in given.items()]
 
 
-def _arrays(data: Mapping[str, Any]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def _arrays(data: Mapping[str, Any]) -> dict[str, Columns]:
     out, faults = {}, []
     for name, pair in data.items():
         try:
@@ -46,16 +49,18 @@ def _arrays(data: Mapping[str, Any]) -> dict[str, tuple[np.ndarray, np.ndarray]]
         except (TypeError, ValueError):
             faults.append(Fault("", 0, 0, f"data.{name}", f"times and values were expected, got {shown(pair)}"))
             continue
-        if len(times) != len(values) or not np.isfinite([*times, *values]).all():
+        if not np.isfinite([*times, *values]).all():
+            faults.append(Fault("", 0, 0, f"data.{name}", "times and values have numbers that are not finite"))
+        elif len(times) != len(values):
             message = f"as many numbers as times were expected, got {len(values)} over {len(times)}"
             faults.append(Fault("", 0, 0, f"data.{name}", message))
-        out[name] = (times, values)
+        out[name] = (times, values, "")
     if faults:
         raise ModelError(faults)
     return out
 
 
-def _columns(file: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def _columns(file: str) -> dict[str, Columns]:
     content = read_bytes(file) if file.lower().endswith(KINDS) else read_text(file)
     try:
         columns = numeric_columns(content, file)
@@ -64,5 +69,7 @@ def _columns(file: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     if TIME not in columns:
         message = f"a column `time` is missing; there are {', '.join(f'`{name}`' for name in columns)}"
         raise ModelError(Fault(file, 1, 1, "", message))
-    times = np.array(columns.pop(TIME))
-    return {name: (times, np.array(values)) for name, values in columns.items()}
+    times, units = columns.pop(TIME)
+    if wrong := another_measure(f"1 {units}" if units else "0", "s"):
+        raise ModelError(Fault(file, 1, 1, TIME, wrong))
+    return {name: (np.array(times), np.array(values), units) for name, (values, units) in columns.items()}

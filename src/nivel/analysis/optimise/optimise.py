@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from numbers import Real
 from time import perf_counter
 from typing import Any, Final
 
@@ -14,7 +15,7 @@ import xarray
 from numpy.typing import NDArray
 
 from nivel.analysis.optimise.evaluations import Box, Evaluations
-from nivel.analysis.optimise.spoken_outputs import spoken_output
+from nivel.analysis.optimise.spoken_outputs import event_of, spoken_output
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import Fault, ModelError
 from nivel.model import Model
@@ -91,6 +92,7 @@ def optimise(
         raise ModelError(Fault("", 0, 0, "method", unknown_word(method, METHODS, "method")))
     said = {"objective": aim.objective, **(aim.outputs or {})}
     limits = _checked_limits(aim.limits or {}, said, method)
+    _check_events(machine, said)
     readers = {name: spoken_output(each) for name, each in said.items()}
     names, sign = tuple(said), -1.0 if aim.maximise else 1.0
 
@@ -112,9 +114,8 @@ def optimise(
     best = int(np.argmin(values))
     if not np.isfinite(values[best]):
         reasons = sorted({each.reason for each in evaluations.made if each.reason})
-        raise ModelError(
-            Fault("", 0, 0, "objective", f"no start has one: {reasons[0] if reasons else 'it is no number'}")
-        )
+        reason = reasons[0] if reasons else "it is no number: its time is outside the run, or its event does not come"
+        raise ModelError(Fault("", 0, 0, "objective", f"no start has one: {reason}"))
     outputs = dict(zip(names, map(float, evaluations.at(found[best])), strict=True))
     chosen = box.values(found[best])
     attributes = {
@@ -140,6 +141,18 @@ def optimise(
     )
 
 
+def _check_events(machine: Model, said: Mapping[str, Said]) -> None:
+    """Raise ModelError where the time of an event is asked for that the machine does not have."""
+    known = [each.name for each in machine.record.events]
+    faults = [
+        Fault("", 0, 0, name, unknown_word(event, known, "event"))
+        for name, each in said.items()
+        if (event := event_of(each)) and event not in known
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
 def _checked_limits(limits: Limits, said: Mapping[str, Said], method: str) -> dict[str, tuple[float, float]]:
     out, faults = {}, []
     for name, given in limits.items():
@@ -151,7 +164,14 @@ def _checked_limits(limits: Limits, said: Mapping[str, Said], method: str) -> di
             faults.append(Fault("", 0, 0, f"limits.{name}", message))
             continue
         low, high = (-np.inf if given[0] is None else given[0], np.inf if given[1] is None else given[1])
-        out[name] = (float(low), float(high))
+        if not all(isinstance(each, Real) and not isinstance(each, bool) for each in (low, high)):
+            message = f"numbers in SI units were expected, (None, 5.0), got {shown(given)}"
+            faults.append(Fault("", 0, 0, f"limits.{name}", message))
+        elif not low <= high:
+            message = f"a least value below the greatest was expected, got {low:g} and {high:g}"
+            faults.append(Fault("", 0, 0, f"limits.{name}", message))
+        else:
+            out[name] = (float(low), float(high))
     if out and method == "L-BFGS-B":
         message = f"`{method}` knows no limits of outputs; {', '.join(CONSTRAINED)} do"
         faults.append(Fault("", 0, 0, "method", message))

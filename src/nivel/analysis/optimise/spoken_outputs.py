@@ -61,6 +61,12 @@ def spoken_output(said: str | Callable[[Result], float]) -> Spoken:
     return lambda result: at_times(result, name.strip(), np.array([time]))[0]
 
 
+def event_of(said: str | Callable[[Result], float]) -> str:
+    """The event whose time was said; empty for other outputs."""
+    found = None if callable(said) else CALL.fullmatch(str(said).strip())
+    return found[2].strip() if found and found[1] == "time" else ""
+
+
 def history(result: Result, name: str) -> Numbers:
     """(n,) of a result that is one number at each time. Raises ModelError where it is several, or none."""
     values = result.array(name)
@@ -70,10 +76,11 @@ def history(result: Result, name: str) -> Numbers:
 
 
 def at_times(result: Result, name: str, times: Numbers) -> Numbers:
-    """Values at times, between two frames by straight lines; not numbers after the end of the run."""
+    """Values at times, between two frames by straight lines; not numbers before the start and after the end of the run."""
     t = result.time
     out = np.interp(times, t, history(result, name))
-    out[times > t[-1] * (1.0 + 1e-9)] = np.nan
+    slack = 1e-9 * abs(t[-1])
+    out[(times < t[0] - slack) | (times > t[-1] + slack)] = np.nan
     return out
 
 

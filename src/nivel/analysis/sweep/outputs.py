@@ -200,16 +200,21 @@ def _check_limits(output: Output, units: str) -> None:
     """Raise ModelError where a limit measures something else than the number."""
     for key in ("at_least", "at_most"):
         limit = getattr(output, key)
-        if limit is None or (its := dimension_of(limit)) is None:
-            continue
-        try:
-            wanted = dimension_of(f"1 {units.replace(' ', '*')}" if units not in ("", "1") else "1")
-        except ExpressionError:
-            continue
-        if without_angle(wanted) != without_angle(its):
-            raise ModelError(
-                Fault("", 0, 0, key, f"`{limit}` is {described(its)}; the number is in {units or 'no unit'}")
-            )
+        if limit is not None and (wrong := another_measure(limit, units)):
+            raise ModelError(Fault("", 0, 0, key, wrong))
+
+
+def another_measure(quantity: Any, units: str) -> str:
+    """What is wrong where a quantity measures something else than a number in `units`; a number without a unit fits every one."""
+    if (its := dimension_of(quantity)) is None:
+        return ""
+    try:
+        wanted = dimension_of(f"1 {units.replace(' ', '*')}" if units not in ("", "1") else "1")
+    except ExpressionError:
+        return ""
+    if without_angle(wanted) == without_angle(its):
+        return ""
+    return f"`{quantity}` is {described(its)}; the number is in {units or 'no unit'}"
 
 
 @cache

@@ -150,7 +150,10 @@ def _end(found: Found) -> float:
 
 def _saved(result: Result, name: str) -> Saved:
     """Raises ModelError where the result has no such name."""
-    found = result.selection(name)
+    try:
+        found = result.selection(name)
+    except ModelError as error:
+        raise ModelError([replace(each, path="save") for each in error.faults]) from None
     variable = result.variables[found.variable]
     where = (*found.where, *[slice(None)] * (len(variable.dims) - len(found.where)))
     dims = tuple(dim for dim, each in zip(variable.dims[1:], where[1:], strict=True) if isinstance(each, slice))

@@ -185,6 +185,7 @@ _SENTENCES = {
     "string_type": "a text was expected, got {input}",
     **dict.fromkeys(("float_type", "float_parsing"), "a number was expected, got {input}"),
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "a whole number was expected, got {input}"),
+    **dict.fromkeys(("bool_type", "bool_parsing"), "`true` or `false` was expected, got {input}"),
     "finite_number": "a finite number is needed, got {input}",
     "greater_than": "a number greater than {gt:g} was expected, got {input}",
     "greater_than_equal": "a number of at least {ge:g} was expected, got {input}",

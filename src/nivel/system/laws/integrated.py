@@ -17,6 +17,8 @@ from nivel.errors import Fault, ModelError
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.units.arithmetic import evaluate
+from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import ExpressionError
 
 Array = NDArray[np.float64]
@@ -98,27 +100,35 @@ def _sampled(function: TimeFunction, times: int, end: float) -> tuple[Array, Arr
     """Polynomials that agree with a function of time from 0 to `end`."""
     value = _values(function)
     nodes = LOBATTO[COEFFICIENTS - times]
+    powers = np.arange(len(nodes))
     largest = max(float(np.abs(value(np.linspace(0.0, end, 65))).max()), 1e-300)
-    points, pieces = [0.0], []
-    waiting = [(k / 16.0 * end, (k + 1) / 16.0 * end, 0) for k in reversed(range(16))]
-    inverse = np.linalg.inv(np.vander(nodes, increasing=True))
-    while waiting:
-        begin, stop, depth = waiting.pop()
-        h = stop - begin
-        found = value(begin + h * nodes)
-        c = inverse @ found
-        missed = np.abs(polynomial.polyval(BETWEEN, c) - value(begin + h * BETWEEN)).max()
-        if missed > AGREES * largest and depth < HALVINGS:
-            middle = 0.5 * (begin + stop)
-            waiting += [(middle, stop, depth + 1), (begin, middle, depth + 1)]
-            continue
-        if times == 1 and abs(found[-1] - found[0]) > JUMP * largest and depth == HALVINGS:
-            raise ModelError(
-                Fault("", 0, 0, "", f"the speed jumps at t = {begin:.6g} s; give it a ramp, e.g. with `step`")
-            )
-        points.append(stop)
-        pieces.append(c / h ** np.arange(len(nodes)))
-    return np.array(points), np.array(pieces)
+    inverse = np.linalg.inv(np.vander(nodes, increasing=True)).T
+    between = np.vander(BETWEEN, len(nodes), increasing=True).T
+    bounds = np.linspace(0.0, end, 17)
+    begin, stop = bounds[:-1], bounds[1:]
+    points, pieces = [np.zeros(1)], []
+    for depth in range(HALVINGS + 1):
+        h = (stop - begin)[:, None]
+        found = value(begin[:, None] + h * nodes)
+        c = found @ inverse
+        missed = np.abs(c @ between - value(begin[:, None] + h * BETWEEN)).max(axis=1)
+        agrees = missed <= AGREES * largest
+        if depth == HALVINGS:
+            jumps = ~agrees & (np.abs(found[:, -1] - found[:, 0]) > JUMP * largest)
+            if times == 1 and jumps.any():
+                message = f"the speed jumps at t = {begin[jumps].min():.6g} s; give it a ramp, e.g. with `step`"
+                raise ModelError(Fault("", 0, 0, "", message))
+            agrees[:] = True
+        points.append(stop[agrees])
+        pieces.append(c[agrees] / h[agrees] ** powers)
+        begin, stop = begin[~agrees], stop[~agrees]
+        middle = 0.5 * (begin + stop)
+        begin, stop = np.concatenate([begin, middle]), np.concatenate([middle, stop])
+        if not len(begin):
+            break
+    ends = np.concatenate(points)
+    order = np.argsort(ends[1:])
+    return np.append(0.0, ends[1:][order]), np.vstack(pieces)[order]
 
 
 def _values(function: TimeFunction) -> Callable[[Array], Array]:
@@ -131,11 +141,12 @@ def _values(function: TimeFunction) -> Callable[[Array], Array]:
 
 def _evaluated(function: TimeFunction, t: Array) -> Array:
     """Raises ModelError where the function has no finite value."""
-    assert callable(function)
+    value = partial(evaluate, function.tree) if isinstance(function, Expression) else function
+    assert callable(value)
     out = np.empty_like(t)
-    for k, each in enumerate(t):
+    for k, each in np.ndenumerate(t):
         try:
-            out[k] = function(float(each))
+            out[k] = value(float(each))
         except ExpressionError as fault:
             raise ModelError(Fault("", 0, 0, "", f"there is no value at t = {each:.6g} s: {fault}")) from None
     if not np.isfinite(out).all():

@@ -102,7 +102,7 @@ def _way(driver: Driver, time: Array) -> Array | None:
     else:
         return None
     place = np.clip(np.searchsorted(points, time, side="right") - 1, 0, len(pieces) - 1)
-    return polynomial.polyval(time - points[place], pieces[place].T, tensor=False)
+    return np.asarray(polynomial.polyval(time - points[place], pieces[place].T, tensor=False), dtype=np.float64)
 
 
 def _coordinate(driver: Driver, names: list[str]) -> str | None:

@@ -1,8 +1,10 @@
 """Values set from outside the file."""
 
+import numpy as np
 import pytest
 from base_machine import BASE
 
+import nivel
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 
@@ -82,3 +84,29 @@ def test_faults_say_that_they_come_from_outside(path, value, element, part):
     if element != "simulation":
         assert fault.line == 0
         assert "set from outside the file" in fault.message
+
+
+TURNED = """
+format: 1
+parameters: {speed: 6 rad/s, rise: 2 s, double: 2*speed}
+bodies: {arm: {mass: 1, inertia: [1, 1, 1], position: [1, 0, 0]}}
+joints: {root: {type: revolute, bodies: [ground, arm], point: [0, 0, 0], axis: [0, 0, 1]}}
+drivers: {turn: {coordinate: root.angle, value: "double/rise*time^2"}}
+simulation: {duration: 1 s}
+"""
+
+
+def test_a_number_for_a_parameter_has_the_unit_of_the_file(tmp_path):
+    """Numbers are in SI units: of a speed in rad/s."""
+    path = tmp_path / "machine.yaml"
+    path.write_text(TURNED, encoding="utf-8")
+    machine = nivel.load(path)
+    assert (
+        machine.with_values({"parameters.speed": 7.0}).record
+        == machine.with_values({"parameters.speed": "7 rad/s"}).record
+    )
+    assert machine.with_values({"parameters.speed": np.float64(7.0)}).parameters["double"] == 14.0
+    with pytest.raises(ModelError, match="speed"):
+        machine.with_values({"parameters.speed": float("nan")})
+    with pytest.raises(ModelError, match="radius"):
+        machine.with_values({"parameters.radius": 1.0})

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import deepcopy
 from difflib import get_close_matches
+from math import isfinite
+from numbers import Real
 from typing import Any
 
 from nivel.errors import Fault, ModelError
-from nivel.files.outline import FILE_WORDS, TOP_WORDS
+from nivel.files.outline import FILE_WORDS, TOP_WORDS, section_of
 from nivel.files.tree import Path, Tree, read_value
 from nivel.machine.core.record import unknown_word
+from nivel.machine.parameters import resolve
+from nivel.machine.units.tree import Number
 from nivel.machine.uses.references import SECTIONS
 
 
@@ -44,6 +48,22 @@ def override(
         except ModelError as error:
             messages = "; ".join(fault.message for fault in error.faults)
             tree.faults.append(Fault(tree.file, 0, 0, path, f"{messages} (set from outside the file)"))
+
+
+def with_units(tree: Tree, overrides: Mapping[str, object]) -> dict[str, object]:
+    """`overrides`, in which numbers are in SI units: those of parameters get the unit that these have in the file."""
+    places = {path: [step.strip() for step in path.split(".")] for path in overrides}
+    numbers = [path for path, value in overrides.items() if isinstance(value, Real) and not isinstance(value, bool)]
+    of_parameters = [path for path in numbers if len(places[path]) == 2 and places[path][0] == "parameters"]
+    if not of_parameters:
+        return dict(overrides)
+    known, _ = resolve(section_of(tree, "parameters"))
+    out = dict(overrides)
+    for path in of_parameters:
+        value, present = float(overrides[path]), known.get(places[path][1])  # type: ignore[arg-type]
+        if present is not None and present.dimension is not None and isfinite(value):
+            out[path] = Number(value, present.dimension)
+    return out
 
 
 def _with_section(data: Any, steps: list[str], words: tuple[str, ...]) -> list[str]:

@@ -23,7 +23,7 @@ from nivel.files.known import Known
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
 from nivel.files.outline import VALUES, as_part, check_sections, check_start, section_of
-from nivel.files.overrides import in_order, override, prefix_of
+from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.python_laws import read_python_laws
 from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
@@ -114,7 +114,7 @@ def _tree_of(
     check_sections(tree)
     read_mass_properties(tree, sources)
     place_body_files(tree)
-    override(tree, others)
+    override(tree, with_units(tree, others))
     check_sections(tree)
     if user is not None:
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")

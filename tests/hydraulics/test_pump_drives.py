@@ -220,3 +220,20 @@ def test_an_engine_without_a_steady_speed_is_refused(words, pressure, said):
     hydraulics["diesel"] = {"type": "engine", "speed": 210, "torque_curve": curve, "inertia": 0.9, **words}
     with pytest.raises(ModelError, match=said):
         circuit(hydraulics).simulate(duration=1e-2, step=1e-2, verify=False)
+
+
+def test_an_engine_that_stalls_is_told():
+    """D Δp grows to 430 N m, more than the curve has: 0.9 ω̇ = 250 - 430 from some time on, so it turns backwards within two seconds."""
+    curve = {"speeds": [80, 210], "torques": [250, 260]}
+    hydraulics = between({"type": "pump", "displacement": D, "engine": "diesel"}, A=1 * BAR, B=101 * BAR)
+    hydraulics["at_B"]["pressure"] = {"of": "time", "times": [0, 0.1, 0.2], "values": [101 * BAR, 101 * BAR, 601 * BAR]}
+    hydraulics["diesel"] = {"type": "engine", "speed": 210, "torque_curve": curve, "inertia": 0.9}
+    built = circuit(hydraulics)
+    result = built.simulate(duration=2.0, step=1e-2, verify=False)
+    speed = history(result, "hydraulics.diesel.speed")
+    (line,) = [item for item in result.trust.items if item.name == "stall"]
+    assert line.verdict == "amber"
+    assert line.time == pytest.approx(result.time[np.argmax(speed < 0)], abs=0.02)
+    assert np.diff(speed[-2:]) / np.diff(result.time[-2:]) == pytest.approx((250 - D * 600 * BAR) / 0.9, rel=1e-6)
+    resting = built.simulate(duration=0.1, step=1e-2, verify=False)
+    assert not [item for item in resting.trust.items if item.name == "stall"]

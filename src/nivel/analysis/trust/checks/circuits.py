@@ -1,10 +1,12 @@
-"""Hydraulic circuits: their balances of energy and mass, cavitation, valves that are always open, and their steps."""
+"""Hydraulic circuits: their balances of energy and mass, cavitation, valves that are always open, engines that
+stall, and their steps."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +24,8 @@ INTEGRALS = ("supplied", "delivered", "lost")
 CAVITATES = 3e4
 # a spool this near to the end of its stroke is at its end; energies below [J] are none
 AT_END, NO_ENERGY = 0.999, 1e-9
+# [rad/s] of an engine that turns backwards
+BACKWARDS = -1e-2
 # share of the steps that may be of order one
 GUARDED = Threshold(0.01, 0.1, "")
 CIRCUITS = Need("circuits", lambda run: f"{START}stored" in run.result.variables)
@@ -64,6 +68,14 @@ class Saturation:
 
     name: str
     relief: bool
+
+
+@dataclass(frozen=True)
+class Stall:
+    """An engine that turns backwards, and from when on [s]."""
+
+    name: str
+    time: float
 
 
 @dataclass(frozen=True)
@@ -159,6 +171,24 @@ def say_saturation(found: Saturation) -> Item:
     return Item("saturation", "amber", f"Saturation: {said}", row=found.name)
 
 
+def look_for_stalls(run: Motion) -> list[Stall]:
+    """Engines that turn backwards: the law of an engine goes on there, and real ones have stopped."""
+    found, time = [], np.asarray(run.result.time)
+    for engine in _components(run.result):
+        if engine["type"] == "engine":
+            backwards = _history(run.result, f"{START}{engine['name']}.speed") < BACKWARDS
+            if backwards.any():
+                found.append(Stall(engine["name"], float(time[int(np.argmax(backwards))])))
+    return found
+
+
+def say_stall(found: Stall) -> Item:
+    """An engine without sense."""
+    said = f"the engine {found.name} stalls: it turns backwards from t = {found.time:.6g} s on, and what follows has no sense"
+    text = f"Stall: {said}; give it more torque, or its pumps a `torque_limit`"
+    return Item("stall", "amber", text, row=found.name, time=found.time)
+
+
 def look_at_steps(run: Run) -> Guard | None:
     """What the guard of steps over circuits did; None where there is none."""
     timing = run.finished.timing
@@ -183,8 +213,13 @@ def _history(result: Readable, name: str) -> NDArray[np.float64]:
     return np.asarray(result.array(name), dtype=float).ravel()
 
 
+def _components(result: Readable) -> list[dict[str, Any]]:
+    """Those of the circuits, as records."""
+    return json.loads(str(result.attributes.get("machine_record", "{}"))).get("hydraulics") or []
+
+
 def _saturated(result: Readable) -> Iterator[Saturation]:
-    for valve in json.loads(str(result.attributes.get("machine_record", "{}"))).get("hydraulics") or ():
+    for valve in _components(result):
         name, kind = valve["name"], valve["type"]
         centred = kind == "section" or (kind == "directional-valve" and valve["ways"] in CENTRED)
         if not centred and kind != "relief-valve":
@@ -199,5 +234,6 @@ CHECKS = (
     Check("fluid mass", Motion, look_at_mass, say_mass, 440, (FRAMES, CIRCUITS), "Fluid"),
     Check("cavitation", Motion, look_for_cavitation, say_cavitation, 450, (FRAMES, CIRCUITS), "Cavitation"),
     Check("saturation", Motion, look_at_valves, say_saturation, 460, (FRAMES, CIRCUITS), "Saturation"),
+    Check("stall", Motion, look_for_stalls, say_stall, 465, (FRAMES, CIRCUITS), "Stall"),
     Check("pressure steps", Run, look_at_steps, say_steps, 470, (), "Pressure steps"),
 )

@@ -115,7 +115,7 @@ def look_at_mass(run: Motion) -> FluidMass:
     """The mass in all volumes against what tanks gave. Volumes exchange fluid to round-off; the integral is as exact as the method."""
     result = run.result
     names = [name for name in result.variables if name.startswith("state.") and ".mass" in name]
-    names = [name for name in names if not name.endswith("mass_flow")]
+    names = [name for name in names if ".mass_flow" not in name]
     mass = sum((_history(result, name) for name in names), np.zeros(len(result.time)))
     taken = _history(result, f"state.{START}taken_in")
     error = np.abs(mass - mass[0] - taken)

@@ -554,7 +554,8 @@ class Machine(Model):
 
         Slopes are differences of runs; with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
         outputs and slopes. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
-        ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective.
+        ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective;
+        SolveError where that is because runs fail.
         """
         from nivel.analysis.optimise.evaluations import box_of
         from nivel.analysis.optimise.optimise import Aim, optimise

@@ -51,10 +51,12 @@ def test_a_copy_that_ends_stands_still_until_it_is_restored(machine):
     begin = many.states
     many.advance(1.0, {"push": [8.0, 1.0]})
     assert many.alive.tolist() == [False, True]
+    assert many.reasons == ["the event `far` ended it at t = 0.707107 s", ""]
     np.testing.assert_allclose(many.time, [0.5**0.5, 1.0])
     many.restore(begin[0], ~many.alive)
     np.testing.assert_allclose(many.time, [0.0, 1.0])
     assert many.alive.all()
+    assert many.reasons == ["", ""]
     assert many[0].time == 0.0
 
 

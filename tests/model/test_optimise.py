@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.errors import ModelError
+from nivel.analysis.optimise.evaluations import Evaluated, nothing_found
+from nivel.errors import ModelError, SolveError
 from nivel.files import parse_machine
 
 OSCILLATOR = """
@@ -139,6 +140,14 @@ def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
     found = oscillator.identify(path, {STIFFNESS: (20, 200), DAMPING: (0, 10)}, deviations={"rail.displacement": 1e-3})
     assert found.values[STIFFNESS] == pytest.approx(64.0, rel=1e-5)
     assert found.residuals["rail.displacement"].shape == times.shape
+
+
+@pytest.mark.parametrize(("outcome", "kind"), [("failed", SolveError), ("refused", ModelError)])
+def test_a_search_without_a_result_says_whether_runs_failed(outcome, kind):
+    made = [Evaluated(np.zeros(1), np.full(1, np.nan), outcome, "the step is too long", 0)]
+    told = nothing_found(made, "objective", "no start has one", "")
+    assert type(told) is kind
+    assert str(told) == "objective: no start has one: the step is too long"
 
 
 @pytest.mark.parametrize(

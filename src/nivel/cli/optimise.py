@@ -40,7 +40,7 @@ def command(
     The study says so with `optimise: {output: NAME}`. The data file has every variant that was computed. The best machine is run once more,
     with a second run beside it, to say how exact it is.
 
-    Exit codes: 0 a best one within all limits was found, 2 fault in the input, 3 no values keep all limits.
+    Exit codes: 0 a best one within all limits was found, 2 fault in the input, 3 no values keep all limits, or runs fail.
     """
     from nivel.cli.failures import COMPUTATION_FAILED
     from nivel.studies import load_study

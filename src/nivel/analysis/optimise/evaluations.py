@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.sweep.batch import VariantRuns, formulas_for
-from nivel.errors import Fault, ModelError, NivelError
+from nivel.errors import Fault, ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result
 from nivel.words.wording import shown
@@ -205,6 +205,15 @@ class Evaluations:
             a, b = _sides(z[k], SHARE)
             columns.append(_difference(middle, ends[2 * k], ends[2 * k + 1], a, b, steps[k]))
         return np.array(columns).T
+
+
+def nothing_found(made: Sequence[Evaluated], path: str, message: str, otherwise: str) -> NivelError:
+    """Why no start has outputs: SolveError where runs fail, else ModelError. otherwise : the reason where variants tell none."""
+    reasons = sorted({each.reason for each in made if each.reason})
+    text = f"{message}: {reasons[0] if reasons else otherwise}"
+    if any(each.outcome == "failed" for each in made):
+        return SolveError(f"{path}: {text}", time=0.0)
+    return ModelError(Fault("", 0, 0, path, text))
 
 
 def _sides(z: float, share: float) -> tuple[float, float]:

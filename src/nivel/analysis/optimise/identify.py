@@ -16,7 +16,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Evaluations
+from nivel.analysis.optimise.evaluations import Box, Evaluations, nothing_found
 from nivel.analysis.optimise.optimise import dataset_of
 from nivel.analysis.optimise.spoken_outputs import at_times
 from nivel.analysis.progress.listener import Listener
@@ -147,14 +147,11 @@ def identify(
     reached = np.array([2.0 * each.cost for each in ends])
     best = ends[int(np.argmin(reached))]
     if not np.isfinite(evaluations.at(best.x)).all():
-        reasons = sorted({each.reason for each in evaluations.made if each.reason})
         first, last = min(each.times.min() for each in signals), max(each.times.max() for each in signals)
-        message = (
-            reasons[0]
-            if reasons
-            else f"the run ends before the measurements do, or begins after them: they last from {first:g} to {last:g} s"
+        otherwise = (
+            f"the run ends before the measurements do, or begins after them: they last from {first:g} to {last:g} s"
         )
-        raise ModelError(Fault("", 0, 0, "data", f"no start has results at all measurements: {message}"))
+        raise nothing_found(evaluations.made, "data", "no start has results at all measurements", otherwise)
     span = box.high - box.low
     scaled, undetermined = _covariance(slopes(best.x), best.fun, box, of_known=known[0] is not None)
     covariance = scaled * np.outer(span, span)

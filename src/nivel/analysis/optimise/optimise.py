@@ -14,7 +14,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Evaluations
+from nivel.analysis.optimise.evaluations import Box, Evaluations, nothing_found
 from nivel.analysis.optimise.spoken_outputs import event_of, spoken_output
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import Fault, ModelError
@@ -86,7 +86,7 @@ def optimise(
 ) -> Optimum:
     """The machine with the least objective. most : iterations of each start; tolerance : of the objective, as a share.
 
-    Raises ModelError where words are not known, or no start has an objective.
+    Raises ModelError where words are not known, or no start has an objective, and SolveError where that is because runs fail.
     """
     if method not in METHODS:
         raise ModelError(Fault("", 0, 0, "method", unknown_word(method, METHODS, "method")))
@@ -113,9 +113,8 @@ def optimise(
     values = [search.judged(z) for z in found]
     best = int(np.argmin(values))
     if not np.isfinite(values[best]):
-        reasons = sorted({each.reason for each in evaluations.made if each.reason})
-        reason = reasons[0] if reasons else "it is no number: its time is outside the run, or its event does not come"
-        raise ModelError(Fault("", 0, 0, "objective", f"no start has one: {reason}"))
+        otherwise = "it is no number: its time is outside the run, or its event does not come"
+        raise nothing_found(evaluations.made, "objective", "no start has one", otherwise)
     outputs = dict(zip(names, map(float, evaluations.at(found[best])), strict=True))
     chosen = box.values(found[best])
     attributes = {

@@ -40,7 +40,7 @@ class Simulations:
             again = last[1][1].again()
             ready = (last[1][0], prepare(last[1][0].methods) if again is None else again)
             self._each.append(Simulation(plan, source=source, ready=ready))
-        self.reasons = [""] * len(plans)
+        self._failures = [""] * len(plans)
 
     def __len__(self) -> int:
         return len(self._each)
@@ -48,7 +48,17 @@ class Simulations:
     @property
     def alive(self) -> NDArray[np.bool_]:
         """(n,) which of them can go on."""
-        return np.array([not (reason or sim.stopped_by) for reason, sim in zip(self.reasons, self._each, strict=True)])
+        return np.array(
+            [not (reason or sim.stopped_by) for reason, sim in zip(self._failures, self._each, strict=True)]
+        )
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why each of them stands still; empty of those that can go on."""
+        return [
+            failure or (f"the event `{sim.stopped_by}` ended it at t = {sim.time:g} s" if sim.stopped_by else "")
+            for failure, sim in zip(self._failures, self._each, strict=True)
+        ]
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -69,14 +79,14 @@ class Simulations:
     def _go(self, steps: int, inputs: Mapping[str, Any] | None) -> None:
         rows = self._rows(inputs)
         for k, sim in enumerate(self._each):
-            if self.reasons[k] or sim.stopped_by:
+            if self._failures[k] or sim.stopped_by:
                 continue
             try:
                 if rows is not None:
                     sim.set_inputs(rows[k])
                 sim.go(steps)
             except SolveError as error:
-                self.reasons[k] = str(error)
+                self._failures[k] = str(error)
 
     def _rows(self, inputs: Mapping[str, Any] | None) -> list[dict[str, float]] | None:
         """Inputs of each."""
@@ -118,7 +128,7 @@ class Simulations:
             raise ModelError(Fault("", 0, 0, "states", f"{len(numbers)} states were expected, got {len(given)}"))
         for k, state in zip(numbers, given, strict=True):
             self._each[k].restore(state)
-            self.reasons[k] = ""
+            self._failures[k] = ""
 
     def __repr__(self) -> str:
         return f"<{len(self)} simulations of {self._each[0].machine_name}: {int(self.alive.sum())} alive, not verified>"

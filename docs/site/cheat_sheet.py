@@ -117,11 +117,11 @@ SHEET_STYLE = """
 .md-content__inner:has(.sheet){padding-top:0}
 .md-content__inner:has(.sheet)::before{display:none}
 .md-content__inner:has(.sheet) h1{margin:0 0 2px;font-size:15px}
-.sheet{columns:5;column-gap:10px;column-rule:1px solid var(--md-default-fg-color--lightest);font-size:8.4px;line-height:1.22}
-.md-typeset .sheet h4{margin:3px 0 1px;font-size:9.5px;line-height:1.2;font-weight:700;color:var(--md-accent-fg-color);break-after:avoid}
+.sheet{columns:6;column-gap:8px;column-rule:1px solid var(--md-default-fg-color--lightest);font-size:8px;line-height:1.07}
+.md-typeset .sheet h4{margin:2px 0 0;font-size:8.8px;line-height:1.2;font-weight:700;color:var(--md-accent-fg-color);break-after:avoid}
 .md-typeset .sheet p.key{margin:0;padding-left:7px;text-indent:-7px}
-.md-typeset .sheet code{font-size:8.4px;padding:0;background:none;font-weight:700;color:var(--md-primary-fg-color)}
-.sheet i{color:var(--md-default-fg-color--light);font-size:7.4px}
+.md-typeset .sheet code{font-size:8px;padding:0;background:none;font-weight:700;color:var(--md-primary-fg-color)}
+.sheet i{color:var(--md-default-fg-color--light);font-size:7px}
 .sheet u{text-decoration:none;color:var(--md-default-fg-color--light)}
 .sheet em{color:var(--md-accent-fg-color)}
 @media (max-width:1000px){.sheet{columns:2;font-size:10px}}

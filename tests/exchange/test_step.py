@@ -20,6 +20,7 @@ def crane(tmp_path_factory):
     path = tmp_path_factory.mktemp("step") / "crane.step"
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.option.setString("Geometry.OCCTargetUnit", "MM")  # what was read before in this process may have left metres
     gmsh.model.add("parts")
     occ = gmsh.model.occ
     occ.addBox(0, 0, 0, 1e3 * A, 1e3 * B, 1e3 * C)

@@ -379,7 +379,7 @@ FILES = {
     "result.nc": (b"\x89HDF\r\n\x1a\n\x00\x00", "`nivel view {}` plays it"),
     "report.html": (b"<!doctype html>\n<title>rod</title>", "a page for a browser"),
     "robot.urdf": (b"<?xml version='1.0'?>\n<robot name='arm'>", "`nivel import {} --out machine.yaml` translates"),
-    "bag.mcap": (b"\x89MCAP0\r\n\x01\x00", "a recording (MCAP), which nivel does not read; save it as Parquet or CSV"),
+    "bag.mcap": (b"\x89MCAP0\r\n\x01\x00", "a machine reads a signal: `{{csv: {}, column: /TOPIC.FIELD}}`"),
     "log.mf4": (b"MDF     4.10    ", "a recording (MDF)"),
     "log.parquet": (b"PAR1\x15\x04", "`{{csv: {}, column: NAME}}`"),
     "log.mat": (b"MATLAB 5.0 MAT-file, Platform", "`{{csv: {}, column: NAME}}`"),

@@ -25,7 +25,9 @@ import test_eliminated_rails
 import test_friction
 import test_rails
 import test_statics_closed_forms
+import test_thermal_accumulator
 import tree_machines
+from circuits import circuit
 from nivel.analysis.assembly.implicit import find_tangent
 from nivel.analysis.preparation import preparation
 from nivel.files import parse_machine
@@ -151,6 +153,13 @@ def test_drive_trains_that_hold(integrator):
     driven = {"turn": {"coordinate": "p", "speed": 3.0}}
     brake = {"brake": {"type": "brake", "coordinate": "p", "capacity": 1.0}}
     short(machine(test_drive_trains.shafts(brake, drivers=driven)).record, integrator)
+
+
+def test_belts():
+    """One that slips, and a chain that is slack on both sides."""
+    belt = {"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [0.1, 0.1], "stiffness": 1e5}
+    for more, speeds in (({"pretension": 1.0, "friction": 0.3}, (9.0, 0.0)), ({"slack": 1e-4}, (0.0, 1.0))):
+        short(machine(test_drive_trains.shafts({"belt": {**belt, **more}}, speeds)).record)
 
 
 def test_a_rope_that_slips_on_its_wheel():
@@ -463,6 +472,27 @@ def test_circuits(integrator):
     """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
     short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)
     short(hydraulic_zoo.machine_with_gas().record, integrator, steps=2, step=1e-4)
+
+
+@pytest.mark.parametrize("integrator", ["radau", "extrapolated-euler"])
+def test_lines_and_gas_that_cools(integrator):
+    """A hose in segments, liquid with dissolved air, a valve that switches, and an accumulator that takes the temperature around it."""
+    rated = {"flow": "40 L/min", "pressure_drop": "8 bar"}
+    curve = {"pressures": ["100 bar", "200 bar"], "volumes": ["4 cm^3/m", "6 cm^3/m"]}
+    hydraulics = {
+        "tank": {"type": "tank", "pressure": "60 bar"},
+        "drain": {"type": "tank", "pressure": "1 bar"},
+        "end": {"type": "volume", "volume": "100 cm^3"},
+        "hose": {"type": "volume", "volume": "100 cm^3"},
+        "line": {"type": "line", "ports": {"A": "tank", "B": "end"}, "diameter": "20 mm", "length": 2, "segments": 2,
+                 "expansion": curve},
+        "valve": {"type": "directional-valve", "ways": "2/2", "ports": {"P": "end", "A": "hose"}, "command": "time > 5e-5",
+                  "switching": {"on_delay": "20 us", "off_delay": "40 ms", "time": "10 ms"}, **rated},
+        "orifice": {"type": "orifice", "ports": {"A": "hose", "B": "drain"}, **rated},
+        "store": {**test_thermal_accumulator.STORE, "ports": {"A": "hose"}},
+    }  # fmt: skip
+    fluids = {"oil": {"grade": "HLP 46", "air": 0.01, "dissolved_air": 0.05}}
+    short(circuit(hydraulics, fluids=fluids).record, integrator, steps=2, step=1e-4, coordinates="relative")
 
 
 def test_circuits_with_derivatives_by_hand():

@@ -284,5 +284,5 @@ def test_the_schema_tells_drivers_from_forces():
     tables = [form for form in force["anyOf"] if "values" in form.get("properties", {})]
     assert [form["required"] for form in tables] == [["times", "values"], ["of", "points", "values"]]
     (table,) = [form for form in angle["anyOf"] if "values" in form.get("properties", {})]
-    assert table["properties"]["interpolation"] == {"enum": ["linear", "cubic", "monotone", "quintic"]}
+    assert table["properties"]["interpolation"] == {"enum": ["linear", "cubic", "monotone", "quintic", "periodic"]}
     assert "of" not in table["required"]

@@ -20,6 +20,11 @@ def value(expression, *arguments):
     return kernel.run.code(row)
 
 
+def angle(x, y):
+    """atan2, but not of two zeros, where only their signs decide."""
+    return Call("atan2", (x, Operation("+", y, Number(0.3))))
+
+
 def trees():
     leaves = some.one_of(some.floats(-4, 4).map(Number), some.just(Time()), some.sampled_from(SIGNALS[1:]).map(Signal))
 
@@ -35,9 +40,7 @@ def trees():
             some.lists(part, min_size=2, max_size=4),
         )
         two = some.builds(Operation, some.sampled_from(["+", "-", "*", "/", "**"]), part, part)
-        return some.one_of(
-            one, many, two, some.builds(Negative, part), some.builds(lambda x, y: Call("atan2", (x, y)), part, part)
-        )
+        return some.one_of(one, many, two, some.builds(Negative, part), some.builds(angle, part, part))
 
     return some.recursive(leaves, larger, max_leaves=12)
 

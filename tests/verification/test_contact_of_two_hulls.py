@@ -306,15 +306,15 @@ def test_what_two_hulls_are_not_is_told():
     cases = [
         (
             touching(box(BRICK), ball),
-            "`a` a box and `b` a sphere: two spheres can touch, or two of box, extrusion, mesh",
+            r"is for two of box, cylinder, extrusion, mesh; what touches a sphere or capsule takes a `stiffness`",
         ),
         (
             touching(box(BRICK), box(PLATE), stiffness=1e5),
-            "`stiffness` is not for two of box, extrusion, mesh: give `foundation_modulus",
+            "`stiffness` is not for two of box, cylinder, extrusion, mesh: give `foundation_modulus",
         ),
         (
             touching(ball, {**ball}, foundation_modulus=1e9),
-            "is for two of box, extrusion, mesh; two spheres take a `stiffness`",
+            "is for two of box, cylinder, extrusion, mesh; what touches a sphere or capsule takes a `stiffness`",
         ),
         (touching(box(BRICK), box(PLATE), foundation_modulus="3 N/m"), r"a foundation modulus .N/m\^3. was expected"),
     ]

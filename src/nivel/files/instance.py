@@ -17,6 +17,8 @@ MENTIONS: Final = (
     "markers",
     "relative_to",
     "plane",
+    "planes",
+    "between",
     "joints",
     "coordinate",
     "against",

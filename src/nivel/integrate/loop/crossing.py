@@ -156,13 +156,14 @@ def root(evaluate, correct, machine, history, k, theta):
     theta = real(theta)
     aside = min(ASIDE, max(theta, ASIDE * ASIDE), 1.0)
     status, before = value_at(evaluate, correct, machine, history, k, theta - aside)
-    if status == OK:
-        status, after = value_at(evaluate, correct, machine, history, k, theta + aside)
-        rate = 0.5 * (real(after) - real(before)) / aside
-    if status == OK:
-        status, value = value_at(evaluate, correct, machine, history, k, theta)
-        theta = theta - (value - real(value)) / rate
-    return status, 0.0 * value + theta
+    if status != OK:
+        return status, 0.0 * before + theta
+    status, after = value_at(evaluate, correct, machine, history, k, theta + aside)
+    if status != OK:
+        return status, 0.0 * before + theta
+    rate = 0.5 * (real(after) - real(before)) / aside
+    status, value = value_at(evaluate, correct, machine, history, k, theta)
+    return status, theta - (value - real(value)) / rate
 
 
 @leaf

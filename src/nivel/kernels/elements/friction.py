@@ -106,19 +106,6 @@ def is_apart(record, k):
 
 
 @stage
-def all_apart(record):
-    """Whether all frictions are of patches where nothing touches; then none has an effort."""
-    friction = record.friction
-    for k in range(friction.columns.shape[0]):
-        if not is_apart(record, k):
-            return False
-    for k in range(friction.columns.shape[0]):
-        friction.force[k], friction.anchor[k] = 0.0, 0.0
-        friction.work[PROPOSED, k], friction.work[RESTING, k] = 0.0, 0.0
-    return True
-
-
-@stage
 def respond(machine):
     """Multipliers and whitened accelerations for a unit effort on each coordinate, S, and the masses that efforts move."""
     record = record_at(machine)

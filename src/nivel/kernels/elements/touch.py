@@ -19,7 +19,7 @@ def write_touch(machine, first, p, normal, drag, lost, given):
     """Where contact number `first` of the outputs touches, its normal, its friction on the first body, the power that this loses, and that
     of the moving surface."""
     out = record_at(machine).outputs.value
-    out[first + LOST], out[first + GIVEN], out[first + HELD] = lost, given, 0.0 * lost
+    out[first + LOST], out[first + GIVEN], out[first + HELD] = lost, given, 0.0
     for a in range(3):
         out[first + PLACE + a], out[first + NORMAL + a], out[first + DRAG + a] = p[a], normal[a], drag[a]
 
@@ -29,4 +29,4 @@ def leave_touch(machine, first):
     """The surfaces do not touch."""
     out = record_at(machine).outputs.value
     for a in range(LOST, COUNT):
-        out[first + a] = 0.0 * out[first + a]
+        out[first + a] = 0.0

@@ -1,7 +1,7 @@
 """Contact of shapes with planes, and of spheres with each other.
 
-A box and a hull touch with their corners, a capsule with its two balls, an ellipsoid with its lowest point. A cylinder touches with four
-points of each rim, the lowest one and those a quarter turn on, so it rolls on exact circles and stands on four feet. Normal force:
+A box and a hull touch with their corners, a capsule with its two balls. A cylinder touches with four points of each rim, the lowest one
+and those a quarter turn on, so it rolls on exact circles and stands on four feet. Normal force:
 `nivel.kernels.forces.impact`, or a law of the user, which works from outside and never pulls. Friction of every point: μ N tanh(v/v_s)
 against the sliding velocity of the bodies there; or that of a patch of all points, which sticks: `nivel.kernels.elements.patch`.
 """
@@ -29,7 +29,7 @@ from nivel.native.function import stage
 # how many it has, COORDINATE: the first of these; SURFACE: the columns of a surface that moves over its body
 OUTPUT, KIND, MARKER, OTHER, LAW, COUNT, PATCH, AXES, COORDINATE, SURFACE = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
 # a law reads overlap and rate of its point among the outputs; ROUND: two bodies of `nivel.kernels.forces.round_contact`
-SPHERE, BOX, CYLINDER, SPHERES, HULL, CAPSULE, ELLIPSOID, ROUND = 0, 1, 2, 3, 4, 5, 6, 7
+SPHERE, BOX, CYLINDER, SPHERES, HULL, CAPSULE, ROUND = 0, 1, 2, 3, 4, 5, 6
 # columns of `number`; SIZE: radius; half lengths; radius and half length; semi-axes; the two radii; RADIUS: of a ball about the marker that
 # holds the shape, of two spheres 0. Then work: a point, a normal, sums over the points (force, moments of first and second order, force
 # times velocity of the point; friction on the first body; sum of the sizes of friction, power lost, power of the moving surface, power,
@@ -83,16 +83,6 @@ def rim_point(A, r, size, n, normal, p):
     z = size[1] if n < 4 else -size[1]
     for a in range(3):
         p[a] = r[a] + size[0] * (c * A[a, 0] + s * A[a, 1]) + z * A[a, 2]
-
-
-@stage
-def lowest_point(A, r, size, normal, p):
-    """The point of an ellipsoid farthest against the normal: r - A S² Aᵀ n/|S Aᵀ n|."""
-    g0, g1, g2 = size[0] * dot(axis(A, 0), normal), size[1] * dot(axis(A, 1), normal), size[2] * dot(axis(A, 2), normal)
-    h = np.sqrt(g0 * g0 + g1 * g1 + g2 * g2)
-    x, y, z = -size[0] * g0 / h, -size[1] * g1 / h, -size[2] * g2 / h
-    for a in range(3):
-        p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
 
 
 @stage
@@ -213,8 +203,6 @@ def find_point(machine, k, n):
         rim_point(A, r, size, n, normal, p)
     elif kind == HULL:
         hull_corner(A, r, numbers[NUMBERS:], n, p)
-    elif kind == ELLIPSOID:
-        lowest_point(A, r, size, normal, p)
     elif kind == CAPSULE:
         z = size[1] if n == 0 else -size[1]
         for a in range(3):
@@ -267,19 +255,6 @@ def speed_of_point(machine, k, n):
             out * normal[2] + height * turning[2],
         )
         return minus(own, down)
-    if kind == ELLIPSOID:
-        # x = -S² g/h in axes of the body, g = Aᵀ n, h = |S g|; ġ = Aᵀ (Ω - ω) × n
-        A, size, turning = markers.A[i], numbers[SIZE:POINT], cross(minus(W, w), normal)
-        h, along = 0.0 * normal[0], 0.0 * normal[0]
-        for b in range(3):
-            g = dot(axis(A, b), normal)
-            h += size[b] * size[b] * g * g
-            along += size[b] * size[b] * g * dot(axis(A, b), turning)
-        v = velocity_at(bodies, markers.body[i], p)
-        for b in range(3):
-            part = dot(axis(A, b), normal) * along / h - dot(axis(A, b), turning)
-            v = plus(v, times(size[b] * size[b] * part / np.sqrt(h), axis(A, b)))
-        return v
     if kind == CYLINDER:
         a = axis(markers.A[i], 2)
         sigma = dot(a, normal)

@@ -1,7 +1,7 @@
 """Signed distance of a point from a convex shape, and the direction in which it grows; negative inside.
 
-A capsule's is that of its core, a line segment. All are exact: boxes and cylinders by their faces and rims, ellipsoids by the root of
-Σ (a x/(t + a²))² = 1 (Eberly 2013), hulls by faces, edges and corners in turn. The point is in axes of the shape.
+A capsule's is that of its core, a line segment. All are exact: boxes and cylinders by their faces and rims, hulls by faces,
+edges and corners in turn. The point is in axes of the shape.
 """
 
 from __future__ import annotations
@@ -11,11 +11,9 @@ import numpy as np
 from nivel.kernels.algebra.analytic import absolute, real
 from nivel.native.function import leaf, part
 
-# kinds; numbers: half lengths; radius and half length (axis z); half length of a segment along z; semi-axes; of a hull the counts of
+# kinds; numbers: half lengths; radius and half length (axis z); half length of a segment along z; of a hull the counts of
 # corners, faces and edges, then corners (3 each), faces (normal and distance, 4 each) and edges (6 each, both ends)
-BOX, CYLINDER, SEGMENT, ELLIPSOID, HULL = 0, 1, 2, 3, 4
-# Iterations for the root, which comes from one side and converges twice as fast as digits are lost.
-MOST = 60
+BOX, CYLINDER, SEGMENT, HULL = 0, 1, 2, 3
 # A point before a face is before it, by this share of the distance, also where round-off says that it is beyond its edge.
 EDGE = 1e-12
 
@@ -80,33 +78,6 @@ def from_segment(x, n):
         return squared, squared + 1.0, squared, squared  # any direction will do
     d = np.sqrt(squared)
     return d, x[0] / d, x[1] / d, z / d
-
-
-@leaf
-def from_ellipsoid(x, n):
-    """(distance, gradient) of an ellipsoid; a point far inside counts as one at its least deep place."""
-    a, b, c = n[0] * n[0], n[1] * n[1], n[2] * n[2]
-    u, v, w = n[0] * x[0], n[1] * x[1], n[2] * x[2]
-    t = max(-real(a) + np.abs(real(u)), -real(b) + np.abs(real(v)), -real(c) + np.abs(real(w)))
-    for _ in range(MOST):
-        f, g, h = real(u) / (t + real(a)), real(v) / (t + real(b)), real(w) / (t + real(c))
-        value = f * f + g * g + h * h - 1.0
-        slope = -2.0 * (f * f / (t + real(a)) + g * g / (t + real(b)) + h * h / (t + real(c)))
-        change = -value / slope if slope < 0.0 else 0.0
-        if not change > 1e-16 * (np.abs(t) + real(a)):
-            break
-        t += change
-    # one step more carries the slopes
-    f, g, h = u / (t + a), v / (t + b), w / (t + c)
-    value = f * f + g * g + h * h - 1.0
-    slope = f * f / (t + a) + g * g / (t + b) + h * h / (t + c)
-    s = t + 0.5 * value / slope
-    f, g, h = u / (s + a), v / (s + b), w / (s + c)
-    # the foot is (a f, b g, c h) by the semi-axes; the normal there (f, g, h) by them
-    p, q, r = f / n[0], g / n[1], h / n[2]
-    size = np.sqrt(p * p + q * q + r * r)
-    p, q, r = p / size, q / size, r / size
-    return (x[0] - f * n[0]) * p + (x[1] - g * n[1]) * q + (x[2] - h * n[2]) * r, p, q, r
 
 
 @leaf
@@ -175,8 +146,6 @@ def surface_distance(kind, x, n):
         return from_cylinder(x, n)
     if kind == SEGMENT:
         return from_segment(x, n)
-    if kind == ELLIPSOID:
-        return from_ellipsoid(x, n)
     return from_hull(x, n)
 
 

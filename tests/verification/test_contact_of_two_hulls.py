@@ -323,7 +323,7 @@ def test_what_two_hulls_are_not_is_told():
             machine(sections)
     without = touching(box(BRICK), box(PLATE))
     del without["forces"]["hit"]["foundation_modulus"]
-    with pytest.raises(ModelError, match="two boxes, extrusions or meshes need a `foundation_modulus`"):
+    with pytest.raises(ModelError, match="two boxes, cylinders, extrusions or meshes need a `foundation_modulus`"):
         machine(without)
 
 

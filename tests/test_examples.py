@@ -78,6 +78,7 @@ def test_machine_written_in_python_runs_and_round_trips(tmp_path):
     np.testing.assert_array_equal(again.array("position"), result.array("position"))
 
 
+@pytest.mark.compiles
 def test_the_rod_that_is_found_puts_the_slider_there():
     example = runpy.run_path(str(EXAMPLES / "mechanisms" / "slider_place.py"))
     rod = example["machine"].with_values({example["LENGTH"]: example["find_length"]()})

@@ -18,6 +18,8 @@ from coupler_curve import LENGTHS, synthesised  # noqa: E402
 from friction_and_damping import identified  # noqa: E402
 from swing_free import fastest, swing_free  # noqa: E402
 
+pytestmark = pytest.mark.compiles  # runs on dual numbers, which `nivel warmup` leaves out
+
 
 def reached_the_linkage(starts, seed, **given):
     machine, found = synthesised(starts, seed, **given)

@@ -15,6 +15,8 @@ from nivel.gradients import jax_function, torch_function, value_and_gradient
 from nivel.report.tornado import tornados
 from nivel.report.write import report_html
 
+pytestmark = pytest.mark.compiles  # runs on dual numbers, which `nivel warmup` leaves out
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 FALLING = """

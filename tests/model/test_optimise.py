@@ -10,6 +10,8 @@ from nivel.analysis.optimise.evaluations import Evaluated, nothing_found
 from nivel.errors import ModelError, SolveError
 from nivel.files import parse_machine
 
+pytestmark = pytest.mark.compiles  # runs on dual numbers, which `nivel warmup` leaves out
+
 OSCILLATOR = """
 format: 1
 bodies: {block: {mass: 2, inertia: [1, 1, 1], position: [0.1, 0, 0]}}

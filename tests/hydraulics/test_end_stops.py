@@ -196,17 +196,21 @@ def test_steps_at_an_end_cost_as_much_as_others(case):
 # not the jib that stops short of its lower end, at its dead centre, where its place hangs on every pressure
 @pytest.mark.parametrize("held", tail([each for each in HELD if (each.cylinder, each.end) != ("jib", 0)], [HELD[1]]))
 def test_a_cylinder_comes_to_its_end_as_by_radau(held):
+    """The jib on its way up needs steps of 0.5 ms: 1 ms leave 3.0e-4 m and 4.2 bar, half of them less than half of that."""
     exact = held_for(held, held.duration, integrator="radau", tolerance=1e-6)
-    found = run(held, 1e-3)
-    # the jib's way of 0.47 m is within 3.0e-4 m with these steps, and 0.9e-4 with half of them
-    for name, allowed in (
-        ("position", 4e-4 if held.cylinder == "jib" else 2e-4),
-        ("pressure_A", 2 * BAR),
-        ("pressure_B", 2 * BAR),
-    ):
-        ours, theirs = (history(each, f"hydraulics.{held.cylinder}.{name}") for each in (found, exact))
-        assert np.sqrt(np.mean((ours - theirs) ** 2)) < allowed, name
-        assert ours[-1] == pytest.approx(theirs[-1], abs=1e-2 * allowed), name
+    jib = held.cylinder == "jib"
+    found = run(held, 5e-4 if jib else 1e-3)
+
+    def distance(result, name):
+        ours, theirs = (history(each, f"hydraulics.{held.cylinder}.{name}") for each in (result, exact))
+        return np.sqrt(np.mean((ours - theirs) ** 2)), abs(ours[-1] - theirs[-1])
+
+    for name, allowed in (("position", 2e-4), ("pressure_A", 2 * BAR), ("pressure_B", 2 * BAR)):
+        mean, last = distance(found, name)
+        assert mean < allowed, name
+        assert last < 1e-2 * allowed, name
+        if jib:
+            assert mean < 0.5 * distance(run(held, 1e-3), name)[0], name
 
 
 def ram(mass, gap, coordinates="relative", push="20 bar", **more):

@@ -311,3 +311,25 @@ def test_the_terminal_names_levers_and_keys_as_the_page_does():
     text = text.replace("raise: d, lower: a", "raise: ArrowUp, lower: a")
     with session_of(Machine.from_record(parse_machine(text)), {}, urgent=False) as session:
         assert [*introduction(session)][1:] == ["  Lever (moves the cart): ↑, the other way A"]
+
+
+def test_a_running_machine_that_goes_back_to_its_start_loses_no_frame(monkeypatch):
+    """Even where the server hears of it late: the first frame is that of the start, the others follow at equal times."""
+    with cart.running() as session:
+        session.command("run")
+        cart.until(lambda: session.newest is not None and session.newest[0] > 0.1, "a tenth of a second")
+        do = session._do
+
+        def late(code):
+            done = do(code)
+            time.sleep(0.1)
+            return done
+
+        monkeypatch.setattr(session, "_do", late)
+        assert session.command("reset") == ""
+        assert session.mode == "running"
+        cart.until(lambda: 0.2 < session.newest[0], "frames after the reset")
+        session.command("pause")
+        times = np.array([frame[0] for frame in session.history.after(0)[1]])
+    assert times[0] == 0.0
+    np.testing.assert_allclose(np.diff(times), session.pace.every * session.pace.tick, rtol=1e-6)

@@ -65,7 +65,7 @@ class Session:
         self.parts: Mapping[str, float] = {}  # share of the computing time by part, once it has ended
         self.problem = ""
         self.light = Light()
-        self._looked = 0.0
+        self._looked, self.looks = 0.0, 0
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
         left = "" if journal is None else LEFT.format(path=journal.path)
@@ -148,8 +148,6 @@ class Session:
                 frames = self.recorder.gather()
                 if len(frames):
                     self._judge.take(frames)
-                if time.monotonic() - self._looked > LOOK:
-                    self._look()
             if len(frames):
                 self.history.add(frames)
                 self._newest = frames[-1]
@@ -162,14 +160,18 @@ class Session:
                     self.on_frame()
                     self.on_gone()
                 return
+            # after what the solver has said: of a motion that stands still the light knows all that was counted
+            with self._lock:
+                if time.monotonic() - self._looked > LOOK:
+                    self._look()
             time.sleep(POLL)
 
     def _look(self) -> None:
-        """Find the light."""
-        self._looked = time.monotonic()
+        """Find the light. `looks` counts them, and each time it grows the light has been found."""
         steps = int(self.live.control[DONE]) * self.pace.substeps
         failed = self.problem if self.mode in ("failed", "gone") and not self._ending else ""
         self.light = self._judge.light(self.timing, self._counts, steps, failed)
+        self._looked, self.looks = time.monotonic(), self.looks + 1
 
     @property
     def takes(self) -> list[Take]:
@@ -225,7 +227,12 @@ class Session:
             return "no state has been saved"
         if word in GOING_ON and self.mode in ("ended", "failed"):
             return "the run is over: go back to the start, or restore a state"
+        goes_back = word in ("reset", "restore")
+        running = goes_back and self.mode == "running"
         with self._lock:
+            # it waits at the place to which it goes back until that place's frame is known as the first one
+            if running and not self._do(shared.PAUSE):
+                return "the solver does not answer"
             self.history.add(self.recorder.gather())
             if not self._do(COMMANDS[word]):
                 return "the solver does not answer"
@@ -233,11 +240,13 @@ class Session:
                 self._has_saved = True
                 self.history.add(self.recorder.gather())
                 self.recorder.save(int(self.live.control[SAVED]))
-            if word in ("reset", "restore"):
+            if goes_back:
                 self.problem = ""
                 self._judge.begin_again()
                 self.light, self._looked = Light(), time.monotonic()
                 self.recorder.begin_again(at_start=word == "reset")
+            if running and not self._do(shared.RUN):
+                return "the solver does not answer"
         return ""
 
     def _do(self, code: int) -> bool:

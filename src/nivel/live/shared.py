@@ -9,7 +9,7 @@ import numpy as np
 from nivel.integrate.loop.paced import BINS, CLOCKS, CONTROLS, Live
 
 TAPE_ROWS: Final = 1 << 16  # a minute of ticks of 1 ms: what the recorder may be late by
-FRAME_ROWS: Final = 64
+FRAME_ROWS: Final = 256  # four seconds of frames: what the server may be late by
 # commands in `Live.control[COMMAND]`; a command is done when the solver has put 0 there
 RUN, PAUSE, STEP, RESET, SAVE, RESTORE, QUIT = 1, 2, 3, 4, 5, 6, 7
 # values of `Live.control[MODE]`

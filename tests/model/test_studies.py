@@ -45,15 +45,18 @@ CODE = '''
 import json
 import os
 import signal
+import time
 
 
 def risky(result):
-    """x(0.1 s), of variants that do not end their process, or raise."""
+    """x(0.1 s), of variants that do not end their process, raise, or wait."""
     mass = json.loads(result.attributes["machine_record"])["bodies"][0]["mass"]
     if mass == 7:
         os.kill(os.getpid(), signal.SIGKILL)
     if mass == 23:
         raise ValueError("no luck")
+    if mass == 50:
+        time.sleep(600)
     return result.array("rail.displacement")[100]
 '''
 
@@ -182,36 +185,49 @@ def check_forty(found):
     np.testing.assert_allclose(done["x"], expected, atol=1e-9)
 
 
-def test_one_variant_that_kills_its_process_and_one_that_raises_leave_38_results_here_and_on_a_cluster(spring):
+def forty_on_a_cluster(spring, threads):
     distributed = pytest.importorskip("distributed")
     study = load_study(forty(spring, "forty.yaml"), allow_code=True)
-    check_forty(study.sweep(workers=2, out=spring / "here.nc"))
     with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=2, dashboard_address=None, processes=False
+        n_workers=1, threads_per_worker=threads, dashboard_address=None, processes=False
     ) as cluster:
-        check_forty(study.sweep(scheduler=cluster.scheduler_address, out=spring / "there.nc"))
-    here, there = (xarray.load_dataset(spring / name, engine="h5netcdf") for name in ("here.nc", "there.nc"))
+        found = study.sweep(scheduler=cluster.scheduler_address, out=spring / f"there-{threads}.nc")
+    check_forty(found)
+    return study
+
+
+def test_one_variant_that_kills_its_process_and_one_that_raises_leave_38_results_on_a_cluster(spring):
+    forty_on_a_cluster(spring, 1)
+
+
+@pytest.mark.full
+def test_they_leave_the_same_38_results_here(spring):
+    study = forty_on_a_cluster(spring, 2)
+    check_forty(study.sweep(workers=2, out=spring / "here.nc"))
+    here, there = (xarray.load_dataset(spring / name, engine="h5netcdf") for name in ("here.nc", "there-2.nc"))
     assert here.identical(there)
 
 
-def test_what_takes_too_long_is_a_row(spring):
-    slow = "def f(result):\n    while result.time[-1] > 0.3: pass\n    return 1.0\n"
+def test_what_kills_its_process_or_takes_too_long_is_a_row(spring):
+    """The one in between is computed by a new process."""
     content = {
         "format": 1,
         "machine": "machine.yaml",
-        "parameters": {"simulation.duration": [0.2, 0.5]},
-        "outputs": {"x": {"type": "python", "source": slow, "function": "f"}},
-        "time_limit": "6 s",
+        "parameters": {"block.mass": [7, 1, 50]},
+        "outputs": {"x": {"type": "python", "python": "code.py", "function": "risky", "units": "m"}},
+        "time_limit": "4 s",
     }
     (spring / "slow.yaml").write_text(json.dumps(content), encoding="utf-8")
     found = load_study(spring / "slow.yaml", allow_code=True).sweep(workers=1)
-    assert found["outcome"].values.tolist() == ["done", "timed out"]
-    assert "time limit of 6 s" in str(found["reason"].values[1])
+    assert found["outcome"].values.tolist() == ["killed", "done", "timed out"]
+    assert "SIGKILL" in str(found["reason"].values[0])
+    np.testing.assert_allclose(found["x"], [np.nan, 0.1 * np.cos(1.0), np.nan], atol=1e-9)
+    assert "time limit of 4 s" in str(found["reason"].values[2])
 
 
 @pytest.mark.parametrize("kills", [1, pytest.param(10, marks=pytest.mark.full)])
 def test_a_study_that_is_killed_goes_on_to_the_same_table_to_the_last_bit(spring, kills, tmp_path, monkeypatch):
-    """As that of one process, which is this one."""
+    """As that of one process, which is this one. What workers had finished is read from the journal."""
     content = {
         "format": 1,
         "machine": str(spring / "machine.yaml"),
@@ -225,16 +241,15 @@ def test_a_study_that_is_killed_goes_on_to_the_same_table_to_the_last_bit(spring
         "save": ["rail.displacement"],
         "settings": {"output_interval": "0.1 s"},
     }
+    whole, target, journal = (tmp_path / name for name in ("whole.nc", "part.nc", "part.nc.journal"))
     (tmp_path / "study.yaml").write_text(json.dumps(content), encoding="utf-8")
-    whole = tmp_path / "whole.nc"
-    with monkeypatch.context() as patch:
-        patch.setattr(sweeping, "Engine", lambda *_, **__: Engine(1))
-        load_study(tmp_path / "study.yaml").sweep(out=whole)
-    target, journal = tmp_path / "part.nc", tmp_path / "part.nc.journal"
+    monkeypatch.setattr(sweeping, "Engine", lambda *_, **__: Engine(1))
+    study = load_study(tmp_path / "study.yaml")
+    study.sweep(out=whole)
     random, before = np.random.default_rng(kills), 0
-    arguments = [sys.executable, "-m", "nivel", "sweep", "study.yaml", "--out", "part.nc", "--no-report", "--quiet"]
+    command = [sys.executable, "-m", "nivel", "sweep", "study.yaml", "--out", "part.nc", "--no-report", "--quiet"]
     for _ in range(kills):
-        process = subprocess.Popen([*arguments, "--resume", "--workers", "2"], cwd=tmp_path)
+        process = subprocess.Popen([*command, "--resume", "--workers", f"{min(kills, 2)}"], cwd=tmp_path)
         wait_for(lambda least=before + 2000: journal.exists() and journal.stat().st_size > least, process)
         time.sleep(0.05 * random.random())
         os.kill(process.pid, signal.SIGKILL)
@@ -243,7 +258,7 @@ def test_a_study_that_is_killed_goes_on_to_the_same_table_to_the_last_bit(spring
     with journal.open("ab") as stream:  # as if it had been killed within a line
         stream.write(b'{"number": 3, "outc')
     assert not target.exists()
-    subprocess.run([*arguments, "--resume", "--workers", "1"], cwd=tmp_path, check=True)
+    study.sweep(out=target, resume=True)
     assert not journal.exists()
     first, second = (xarray.load_dataset(name, engine="h5netcdf") for name in (whole, target))
     assert first.identical(second)
@@ -299,13 +314,13 @@ def test_variants_without_trust_reports_have_the_same_numbers_in_any_process(spr
     content = {
         "format": 1,
         "machine": "machine.yaml",
-        "parameters": {"block.mass": {"type": "range", "from": 1, "to": 2, "count": 30}},
+        "parameters": {"block.mass": {"type": "range", "from": 1, "to": 2, "count": 24}},
         "outputs": {"x": {"type": "final", "of": "rail.displacement"}},
         "judge": False,
     }
     (spring / "plain.yaml").write_text(json.dumps(content), encoding="utf-8")
     study = load_study(spring / "plain.yaml")
-    there = study.sweep(workers=2)
+    there = study.sweep(workers=1)
     monkeypatch.setattr(sweeping, "Engine", lambda *_, **__: Engine(1))
     here = study.sweep()
     np.testing.assert_allclose(here["x"], 0.1 * np.cos(5 / np.sqrt(here["block.mass"])), atol=1e-9)

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.sweep.batch import VariantRuns, formulas_for
+from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result

@@ -13,82 +13,21 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.simulate import simulate
-from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values
 from nivel.analysis.sweep.usual_names import usual_names
-from nivel.errors import ModelError, NivelError, SolveError
+from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, Ran, Values, VariantRuns, formulas_for
+from nivel.errors import ModelError
 from nivel.model import Model
 from nivel.results.result import Result
 
 Array = NDArray[np.float64]
-Values = Mapping[str, Any]
 
-# so many variants are worth the ones that are prepared to find formulas
-WORTH_FORMULAS: Final = 24
 FACTS: Final = {
     "outcome": "done, stopped by an event, failed, refused, or not run",
     "reason": "why it was stopped, failed or refused",
     "end_time": "time reached",
 }
-
-
-@dataclass(frozen=True)
-class Ran:
-    """A run of a variant. outcome, reason : as in FACTS. result : what was computed, valid until the next run of the same `VariantRuns`;
-    None where nothing was. loop_seconds : in the compiled loop."""
-
-    outcome: str
-    reason: str = ""
-    result: Result | None = None
-    loop_seconds: float = 0.0
-
-
-class VariantRuns:
-    """Runs variants of a machine one by one: patched where formulas are known, else each prepared. Every thread needs its own."""
-
-    def __init__(self, base: Model, patches: Patches | None = None) -> None:
-        self._base = base
-        self._patched = None if patches is None else PatchedRuns(patches)
-
-    def run(self, values: Values) -> Ran:
-        """The machine with these values, run by its own settings, without a second run and a trust report."""
-        if self._patched is not None:
-            frames = self._patched.run(read_values(values))
-            if frames is not None:
-                event = self._patched.stopped_by
-                outcome, reason = ("stopped", f"event {event}") if event else ("done", "")
-                return Ran(outcome, reason, self._patched.result(frames), self._patched.loop_seconds)
-        return self._prepared(values)
-
-    def _prepared(self, values: Values) -> Ran:
-        try:
-            machine = self._base.with_values(values) if values else self._base
-            result = simulate(plan_run(machine.record, machine.origin.settings_outside), judge=False)
-        except SolveError as error:
-            return Ran("failed", str(error), error.result if isinstance(error.result, Result) else None)
-        except ModelError as error:
-            return Ran("refused", str(error))
-        except NivelError as error:
-            return Ran("failed", str(error))
-        if result.outcome == "interrupted":
-            return Ran("not run")
-        loop = float(result.timing.get("loop_seconds", 0.0))
-        if result.stopped_by:
-            return Ran("stopped", f"event {result.stopped_by}", result, loop)
-        return Ran("done", "", result, loop)
-
-
-def formulas_for(base: Model, rows: Sequence[Values]) -> tuple[Patches | None, str]:
-    """Formulas for these variants, or why there are none, in words."""
-    try:
-        patches = learn(base, rows)
-        PatchedRuns(patches)
-    except UnsuitedError as problem:
-        return None, str(problem)
-    return patches, ""
 
 
 @dataclass

@@ -77,7 +77,7 @@ def _serve(worker: Worker, left: deque[Job], finished: SimpleQueue[Any]) -> None
 
 
 class Worker:
-    """A process that computes one variant after the other, and is started anew where one of them ends it."""
+    """A process that computes one variant after the other. Where one of them ends it, the next one starts it anew."""
 
     def __init__(self) -> None:
         self._ended = False
@@ -91,9 +91,12 @@ class Worker:
             env={**os.environ, **dict.fromkeys(ONE_THREAD, "1")},
         )
         self._task: Task | None = None
+        self._lives = True
 
     def run(self, task: Task, values: Mapping[str, Any]) -> VariantRun:
         """The variant, computed by the process; one that was killed or timed out where the process ends on the way."""
+        if not self._lives and not self._ended:
+            self._start()
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         sent, self._task = (None if task is self._task else task), task
@@ -103,10 +106,8 @@ class Worker:
             self._process.stdin.flush()
             answer = pickle.load(self._process.stdout)
         except (OSError, ValueError, EOFError, pickle.UnpicklingError):
-            status = self._process.wait()
+            status, self._lives = self._process.wait(), False
             self._close()
-            if not self._ended:
-                self._start()
             if task.time_limit is not None and monotonic() - begin >= task.time_limit:
                 return VariantRun(TIMED_OUT, f"it took longer than the time limit of {seconds(task.time_limit)}")
             return VariantRun(KILLED, f"the process that ran it ended with {_status(status)}")

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
-from nivel.analysis.sweep.batch import WORTH_FORMULAS, VariantRuns, formulas_for
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
 from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.usual_names import usual_names
+from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, VariantRuns, formulas_for
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel

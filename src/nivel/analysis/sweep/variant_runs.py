@@ -1,0 +1,77 @@
+"""Runs of variants without trust reports: patched where their numbers follow from the parameters by formulas, else each prepared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.run.simulate import simulate
+from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values
+from nivel.errors import ModelError, NivelError, SolveError
+from nivel.model import Model
+from nivel.results.result import Result
+
+Values = Mapping[str, Any]
+
+# so many variants are worth the ones that are prepared to find formulas
+WORTH_FORMULAS: Final = 24
+
+
+@dataclass(frozen=True)
+class Ran:
+    """A run of a variant. outcome, reason : as of a `VariantRun`. loop_seconds : in the compiled loop.
+
+    result : what was computed, valid until the next run of the same `VariantRuns`; None where nothing was.
+    """
+
+    outcome: str
+    reason: str = ""
+    result: Result | None = None
+    loop_seconds: float = 0.0
+
+
+class VariantRuns:
+    """Runs variants of a machine one by one: patched where formulas are known, else each prepared. Every thread needs its own."""
+
+    def __init__(self, base: Model, patches: Patches | None = None) -> None:
+        self._base = base
+        self._patched = None if patches is None else PatchedRuns(patches)
+
+    def run(self, values: Values) -> Ran:
+        """The machine with these values, run by its own settings, without a second run and a trust report."""
+        if self._patched is not None:
+            frames = self._patched.run(read_values(values))
+            if frames is not None:
+                event = self._patched.stopped_by
+                outcome, reason = ("stopped", f"event {event}") if event else ("done", "")
+                return Ran(outcome, reason, self._patched.result(frames), self._patched.loop_seconds)
+        return self._prepared(values)
+
+    def _prepared(self, values: Values) -> Ran:
+        try:
+            machine = self._base.with_values(values) if values else self._base
+            result = simulate(plan_run(machine.record, machine.origin.settings_outside), judge=False)
+        except SolveError as error:
+            return Ran("failed", str(error), error.result if isinstance(error.result, Result) else None)
+        except ModelError as error:
+            return Ran("refused", str(error))
+        except NivelError as error:
+            return Ran("failed", str(error))
+        if result.outcome == "interrupted":
+            return Ran("not run")
+        loop = float(result.timing.get("loop_seconds", 0.0))
+        if result.stopped_by:
+            return Ran("stopped", f"event {result.stopped_by}", result, loop)
+        return Ran("done", "", result, loop)
+
+
+def formulas_for(base: Model, rows: Sequence[Values]) -> tuple[Patches | None, str]:
+    """Formulas for these variants, or why there are none, in words."""
+    try:
+        patches = learn(base, rows)
+        PatchedRuns(patches)
+    except UnsuitedError as problem:
+        return None, str(problem)
+    return patches, ""

@@ -83,6 +83,7 @@ class Study:
         from nivel.analysis.sweep.journal import replace_file
         from nivel.analysis.sweep.sweep import Engine, sweep
         from nivel.analysis.sweep.task import Task
+        from nivel.analysis.sweep.variant_runs import sample_of
         from nivel.native.workers import processors
 
         record, variants = self.file.record, self.variants
@@ -95,7 +96,7 @@ class Study:
             record.verify,
             record.time_limit,
             record.judge,
-            () if record.judge else variants.values,
+            sample_of(variants.values) if record.analysis == "run" and not record.verify else (),
         )
         listener = listener or Listener()
         target = None if out is None else Path(fspath(out))

@@ -128,13 +128,14 @@ def march(
     progress: Progress | None = None,
     chunk_steps: int | None = None,
     pacing: Pacing | None = None,
+    loop: Loop | None = None,
 ) -> RunOutcome:
     """Run `prepared` and give every frame to all `sinks` (already begun).
 
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
-    the result does not depend on it. pacing : accompanies the run from chunk to chunk.
+    the result does not depend on it. pacing : accompanies the run from chunk to chunk. loop : at its start; by default a new one.
     """
-    system, loop = prepared.motion.system, start_loop(prepared, settings)
+    system, loop = prepared.motion.system, loop or start_loop(prepared, settings)
     run = loop.history.record
     finished, narrow = RunOutcome("done"), NarrowFeatures.of(prepared, len(run.ends))
     wall = clock_of_python.perf_counter()

@@ -24,6 +24,7 @@ from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import Loop, start_loop, taken_events
 from nivel.analysis.run.fitting import FOLLOWED, fitted
 from nivel.analysis.run.preparation import prepare
+from nivel.analysis.sweep.facts import other_fact
 from nivel.analysis.sweep.formulas import WORKSPACE, Array, fit_all, named_arrays
 from nivel.errors import NivelError
 from nivel.integrate.loop.loop import advance
@@ -41,6 +42,8 @@ from nivel.results.result import Result
 SHARES: Final = (0.0, 1.0, 0.35, 0.7)
 # numbers that are patched agree with those of variants that were prepared to this share of the largest of their kind
 AGREES: Final = 1e-11
+# constants of this share of the nominal number are those of finding the factors
+ROUND_OFF: Final = 1e-13
 # variants that are prepared to check all formulas together
 CHECKED: Final = 3
 SEED: Final = 4
@@ -57,20 +60,25 @@ class UnsuitedError(Exception):
 
 @dataclass(frozen=True)
 class Blank:
-    """A machine ready to run from its start again and again: memory of its records and of its run, each in one piece."""
+    """A machine ready to run from its start again and again: memory of its records and of its run, each in one piece.
+
+    judged : its runs have trust reports, which also look at the equations in absolute coordinates.
+    """
 
     plan: Plan
     prepared: Prepared
     loop: Loop
     pieces: tuple[NDArray[np.uint8], NDArray[np.uint8]]
+    judged: bool = False
 
     @property
     def run(self) -> Run:
         return self.loop.history.record
 
-    def records(self) -> tuple[Any, Any]:
-        """Records of the pieces."""
-        return self.prepared.motion.system.record, self.run
+    def records(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """Records of each piece, as far as runs look at them."""
+        absolute = (self.prepared.absolute.system.record,) if self.judged else ()
+        return (self.prepared.motion.system.record, *absolute), (self.run,)
 
     def addresses(self) -> list[Any]:
         """What is no number: machine code that it calls."""
@@ -79,16 +87,17 @@ class Blank:
         ]
 
 
-def blank(machine: Model) -> Blank:
+def blank(machine: Model, *, judged: bool = False) -> Blank:
     """Raises UnsuitedError where the run of the machine cannot be begun again in place, ModelError as preparing does."""
     plan = plan_run(machine.record, machine.origin.settings_outside)
     if plan.settings.steps == 0:
         raise UnsuitedError(f"`{plan.settings.integrator}` chooses its steps")
     plan, prepared = fitted(plan, prepare(plan.methods))
-    return _blank_of(plan, prepared)
+    return blank_of(plan, prepared, judged=judged)
 
 
-def _blank_of(plan: Plan, prepared: Prepared) -> Blank:
+def blank_of(plan: Plan, prepared: Prepared, *, judged: bool = False) -> Blank:
+    """The same of a machine that is prepared."""
     system = prepared.motion.system
     prepared, piece = prepared.in_one_piece()
     if plan.settings.steps == 0 or piece is None or system.units:
@@ -99,7 +108,8 @@ def _blank_of(plan: Plan, prepared: Prepared) -> Blank:
     loop = start_loop(prepared, plan.settings)
     own, run_piece = in_one_piece(loop.history.record._replace(frames=np.zeros((0, 0))))
     frames = np.zeros((rows, system.layout.width))
-    return Blank(plan, prepared, loop._replace(history=Handle(own._replace(frames=frames))), (piece, run_piece))
+    loop = loop._replace(history=Handle(own._replace(frames=frames)))
+    return Blank(plan, prepared, loop, (piece, run_piece), judged)
 
 
 @dataclass(frozen=True)
@@ -128,7 +138,7 @@ class Patches:
 
     def prepared(self, x: Array) -> Blank:
         """The variant with parameters x, prepared."""
-        return _prepared(self.base, self.paths, x)
+        return _prepared(self.base, self.paths, x, judged=self.blank.judged)
 
     def put(self, pieces: tuple[NDArray[np.uint8], ...], x: Array) -> None:
         """The memory of the variant with parameters x at its start, into `pieces`."""
@@ -138,8 +148,8 @@ class Patches:
             piece.view(np.float64)[patch.words] = patch.constants + patch.factors @ powers
 
 
-def _prepared(base: Model, paths: tuple[str, ...], x: Array) -> Blank:
-    return blank(base.with_values(dict(zip(paths, map(float, x), strict=True))))
+def _prepared(base: Model, paths: tuple[str, ...], x: Array, *, judged: bool) -> Blank:
+    return blank(base.with_values(dict(zip(paths, map(float, x), strict=True))), judged=judged)
 
 
 def read_values(values: Mapping[str, Any]) -> Array:
@@ -150,8 +160,21 @@ def read_values(values: Mapping[str, Any]) -> Array:
         raise UnsuitedError("a value is no quantity") from None
 
 
-def learn(base: Model, rows: Sequence[Mapping[str, Any]]) -> Patches:
-    """Formulas for these variants and all between them. Raises UnsuitedError where the numbers follow none."""
+def sampled(rows: Sequence[Mapping[str, Any]]) -> tuple[Mapping[str, Any], ...]:
+    """Those of the variants from which `learn` finds the same bounds, and some more; none where a value is no quantity."""
+    try:
+        xs = np.array([read_values(row) for row in rows])
+    except UnsuitedError:
+        return ()
+    some = np.random.default_rng(SEED).choice(len(xs), min(CHECKED, len(xs)), replace=False)
+    return tuple(rows[k] for k in sorted({*xs.argmin(axis=0).tolist(), *xs.argmax(axis=0).tolist(), *some.tolist()}))
+
+
+def learn(base: Model, rows: Sequence[Mapping[str, Any]], *, judged: bool = False) -> Patches:
+    """Formulas for these variants and all between them. judged : for runs with trust reports, see `JudgedRuns`.
+
+    Raises UnsuitedError where the numbers follow none.
+    """
     paths = tuple(rows[0])
     if any(path.partition(".")[0].strip() in ("simulation", "assembly", "include", "assemblies") for path in paths):
         raise UnsuitedError("a setting varies")
@@ -159,20 +182,22 @@ def learn(base: Model, rows: Sequence[Mapping[str, Any]]) -> Patches:
     low, high = xs.min(axis=0), xs.max(axis=0)
     nominal = 0.5 * (low + high)
     try:
-        return _learned(base, paths, xs, (low, nominal, high))
+        return _learned(base, paths, xs, (low, nominal, high), judged=judged)
     except NivelError as error:
         raise UnsuitedError(f"a variant cannot be prepared: {error}") from None
 
 
-def _learned(base: Model, paths: tuple[str, ...], xs: Array, box: tuple[Array, Array, Array]) -> Patches:
+def _learned(
+    base: Model, paths: tuple[str, ...], xs: Array, box: tuple[Array, Array, Array], *, judged: bool
+) -> Patches:
     low, nominal, high = box
 
     def prepared(x: Array) -> Blank:
-        return _prepared(base, paths, x)
+        return _prepared(base, paths, x, judged=judged)
 
     first = prepared(nominal)
     start = tuple(piece.copy() for piece in first.pieces)
-    kinds = tuple(_Kinds.of(record, piece) for record, piece in zip(first.records(), first.pieces, strict=True))
+    kinds = tuple(_Kinds.of(records, piece) for records, piece in zip(first.records(), first.pieces, strict=True))
     found: list[tuple[int, int, int, tuple[tuple[float, float], ...]]] = []  # piece, word, parameter, terms
     for k in np.flatnonzero(high > low):
         points = [low[k] + share * (high[k] - low[k]) for share in SHARES]
@@ -209,7 +234,11 @@ def _collected(
             for factor, power in each if piece == p else ():
                 factors[row[word], column[k, power]] += factor
         places = np.array(words, dtype=np.intp)
-        patches.append(_Patch(places, start[p].view(np.float64)[places] - factors @ powers, factors))
+        values = start[p].view(np.float64)[places]
+        constants = values - factors @ powers
+        # numbers that follow powers alone are exact to their own size at both ends of wide ranges
+        constants[np.abs(constants) <= ROUND_OFF * np.abs(values)] = 0.0
+        patches.append(_Patch(places, constants, factors))
     return Patches(paths, base, first, terms, (patches[0], patches[1]), (start[0], start[1]))
 
 
@@ -222,12 +251,12 @@ class _Kinds:
     spans: tuple[tuple[str, int, int], ...]
 
     @classmethod
-    def of(cls, record: Any, piece: NDArray[np.uint8]) -> _Kinds:
+    def of(cls, records: Sequence[Any], piece: NDArray[np.uint8]) -> _Kinds:
         count = len(piece) // 8
         is_number, is_work, spans = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool), []
         # what no array of the record is has no part in a run
         is_work[:] = True
-        for name, array in named_arrays(record):
+        for record, name, array in ((its, *each) for its in records for each in named_arrays(its)):
             first = array.ctypes.data - piece.ctypes.data
             if not array.size or not 0 <= first < len(piece):
                 continue
@@ -254,6 +283,8 @@ def _alike(first: Blank, other: Blank, p: int, kinds: _Kinds) -> NDArray[np.uint
     )
     if not same:
         raise UnsuitedError("its structure or its method varies")
+    if first.judged and (fact := other_fact(first.prepared, other.prepared)):
+        raise UnsuitedError(f"`{fact}` varies")
     whole = mine.view(np.int64) != piece.view(np.int64)
     if (whole & ~kinds.is_number & ~kinds.is_work).any():
         raise UnsuitedError("whole numbers vary")
@@ -318,8 +349,8 @@ def differences(found: Patches, x: Array) -> list[str]:
     other = found.prepared(x)
     mine, out = tuple(np.empty_like(piece) for piece in found.start), []
     found.put(mine, x)
-    for p, record in enumerate(found.blank.records()):
-        kinds = _Kinds.of(record, found.blank.pieces[p])
+    for p, records in enumerate(found.blank.records()):
+        kinds = _Kinds.of(records, found.blank.pieces[p])
         a, b = mine[p].view(np.float64), _alike(found.blank, other, p, kinds).view(np.float64)
         for name, first, end in kinds.spans:
             span = np.arange(first, end)
@@ -336,7 +367,7 @@ class PatchedRuns:
         again = found.blank.prepared.again()
         if again is None:
             raise UnsuitedError("its records cannot be copied")
-        self._found, self._blank = found, _blank_of(found.blank.plan, again)
+        self._found, self._blank = found, blank_of(found.blank.plan, again)
         if any(len(a) != len(b) for a, b in zip(self._blank.pieces, found.start, strict=True)):
             raise UnsuitedError("its memory is laid out otherwise")
         self._advance = BoundEntry(advance, self._blank.loop.addresses, keep=self._blank.loop)

@@ -17,8 +17,8 @@ class Task:
 
     outputs : numbers of each variant. save : names of results whose history is kept; none where there are outputs, else all joint
     coordinates and sensors, or where there are none the positions of the bodies. time_limit [s] : of the computation.
-    judge : each variant has a trust report; runs without one are patched where their numbers follow from `rows`, the values by path of
-    all variants, by formulas.
+    judge : each variant has a trust report. sample : values by path of some of many variants, with the bounds of all; runs are patched
+    where their numbers follow from them by formulas.
     """
 
     machine: Model
@@ -29,4 +29,4 @@ class Task:
     verify: bool = False
     time_limit: float | None = None
     judge: bool = True
-    rows: tuple[Mapping[str, Any], ...] = ()
+    sample: tuple[Mapping[str, Any], ...] = ()

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
+from nivel.analysis.sweep.judged_runs import JudgedRuns, judged_runs
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
 from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.usual_names import usual_names
-from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, VariantRuns, formulas_for
+from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel
@@ -68,7 +69,7 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
     reason, failed = "", False
     try:
         machine = task.machine.with_values(values) if values else task.machine
-        found = _computed(machine, task)
+        found = _computed(machine, task, values)
     except SolveError as error:
         if not isinstance(error.result, Result):
             return VariantRun(FAILED, str(error), error.time)
@@ -91,19 +92,32 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
         return replace(kept, outcome=FAILED, reason=str(error))
 
 
-class _Patched:
-    """The runs of the last task without trust reports: all variants of a study have the same."""
+class _Last:
+    """Runs of the last task, patched where their numbers follow formulas: all variants of a study have the same."""
 
     task: Task | None = None
-    runs: VariantRuns | None = None
+    judged: JudgedRuns | None = None
+    unjudged: VariantRuns | None = None
+
+    @classmethod
+    def of(cls, task: Task) -> type[_Last]:
+        """Those of `task`."""
+        if cls.task is not task:
+            cls.judged = cls.unjudged = None
+            if task.judge:
+                cls.judged = judged_runs(task.machine, task.sample) if task.sample else None
+            else:
+                patches = formulas_for(task.machine, task.sample)[0] if task.sample else None
+                cls.unjudged = VariantRuns(task.machine, patches)
+            cls.task = task
+        return cls
 
 
 def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
     """A run without a trust report. Raises ModelError as `run_variant`."""
-    if _Patched.task is not task or _Patched.runs is None:
-        patches = formulas_for(task.machine, task.rows)[0] if len(task.rows) >= WORTH_FORMULAS else None
-        _Patched.task, _Patched.runs = task, VariantRuns(task.machine, patches)
-    ran = _Patched.runs.run(values)
+    runs = _Last.of(task).unjudged
+    assert runs is not None
+    ran = runs.run(values)
     if ran.result is None:
         return VariantRun(ran.outcome, ran.reason)
     save = task.save or (() if task.outputs else usual_names(ran.result))
@@ -117,9 +131,12 @@ def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
     )
 
 
-def _computed(machine: Model, task: Task) -> Found:
+def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:
     """Raises NivelError."""
     if task.analysis == "run":
+        patched = None if task.verify else _Last.of(task).judged
+        if patched is not None and (found := patched.run(machine, values)) is not None:
+            return found
         plan = plan_run(machine.record, machine.origin.settings_outside)
         return simulate(plan, verify=task.verify, verify_limit=ENDLESS if task.verify else None)
     settings = dict(task.settings)

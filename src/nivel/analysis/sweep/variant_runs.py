@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
-from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values
+from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values, sampled
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result
@@ -65,6 +65,11 @@ class VariantRuns:
         if result.stopped_by:
             return Ran("stopped", f"event {result.stopped_by}", result, loop)
         return Ran("done", "", result, loop)
+
+
+def sample_of(rows: Sequence[Values]) -> tuple[Values, ...]:
+    """Some of the variants, from which formulas for all of them are found; none where they are few."""
+    return sampled(rows) if len(rows) >= WORTH_FORMULAS else ()
 
 
 def formulas_for(base: Model, rows: Sequence[Values]) -> tuple[Patches | None, str]:

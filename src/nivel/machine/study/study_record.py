@@ -77,7 +77,7 @@ class StudyRecord(Checked):
     )
     judge: bool = Field(
         default=True,
-        description="a trust report of each variant; without it numbers of runs are patched where they follow by formulas",
+        description="a trust report of each variant; without it a run costs little more than its steps",
     )
     time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
 

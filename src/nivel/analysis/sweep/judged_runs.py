@@ -13,7 +13,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.fitting import FasterError, fitting, refuse_faster
 from nivel.analysis.run.simulate import close_run
-from nivel.analysis.sweep.patched import Array, Patches, UnsuitedError, blank_of, learn, read_values
+from nivel.analysis.sweep.patched import Array, Patches, Screen, UnsuitedError, blank_of, learn, read_values
 from nivel.integrate.loop.sink import Header
 from nivel.model import Model
 from nivel.results.memory import Memory
@@ -31,6 +31,7 @@ class JudgedRuns:
         self._found, self._blank = found, blank_of(found.blank.plan, again, judged=True)
         if any(len(a) != len(b) for a, b in zip(self._blank.pieces, found.start, strict=True)):
             raise UnsuitedError("its memory is laid out otherwise")
+        self._screen = Screen(self._blank.prepared, found.blank.plan.settings.step)
 
     def run(self, machine: Model, values: Mapping[str, Any]) -> Result | None:
         """The run of the machine, which has these values, with its trust report; None where it has to be prepared: it needs another method,
@@ -57,7 +58,8 @@ class JudgedRuns:
         finished = march(prepared, plan.settings, [sink], loop=self._blank.loop)
         if finished.outcome == "failed":
             return None
-        if plan.is_open:
+        assert finished.last is not None
+        if plan.is_open and not self._screen.is_followed(*finished.last):
             try:
                 refuse_faster(plan, prepared, finished)
             except FasterError:

@@ -308,7 +308,7 @@ def _close(a: Array, b: Array) -> bool:
     return bool((np.abs(a[finite] - b[finite]) <= size).all())
 
 
-class _Screen:
+class Screen:
     """Whether a step [s] follows the fastest rate of a machine in a state, as `nivel.analysis.run.fitting` asks at the end of runs."""
 
     def __init__(self, prepared: Prepared, step: float) -> None:
@@ -375,7 +375,7 @@ class PatchedRuns:
         layout = prepared.motion.system.layout
         self._header = Header(layout, run_attributes(plan.machine, "", prepared, plan.settings, plan.reason))
         self.loop_seconds = 0.0
-        self._screen = _Screen(prepared, plan.settings.step) if plan.is_open else None
+        self._screen = Screen(prepared, plan.settings.step) if plan.is_open else None
 
     def run(self, x: Array) -> Array | None:
         """Frames (n, width) of the variant with parameters x, valid until the next run; None where it did not come to its end as it

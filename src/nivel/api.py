@@ -893,11 +893,12 @@ class Machine(Model):
 
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
-        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.linearise.refusals import refuse_jumps, refuse_samples
         from nivel.analysis.plan.equations_only import neutral
 
         with self._faults_in_file():
             refuse_jumps(self.record)
+            refuse_samples(self.record)
             plain, chosen = neutral(self.record, coordinates or "auto")
             methods = methods_of(plain, "newton-euler", chosen)
         build(linear_entries(methods), listener)
@@ -968,11 +969,13 @@ class Machine(Model):
 
         settings : as the options of `nivel linearise`. about : `start`, `equilibrium` (at t = 0), or a time [s] to which it is run first.
         inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
-        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
-        `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
-        all joint coordinates.
+        `BODY.torque.x`, `state.NAME`, inputs of the machine, commands of a circuit (`VALVE.command`); default: motors, drivers, commands
+        and sampled values that the machine reads. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
+        `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`, results of a circuit
+        (`CYLINDER.pressure_A`); default: sensors, or without any all joint coordinates and the pressures of volumes.
         Raises ModelError (nothing was computed) or SolveError.
         """
+        from nivel.analysis.linearise.opened import opened
         from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.plan.equations_only import neutral
         from nivel.machine.settings.linearise import EQUILIBRIUM, LineariseSettings
@@ -985,7 +988,8 @@ class Machine(Model):
         at_rest = asked.about == EQUILIBRIUM
         with self._faults_in_file():
             refuse_jumps(self.record)
-            plain, chosen = neutral(self.record, asked.coordinates, EQUILIBRIUM if at_rest else "as-given")
+            inputs = opened(self.record, asked.inputs, asked.time)
+            plain, chosen = neutral(inputs.machine, asked.coordinates, EQUILIBRIUM if at_rest else "as-given")
             methods = methods_of(plain, "newton-euler", chosen)
         entries = linear_entries(methods)
         if at_rest:
@@ -1001,7 +1005,8 @@ class Machine(Model):
         from nivel.analysis.linearise.linearise import linearise
 
         with self._faults_in_file():
-            return linearise(plain, methods, asked, run=run, source=self.origin.source, listener=listener)
+            inputs = replace(inputs, machine=plain)
+            return linearise(inputs, methods, asked, run=run, source=self.origin.source, listener=listener)
 
     @checked_arguments
     def compare(

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 from scipy.optimize import brentq
 from scipy.signal import lsim
 
@@ -357,7 +358,7 @@ def test_double_vibrations_without_damping_neither_grow_nor_decay():
     assert not np.any(model.eigenvalues.real)
 
 
-def test_a_continuous_controller_is_part_of_the_loop_and_a_sampled_one_is_refused():
+def test_a_continuous_controller_is_part_of_the_loop():
     """A PID with a filtered derivative on a pendulum: (I s² + m g h + kp)(1 + τ s) + kd s = 0."""
     bar = nivel.Body(name="bar", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -0.5))
     hinge = nivel.Joint(name="hinge", type="revolute", bodies=("ground", "bar"), point=(0, 0, 0), axis=(0, 1, 0))
@@ -375,7 +376,51 @@ def test_a_continuous_controller_is_part_of_the_loop_and_a_sampled_one_is_refuse
     found = machine().linearise(about="equilibrium")
     np.testing.assert_allclose(np.sort_complex(found.eigenvalues), np.sort_complex(wanted), rtol=1e-9)
     with pytest.raises(nivel.ModelError, match="a sampled block changes in jumps"):
-        machine(sample_time=0.01).linearise(about="equilibrium")
+        machine(sample_time=0.01).mechanics()
+
+
+@pytest.mark.parametrize("latency", [0.0, 0.5, 1.0, 1.5])
+def test_a_sampled_controller_has_the_poles_of_its_difference_equations(latency):
+    """u_k = kp e_k + D_k, D_k = a D_{k-1} + (1 - a) kd (e_k - e_{k-1})/T; a pendulum that takes u a latency later."""
+    T, tau, kp, kd = 0.03, 0.02, 5.0, 1.0
+    bar = nivel.Body(name="bar", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -0.5))
+    hinge = nivel.Joint(name="hinge", type="revolute", bodies=("ground", "bar"), point=(0, 0, 0), axis=(0, 1, 0))
+    motor = nivel.Motor(name="motor", coordinate="hinge", effort="pid.value")
+    pid = Pid(name="pid", input="0 - hinge.angle", kp=kp, kd=kd, filter_time=tau, sample_time=T, latency=latency * T)
+    loop = nivel.Machine("loop", bodies=[bar], joints=[hinge], forces=[motor], control=[pid], gravity=(0, 0, -9.81))
+    found = loop.linearise(about="equilibrium").sampled
+    a, plant = tau / (tau + T), np.array([[0.0, 1.0, 0.0], [-2.0 * 9.81 * 0.5 / 0.6, 0.0, 1.0 / 0.6], [0.0, 0.0, 0.0]])
+
+    def over(share, held):
+        """(θ, ω) after a share of the period with the command that stands at `held` of (θ, ω, D, e, u, u before, u before that)."""
+        moved, out = expm(plant * share * T), np.eye(8)
+        out[:2, :2] = moved[:2, :2]
+        out[:2, held] += moved[:2, 2]
+        return out[:7, :7] if share else np.eye(7)
+
+    sample = np.eye(7)
+    sample[2, :4] = [-(1.0 - a) * kd / T, 0.0, a, -(1.0 - a) * kd / T]
+    sample[3] = -np.eye(7)[0]
+    sample[5:] = np.eye(7)[4:6]
+    sample[4] = sample[2] + kp * sample[3]
+    late, whole = latency % 1.0, int(latency)
+    # until the latency is over the command before acts
+    wanted = over(1.0 - late, 4 + whole) @ over(late, 5 + whole) @ sample
+    poles = np.linalg.eigvals(wanted)
+    poles = poles[np.abs(poles) > 1e-6]
+    mine = found.poles[np.abs(found.poles) > 1e-6]
+    np.testing.assert_allclose(np.sort_complex(mine), np.sort_complex(poles), atol=1e-9)
+
+
+def test_an_input_of_the_machine_is_an_input_of_its_linear_equations():
+    """A motor of 30 N times a lever on 5 kg: v' = 6 u."""
+    table = nivel.Body(name="table", mass=5.0, inertia=(0.1, 0.1, 0.1))
+    rail = nivel.Joint(name="rail", type="translational", bodies=("ground", "table"), point=(0, 0, 0), axis=(1, 0, 0))
+    drive = nivel.Motor(name="drive", coordinate="rail", effort="30*lever.value")
+    machine = nivel.Machine("sled", bodies=[table], joints=[rail], forces=[drive], inputs=[nivel.Input(name="lever")])
+    model = machine.linearise(inputs=["lever"])
+    assert model.inputs == ("lever",)
+    np.testing.assert_allclose(model.B[:, 0], [0.0, 6.0], rtol=1e-12)
 
 
 def test_what_a_pump_has_delivered_is_no_state_of_the_loop():

@@ -136,10 +136,13 @@ def _said(model: LinearModel) -> list[str]:
 
     judged = ("stable" if model.stable else "unstable") if model.steady else "not judged"
     modes = model.modes if model.steady else ()
+    poles = model.sampled.modes if model.sampled is not None else ()
     return [
         f"{model.name}: linear about {model.about}, {len(model.states)} states, {judged}",
         *model.notes,
         *(f"mode {mode.number}: {mode_in_words(mode)}" for mode in modes[:SHOWN]),
         *([f"and {len(modes) - SHOWN} more in the data"] if len(modes) > SHOWN else []),
+        *(model.sampled.words if model.sampled is not None else ()),
+        *(f"pole {pole.number}: {pole.words}" for pole in poles[:SHOWN]),
         f"trust: {model.trust.told}",
     ]

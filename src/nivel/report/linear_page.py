@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from nivel import __version__
 from nivel.errors import ModelError
-from nivel.report.plots import Line, curves, points
+from nivel.report.plots import Line, curves, points, unit_circle
 from nivel.report.story import trusted
 from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 
@@ -32,6 +32,7 @@ def linear_html(model: LinearModel) -> str:
         beyond=max(0, len(model.modes) - MOST_MODES),
         plane=_plane(model),
         bode=_bode(model),
+        sampled=_sampled(model),
         matrices=_matrices(model),
         version=__version__,
         page_style=(HERE / "page.css").read_text(encoding="utf-8"),
@@ -97,6 +98,34 @@ def _bode(model: LinearModel) -> list[tuple[str, str]]:
             )
         )
     return out
+
+
+def _sampled(model: LinearModel) -> dict[str, Any] | None:
+    """Poles and loops of sampled controllers."""
+    own = model.sampled
+    if own is None:
+        return None
+    rows = []
+    for pole in own.modes[:MOST_MODES]:
+        known = not np.isnan(pole.natural_frequency)
+        numbers = (f"{pole.natural_frequency:.6g}", f"{pole.damping_ratio:.4g}") if known else ("", "")
+        taking = ", ".join(f"{name} {100 * share:.0f} %" for name, share in pole.participation)
+        rows.append((str(pole.number), pole.number_in_words, f"{abs(pole.z):.6g}", *numbers, taking))
+    labels = [f"{z.real:.5g} {z.imag:+.5g}i" for z in own.poles]
+    loops = []
+    for loop in own.loops:
+        f, size = loop.frequency, np.abs(loop.response)
+        phase = np.degrees(np.unwrap(np.angle(loop.response)))
+        drawn = [Line("|L|", f, size), Line("1", f, np.ones_like(f))]
+        turned = [Line("phase of L", f, phase), Line("-180°", f, np.full_like(f, -180.0))]
+        loops.append(
+            (
+                loop.words,
+                curves(drawn, "frequency [Hz]", "magnitude of the open loop", log_x=True, log_y=True),
+                curves(turned, "frequency [Hz]", "phase [°]", log_x=True),
+            )
+        )
+    return {"words": own.words, "poles": rows, "plane": unit_circle(own.poles, labels), "loops": loops}
 
 
 def _matrices(model: LinearModel) -> list[tuple[str, list[str], list[tuple[str, list[str]]]]]:

@@ -106,6 +106,25 @@ def points(x: Array, y: Array, labels: Sequence[str], x_title: str, y_title: str
     return _drawing(across, up, zero + "".join(marks), x_title, y_title, y_title)
 
 
+def unit_circle(z: NDArray[np.complex128], labels: Sequence[str]) -> str:
+    """SVG of the z-plane: poles, each with its label, and the unit circle inside of which motions decay."""
+    size = 1.08 * max(1.0, float(np.max(np.abs(z), initial=0.0)))
+    high = HEIGHT - BOTTOM - TOP
+    wide = size * (WIDTH - RIGHT - LEFT) / high
+    across, up = Axis(-wide, wide, LEFT, WIDTH - RIGHT), Axis(-size, size, HEIGHT - BOTTOM, TOP)
+    zero = f'<path class="zero" d="M{across.at(0):.1f} {TOP}V{HEIGHT - BOTTOM}M{LEFT} {up.at(0):.1f}H{WIDTH - RIGHT}"/>'
+    radius = 0.5 * high / size
+    circle = (
+        f'<circle cx="{across.at(0):.1f}" cy="{up.at(0):.1f}" r="{radius:.1f}" fill="none" stroke="var(--tone-1)"/>'
+    )
+    marks = [
+        f'<path d="M{across.at(each.real) - 4:.1f} {up.at(each.imag) - 4:.1f}l8 8m0 -8l-8 8" stroke="var(--tone-0)" '
+        f'stroke-width="1.7"><title>{escape(label)}</title></path>'
+        for each, label in zip(z, labels, strict=True)
+    ]
+    return _drawing(across, up, zero + circle + "".join(marks), "real part of z", "imaginary part of z", "poles")
+
+
 def _axis(values: Array, start: float, end: float, log: bool) -> Axis | LogAxis:
     if not log:
         return Axis.around(values, start, end)

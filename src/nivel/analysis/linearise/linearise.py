@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.other_elements import other_vibrations
 from nivel.analysis.linearise.run import linear_model
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import run_until
 from nivel.analysis.trust.report import assess
-from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 
 
 def linearise(
-    machine: MachineRecord,
+    opened: Opened,
     methods: Methods,
     settings: LineariseSettings,
     *,
@@ -24,12 +24,12 @@ def linearise(
     source: str = "",
     listener: Listener | None = None,
 ) -> LinearModel:
-    """The linear model of `machine`. methods : of the machine with neutral settings. run : to the state that it is about, or None.
+    """The linear model of a machine. methods : of it with neutral settings. run : to the state that it is about, or None.
 
     Raises ModelError for what has no linear equations, SolveError where they cannot be evaluated.
     """
     posture = None if run is None else run_until(run, listener or Listener())
-    model, subject = linear_model(machine, methods, settings, posture=posture, source=source, listener=listener)
+    model, subject = linear_model(opened, methods, settings, posture=posture, source=source, listener=listener)
     if settings.verify:
-        subject = replace(subject, others=other_vibrations(machine, methods, settings, run))
+        subject = replace(subject, others=other_vibrations(opened, methods, settings, run))
     return replace(model, trust=assess(subject))

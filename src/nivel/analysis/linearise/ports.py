@@ -12,6 +12,8 @@ import numpy as np
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.user_frames import frame_place, frame_velocity
+from nivel.analysis.linearise.opened import Opened
+from nivel.analysis.linearise.pressures import pressure_states
 from nivel.analysis.linearise.reduction import Ports
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import SENSE
@@ -21,6 +23,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.system.layout import reported
 
 XYZ = "xyz"
+PREFIXES = ("sensor", "hydraulics", "control")  # that may be left out
 T = TypeVar("T")
 
 
@@ -49,23 +52,24 @@ class Input:
 class Catalogue:
     """All inputs and outputs that a machine has; `instant` is in its coordinates."""
 
-    def __init__(self, machine: MachineRecord, instant: Instant) -> None:
+    def __init__(self, machine: MachineRecord, instant: Instant, opened: Opened | None = None) -> None:
         self.machine, self.instant, self.system = machine, instant, instant.system
+        self.opened = opened or Opened(machine, {})
         self.coordinates = list(self.system.layout.coordinates["joint_coordinate"])
         self.index = self.system.record.joints.coordinate.astype(np.int64)
         self.outputs: dict[str, Output] = {each.name: each for each in self._outputs()}
         self.inputs: dict[str, Input] = {each.name: each for each in self._inputs()}
 
     def default_inputs(self) -> list[str]:
-        """Motors and drivers."""
+        """Motors, drivers, commands of circuits, and sampled values that the machine reads."""
         drivers = {driver.name for driver in self.machine.drivers}
         motors = [force.name for force in self.machine.forces if isinstance(force, Motor)]
-        return motors + [_motion(name) for _, name, _ in self._rows(drivers)]
+        return [*motors, *(_motion(name) for _, name, _ in self._rows(drivers)), *self.opened.commands]
 
     def default_outputs(self) -> list[str]:
-        """Sensors; without any the joint coordinates."""
+        """Sensors; without any the joint coordinates and the pressures of volumes."""
         measured = [name for name in self.outputs if name.startswith("sensor.")]
-        return measured or list(self.coordinates)
+        return measured or [*self.coordinates, *pressure_states(self.system.states, self.outputs).outputs]
 
     def chosen(self, inputs: Sequence[str] | None, outputs: Sequence[str] | None) -> tuple[list[Input], list[Output]]:
         """Those of these names. Raises ModelError with every name that leads nowhere."""
@@ -82,7 +86,7 @@ class Catalogue:
 
     @staticmethod
     def _find(name: str, known: Mapping[str, T], field: str, faults: list[Fault]) -> T | None:
-        found = known.get(name) or known.get(f"sensor.{name}")
+        found = next((known[path] for path in (name, *(f"{word}.{name}" for word in PREFIXES)) if path in known), None)
         if found is None:
             near = get_close_matches(name, known, n=3, cutoff=0.5)
             hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(list(known)[:8])} …"
@@ -99,9 +103,7 @@ class Catalogue:
             out.append(Output(f"{name}.rate", f"{unit}/s", lambda own, k=k: own.twin.coordinates.rate[k]))
         out += [each for b, body in enumerate(system.bodies) for each in self._of_body(b, body)]
         for k, fact in enumerate(system.states):
-            out.append(
-                Output(f"state.{fact.name}", fact.units, lambda own, k=k: own.twin.residual.y[own.first_state + k])
-            )
+            out.append(Output(fact.result, fact.units, lambda own, k=k: own.twin.residual.y[own.first_state + k]))
         drivers = {driver.name for driver in self.machine.drivers}
         for row, name, unit in self._rows(drivers):
             effort = "N" if unit == "m" else "N m"
@@ -110,7 +112,7 @@ class Catalogue:
             )
         values = reported(system.layout, len(system.record.outputs.value))
         for k, each in enumerate(values):
-            if each.name.startswith(("sensor.", "force.")):
+            if each.name.startswith(("sensor.", "force.", "hydraulics.", "control.")):
                 out.append(Output(each.name, each.units, lambda own, k=k: own.twin.outputs.value[k]))
         return out
 
@@ -164,7 +166,9 @@ class Catalogue:
                 out.append(Input(force.name, by_name[whole].units, "effort", by_name[whole].place))
         for row, name, unit in self._rows({driver.name for driver in self.machine.drivers}):
             out.append(Input(_motion(name), f"{'rad' if unit == '1' else unit}/s^2", "drive", (row,)))
-        out += [Input(f"state.{fact.name}", fact.units, "state", (k,)) for k, fact in enumerate(system.states)]
+        places = {fact.name: k for k, fact in enumerate(system.states)}
+        out += [Input(name, unit, "state", (places[state],)) for name, (state, unit) in self.opened.states.items()]
+        out += [Input(fact.result, fact.units, "state", (k,)) for k, fact in enumerate(system.states)]
         for b, body in enumerate(system.bodies):
             out += [Input(f"{body}.force.{axis}", "N", "force", (b, i)) for i, axis in enumerate(XYZ)]
             out += [Input(f"{body}.torque.{axis}", "N m", "torque", (b, i)) for i, axis in enumerate(XYZ)]

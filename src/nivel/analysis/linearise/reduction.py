@@ -78,6 +78,10 @@ class Reduction:
     ) -> None:
         self.instant, self.ports, self._chosen, self._reader, self._axes = instant, ports, chosen, reader, axes
 
+    def evaluated_again(self) -> Reduction:
+        """The same equations of what the instant is now, in the same coordinates."""
+        return Reduction(self.instant, self.ports, self._reader, self.chosen, self._axes)
+
     def _slopes(self, what: str, *, turned: bool) -> Slopes:
         """Derivatives with respect to `what`; turned : whether that is resolved in the axes."""
         found = self.instant.along(what, self._reader)

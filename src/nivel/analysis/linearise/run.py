@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +16,14 @@ from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
 from nivel.analysis.linearise.kinks import kinks
 from nivel.analysis.linearise.names import velocity_names
+from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.ports import Catalogue, Input
+from nivel.analysis.linearise.pressures import PressureStates, pressure_states, seen, transformation, transformed
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.rotation import rotating
-from nivel.analysis.linearise.validity import judged
+from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
+from nivel.analysis.linearise.validity import judged, signed
 from nivel.analysis.linearise.vibrations_apart import graded
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
@@ -32,6 +35,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_motion import Posed
+from nivel.results.analyses.sampled_model import SampledModel
 from nivel.system.system import Array
 
 NAMED = 6  # states in a sentence
@@ -47,7 +51,7 @@ class _States:
 
 
 def linear_model(
-    machine: MachineRecord,
+    opened: Opened,
     methods: Methods,
     settings: LineariseSettings,
     *,
@@ -55,33 +59,44 @@ def linear_model(
     source: str = "",
     listener: Listener | None = None,
 ) -> tuple[LinearModel, Linearisation]:
-    """The linear model of `machine`, without its trust report, and the subject of that. methods : of the machine with neutral settings.
+    """The linear model of a machine, without its trust report, and the subject of that. methods : of it with neutral settings.
     posture : of a moment of a run, where it is wanted.
 
     Raises ModelError for what has no linear equations, SolveError where they cannot be evaluated.
     """
     (listener or Listener()).say("linearising")
+    machine = opened.machine
     refuse_jumps(machine)
     moment = at_start(methods) if posture is None else at_posture(methods, posture)
     moment = rotating(moment) if settings.about == ROTATION else moment
     instant = Instant(moment.motion, moment.t, moment.y)
     _refuse_large(instant)
-    catalogue = Catalogue(machine, instant)
+    catalogue = Catalogue(machine, instant, opened)
     inputs, outputs = catalogue.chosen(settings.inputs, settings.outputs)
-    linear = judged(catalogue, moment, instant, inputs, outputs)
-    reduction, whole, places, rates = linear.reduction, linear.space, linear.places, linear.rates
-    states = _states(instant, reduction)
-    integrals = [k for k, fact in enumerate(instant.system.states) if fact.integral]
-    space, states, inputs, kept = _opened(whole, states, inputs, len(places) + len(rates), integrals)
+    pressures = pressure_states(instant.system.states, catalogue.outputs)
+    shown = [*outputs, *(catalogue.outputs[name] for name in pressures.outputs)]
+    linear = judged(catalogue, moment, instant, inputs, shown)
+    reduction, places, rates = linear.reduction, linear.places, linear.rates
+    whole, of_pressures = _split(linear.space, len(outputs))
+    every, moving = _states(instant, reduction), len(places) + len(rates)
+    if settings.inputs is None:
+        inputs, whole = _with_samples(whole, inputs, instant, moving)
+    space, states, kept = _opened(whole, every, inputs, moving, instant)
     noise = reduction.noise()[np.ix_(kept, kept)]
     apart = graded(reduction, whole, np.concatenate([places, rates]))
     scale = _timed(states.scale, space.A, len(places), len(places) + len(rates))
     drift = None if linear.drift is None else linear.drift[np.ix_(kept, kept)]
     found = eigenvalues(space.A, scale, noise, None if apart is None else apart.kept(kept), drift)
     bent = kinks(reduction)
-    steady = not linear.unsteady and not any(each.jumps for each in bent)
+    unsteady = linear.unsteady or tuple(_unrest_of_samples(machine, instant))
+    steady = not unsteady and not any(each.jumps for each in bent)
     found = found if steady else found.unknown()
     shift, turn = _shapes(instant, reduction, found, places)
+    zeros = _zeros(found, states)
+    T, states = _with_pressures(of_pressures[:, kept], pressures, states, kept, moving)
+    space, found = transformed(space, T), seen(found, T)
+    signs = np.concatenate([places, rates])
+    sampled = _sampled(machine, reduction, whole, every, signs, (kept, T, states.names)) if steady else None
     second = [rates[:, None] * each * rates for each in reduction.second_order()]
     posed = _posed(machine, source, moment, instant, settings)
     model = LinearModel(
@@ -108,10 +123,11 @@ def linear_model(
         left=found.left,
         shift=shift,
         turn=turn,
-        structural_zeros=_zeros(found, states),
+        structural_zeros=zeros,
         steady=steady,
         remarks=linear.remarks,
         posed=posed,
+        sampled=sampled,
     )
     return model, Linearisation(
         outcome="done",
@@ -119,7 +135,7 @@ def linear_model(
         prepared=moment.prepared,
         eigenvalues=found.values,
         moves=linear.moves,
-        unsteady=linear.unsteady,
+        unsteady=unsteady,
         kinks=tuple(bent),
         reached=0.0 if posture is None else posture.t,
         assembly=json.loads(str(posed.attributes.get("assembly", "{}"))) if posture is None else {},
@@ -139,28 +155,95 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
     length = instant.length[instant.free]
     facts = instant.system.states
     return _States(
-        [name for name, _ in places] + [f"{name}.rate" for name, _ in rates] + [f"state.{fact.name}" for fact in facts],
+        [name for name, _ in places] + [f"{name}.rate" for name, _ in rates] + [fact.result for fact in facts],
         [unit for _, unit in places] + [f"{unit}/s" for _, unit in rates] + [fact.units for fact in facts],
         np.concatenate([length[reduction.selected], length[reduction.moving], [fact.scale or 1.0 for fact in facts]]),
     )
 
 
+def _split(space: StateSpace, count: int) -> tuple[StateSpace, Array]:
+    """The equations with the first `count` outputs, and the rows of C of the others."""
+    return StateSpace(space.A, space.B, space.C[:count], space.D[:count]), space.C[count:]
+
+
+def _with_samples(
+    space: StateSpace, inputs: Sequence[Input], instant: Instant, moving: int
+) -> tuple[list[Input], StateSpace]:
+    """The inputs, and sampled values that the machine reads."""
+    facts = instant.system.states
+    own = [k for k, fact in enumerate(facts) if fact.sampled and np.any(space.A[:, moving + k])]
+    more = [Input(facts[k].result, facts[k].units, "state", (k,)) for k in own]
+    B, D = (np.hstack([each, np.zeros((len(each), len(more)))]) for each in (space.B, space.D))
+    return [*inputs, *more], StateSpace(space.A, B, space.C, D)
+
+
 def _opened(
-    space: StateSpace, states: _States, inputs: Sequence[Input], moving: int, integrals: Sequence[int]
-) -> tuple[StateSpace, _States, list[Input], NDArray[np.intp]]:
+    space: StateSpace, states: _States, inputs: Sequence[Input], moving: int, instant: Instant
+) -> tuple[StateSpace, _States, NDArray[np.intp]]:
     """States of elements that are inputs become columns of B; also which states are left. moving : states before them.
 
-    integrals : states on which nothing depends, as what a pump has delivered; left out but where an output shows them.
+    Left out are sampled states, and states on which nothing depends, as what a pump has delivered, but where an output shows them.
     """
     taken = {moving + each.place[0]: k for k, each in enumerate(inputs) if each.kind == "state"}
-    idle = {moving + k for k in integrals if not np.any(space.C[:, moving + k])}
+    facts = instant.system.states
+    idle = {moving + k for k, fact in enumerate(facts) if fact.integral and not np.any(space.C[:, moving + k])}
+    idle |= {moving + k for k, fact in enumerate(facts) if fact.sampled}
     kept = np.array([k for k in range(len(space.A)) if k not in taken and k not in idle], dtype=np.intp)
     B, D = space.B.copy(), space.D.copy()
     for column, k in taken.items():
         B[:, k], D[:, k] = space.A[:, column], space.C[:, column]
     out = StateSpace(space.A[np.ix_(kept, kept)], B[kept], space.C[:, kept], D)
     left = _States([states.names[k] for k in kept], [states.units[k] for k in kept], states.scale[kept])
-    return out, left, list(inputs), kept
+    return out, left, kept
+
+
+def _with_pressures(
+    rows: Array, pressures: PressureStates, states: _States, kept: NDArray[np.intp], moving: int
+) -> tuple[Array, _States]:
+    """(T, states) by which pressures stand in place of masses. rows (pressures, kept) : of the pressures."""
+    place = {int(whole): k for k, whole in enumerate(kept)}
+    own = [(place[moving + k], row, name) for row, (k, name) in enumerate(pressures.pairs) if moving + k in place]
+    T, replaced = transformation(rows[[row for _, row, _ in own]], [k for k, _, _ in own], states.scale)
+    names, units = list(states.names), list(states.units)
+    for k, _, name in own:
+        if k in replaced:
+            names[k], units[k] = name, "Pa"
+    return T, _States(names, units, np.abs(T) @ states.scale)
+
+
+def _unrest_of_samples(machine: MachineRecord, instant: Instant) -> list[str]:
+    """Why samples change a machine at rest."""
+    samples = samples_of(instant)
+    return unrest(instant, samples, held_values(machine, instant)) if samples else []
+
+
+def _sampled(
+    machine: MachineRecord,
+    reduction: Reduction,
+    whole: StateSpace,
+    states: _States,
+    signs: Array,
+    continuous: tuple[NDArray[np.intp], Array, Sequence[str]],
+) -> SampledModel | None:
+    """The machine with its sampled values; None where there are none. continuous : states that are none, T of these and their names."""
+    instant, (kept, T, known) = reduction.instant, continuous
+    held, moving = held_values(machine, instant), len(signs)
+    samples = [each for each in samples_of(instant) if each.state not in held]
+    if not samples:
+        return None
+    own = list(dict.fromkeys(each.state for each in samples))
+    order = np.concatenate([kept, moving + np.array(own, dtype=np.intp)])
+    laws = laws_of_samples(instant, lambda: signed(reduction.evaluated_again().state_space(), signs).A)
+    F = np.eye(len(whole.A))
+    F[moving + np.array(own)] += laws[moving + np.array(own)]
+    A, count = whole.A[np.ix_(order, order)], len(kept)
+    A[count:] = 0.0
+    turned = np.eye(len(order))
+    turned[:count, :count] = T
+    placed = [replace(each, state=count + own.index(each.state)) for each in samples]
+    acting = [count + k for k in range(len(own)) if np.any(A[:count, count + k])]
+    names = [*known, *(states.names[moving + k] for k in own)]
+    return sampled_model(A, F[np.ix_(order, order)], states.scale[order], names, placed, turned, acting)
 
 
 def _timed(scale: Array, A: Array, m: int, moving: int) -> Array:

@@ -53,7 +53,7 @@ def judged(
     def equations(frames: Frames) -> Found:
         reduction = Reduction(instant, ports, reader, axes=frames.at(instant))
         places, rates = (every[chosen] for chosen in reduction.chosen)
-        return reduction, places, rates, _signed(reduction.state_space(), np.concatenate([places, rates]))
+        return reduction, places, rates, signed(reduction.state_space(), np.concatenate([places, rates]))
 
     if is_at_rest(instant):
         found = equations(Frames())
@@ -64,7 +64,7 @@ def judged(
         def later(t: float, y: Array, frames: Frames = frames, found: Found = found) -> Array:
             own = instant if t == instant.t else Instant(moment.motion, t, y)
             then = Reduction(own, ports, nothing, found[0].chosen, frames.at(own))
-            return _signed(then.state_space(), np.concatenate(found[1:3])).A
+            return signed(then.state_space(), np.concatenate(found[1:3])).A
 
         changed = drift(moment.prepared.motion, instant, later)
         if changed is not None:
@@ -115,7 +115,8 @@ def nothing(_: Instant) -> Lanes:
     return np.zeros((0, len(NOTHING)))
 
 
-def _signed(space: StateSpace, signs: Array) -> StateSpace:
+def signed(space: StateSpace, signs: Array) -> StateSpace:
+    """The equations with these signs of the first states."""
     more = np.ones(len(space.A))
     more[: len(signs)] = signs
     return StateSpace(more[:, None] * space.A * more, more[:, None] * space.B, space.C * more, space.D)

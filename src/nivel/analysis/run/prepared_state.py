@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 
@@ -36,13 +37,13 @@ class Moment:
 
 @dataclass(frozen=True)
 class Posture:
-    """A state in absolute coordinates: q, Ṙ, ω̄ of all bodies, states of elements, modes and their rates, angles of joints."""
+    """A state in absolute coordinates: q, Ṙ, ω̄ of all bodies, states of elements by name, modes and their rates, angles of joints."""
 
     t: float
     q: Array
     velocity: Array
     angular_velocity_b: Array
-    states: Array
+    states: Mapping[str, float]
     modes: Array
     modal_rates: Array
     reference: Array
@@ -70,7 +71,9 @@ def at_posture(methods: Methods, posture: Posture) -> Moment:
         start[system.positions - modes : system.positions] = posture.modes
         end = len(start) - len(system.start_of_states)
         start[end - modes : end] = posture.modal_rates
-    start[len(start) - len(system.start_of_states) :][: len(posture.states)] = posture.states
+    first = len(start) - len(system.start_of_states)
+    for k, fact in enumerate(system.states):
+        start[first + k] = posture.states.get(fact.name, start[first + k])
     motion = MotionEquations(system, import_module(methods.path.module))
     return _with_residual(prepared, motion, posture.t, start, posture.reference, methods)
 
@@ -106,7 +109,7 @@ def run_until(plan: Plan, listener: Listener) -> Posture:
         q=q.ravel(),
         velocity=last["velocity"],
         angular_velocity_b=np.einsum("bij,bi->bj", turned, last["angular_velocity"]),
-        states=np.array([result.array(f"state.{fact.name}")[-1] for fact in system.states]),
+        states={fact.name: float(result.array(fact.result)[-1]) for fact in system.states},
         modes=modal[0],
         modal_rates=modal[1],
         reference=system.record.coordinates.reference.copy(),

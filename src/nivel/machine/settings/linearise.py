@@ -40,8 +40,12 @@ class LineariseSettings(Record):
         option="--about STATE",
         absent="the start of the machine",
     )
-    inputs: Names | None = Field(default=None, description="inputs, e.g. hinge.angle", absent="motors and drivers")
-    outputs: Names | None = Field(default=None, description="outputs", absent="sensors, or all joint coordinates")
+    inputs: Names | None = Field(
+        default=None, description="inputs, e.g. hinge.angle", absent="motors, drivers, commands of circuits"
+    )
+    outputs: Names | None = Field(
+        default=None, description="outputs", absent="sensors, or joint coordinates and pressures"
+    )
     coordinates: OfStatics = Field(
         default="auto", description="coordinates of the equations", absent="those of the machine"
     )

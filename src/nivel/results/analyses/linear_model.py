@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.extras import needed
+from nivel.results.analyses.sampled_model import SampledModel
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.pages import page_maker
@@ -84,6 +85,7 @@ class LinearModel(Tabulated):
     steady : whether eigenvalues describe the motion (at rest, or the same A later on). remarks : on what the states are. trust : the trust
     report.
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
+    sampled : the machine with its sampled controllers, None without any; A and its eigenvalues are those between samples.
     """
 
     name: str
@@ -113,6 +115,7 @@ class LinearModel(Tabulated):
     steady: bool
     remarks: tuple[str, ...]
     posed: Any = None
+    sampled: SampledModel | None = None
     trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     @property
@@ -124,7 +127,10 @@ class LinearModel(Tabulated):
 
     @property
     def stable(self) -> bool:
-        """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off; not where there are none to read."""
+        """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off, with sampled controllers every pole
+        an absolute value of one at most; not where there are none to read."""
+        if self.sampled is not None:
+            return self.steady and self.sampled.stable
         values = self.eigenvalues[~self.structural]
         return self.steady and bool(np.all(values.real <= ROUND_OFF * np.abs(values)))
 
@@ -232,6 +238,12 @@ class LinearModel(Tabulated):
             "structural": (("eigenvalue",), self.structural, {}),
             "participation": (("state", "eigenvalue"), self.participation, {}),
         }
+        if self.sampled is not None:
+            values |= {
+                "transition": (("sampled_state", "sampled_state_"), self.sampled.transition, {}),
+                "pole_real": (("pole",), self.sampled.poles.real, {"units": "1"}),
+                "pole_imag": (("pole",), self.sampled.poles.imag, {"units": "1"}),
+            }
         rates = (name.removesuffix(".rate") for name in self.states if name.endswith(".rate"))
         free = list(rates)[: len(self.M)]
         coordinates = {
@@ -242,12 +254,15 @@ class LinearModel(Tabulated):
             "input": list(self.inputs),
             "output": list(self.outputs),
         }
+        if self.sampled is not None:
+            coordinates |= {"sampled_state": list(self.sampled.states), "sampled_state_": list(self.sampled.states)}
         facts: dict[str, Any] = {
             "machine": self.name,
             "about": self.about,
             "time": self.time,
             "steady": int(self.steady),
         }
+        facts |= {} if self.sampled is None else {"sampled": json.dumps(self.sampled.summary())}
         facts |= self.trust.attributes()
         return xarray.Dataset(values, coords=coordinates, attrs=facts)
 
@@ -290,6 +305,7 @@ class LinearModel(Tabulated):
             "stable": self.stable if self.steady else None,
             "headline": self.trust.headline,
             "trust": json.loads(self.trust.to_json()),
+            "sampled": None if self.sampled is None else self.sampled.summary(),
             "notes": list(self.notes),
             "structural_zeros": list(self.structural_zeros),
             "modes": [
@@ -321,6 +337,7 @@ class LinearModel(Tabulated):
             return "\n".join([head, *self.notes])
         lines = [f"  {each.number}: {mode_in_words(each)}" for each in self.modes[:LISTED]]
         lines += [f"  and {len(self.modes) - LISTED} more"] if len(self.modes) > LISTED else []
+        lines += [f"  {each}" for each in self.sampled.words] if self.sampled is not None else []
         return "\n".join([head, *lines, *self.notes])
 
 

@@ -1,0 +1,208 @@
+"""Sampled values of a machine and its motion between their samples, in small changes.
+
+Between samples ẋ = A x with constant sampled values s among the states; a time Δ later x is exp(A Δ) x. A sample is s_i := F_i x with the
+exact derivatives F of its law, in the order in which the samples of an instant are computed. Over the common period of all samples
+
+    x[k + 1] = exp(A Δ_n) J_n … exp(A Δ_1) J_1 x[k]
+
+A loop is opened where the machine reads a sampled value: a copy that only the machine reads takes an input in place of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+from typing import Any, Final
+
+import numpy as np
+from scipy.linalg import eig, expm
+
+from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.linearise.eigenvalues import Complex
+from nivel.analysis.linearise.steady import BALANCE
+from nivel.errors import Fault, ModelError
+from nivel.kernels.record.record import NONE
+from nivel.machine.control.order import parts_of
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.analyses.sampled_model import Loop, SampledModel, loop_of
+from nivel.system.signals.control import ONCE, variable_of
+from nivel.system.system import Array
+
+MOST: Final = 5000  # instants in a common period
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A sampled value: its state, its time after the start of a period and the period [s] exactly; at_once : others of the instant read
+    its new value."""
+
+    state: int
+    first: Fraction
+    period: Fraction
+    at_once: bool
+
+
+def samples_of(instant: Instant) -> list[Sample]:
+    """What is sampled again and again, in the order in which the values of an instant are computed."""
+    table, out = instant.record.sampled, []
+    for k in range(len(table.state)):
+        ticks, rate = Fraction(float(table.ticks[k])), Fraction(float(table.rate[k]))
+        if table.state[k] == NONE or not ticks or ticks / rate >= Fraction(ONCE) / 2:
+            continue
+        out.append(
+            Sample(int(table.state[k]), Fraction(float(table.first[k])) / rate, ticks / rate, bool(table.at_once[k]))
+        )
+    return out
+
+
+def held_values(machine: MachineRecord, instant: Instant) -> set[int]:
+    """Numbers of sampled states that switch and keep their values, as those of state machines: constants of linear equations."""
+    names = {variable_of(each) for each in parts_of(machine.control) if each.part.holds}
+    return {k for k, fact in enumerate(instant.system.states) if fact.name in names}
+
+
+def unrest(instant: Instant, samples: Sequence[Sample], held: set[int]) -> list[str]:
+    """Sampled values that the next sample would change, in sentences."""
+    facts, out = instant.system.states, []
+    change = _at_rest(instant, lambda: instant.value()[instant.n :][: instant.state_count])
+    for k in dict.fromkeys(each.state for each in samples):
+        if k not in held and abs(change[k]) > BALANCE * (facts[k].scale or 1.0):
+            name = facts[k].name
+            out.append(f"the next sample changes {name} by {change[k]:.4g}: linearise about equilibrium")
+    return out
+
+
+def _at_rest(instant: Instant, find: Callable[[], Array]) -> Array:
+    """What `find` gives where the rates of sampled states are what a sample would change them by."""
+    flag = instant.record.sampled.at_rest
+    flag[0] = 1
+    try:
+        return find()
+    finally:
+        flag[0] = 0
+
+
+def laws_of_samples(instant: Instant, find: Callable[[], Array]) -> Array:
+    """A (n, n) of the equations that `find` makes, whose rows of sampled states are derivatives of what a sample changes them by."""
+    return _at_rest(instant, find)
+
+
+def sampled_model(
+    A: Array,
+    laws: Array,
+    scale: Array,
+    names: Sequence[str],
+    samples: Sequence[Sample],
+    T: Array,
+    acting: Sequence[int],
+) -> SampledModel:
+    """The model of states that are in order: continuous ones, then sampled ones, whose numbers `samples` have.
+
+    A (n, n) : with zero rows of sampled states. laws (n, n) : rows F of sampled states. scale (n,) : sizes. T (n, n) : what the states are
+    transformed by for participation. acting : sampled states at which loops are opened.
+    """
+    period, instants = _instants(samples)
+    small = A * scale / scale[:, None]
+    F = laws * scale / scale[:, None]
+    Z = _over_a_period(small, F, period, instants)
+    # a sampled value that is set anew before anything reads it is no state
+    kept = np.flatnonzero(np.any(Z, axis=0) | (np.arange(len(A)) < len(A) - len({each.state for each in samples})))
+    Z, turned = Z[np.ix_(kept, kept)], (T * scale)[np.ix_(kept, kept)]
+    transition = turned @ Z @ np.linalg.inv(turned)
+    values, left, right = _eigen(Z)
+    order = np.lexsort((-values.imag, -np.round(np.abs(values), 12)))
+    values, left, right = values[order], left[:, order], right[:, order]
+    loops, remarks = [], []
+    for place in acting:
+        loop = _loop(small, F, period, instants, place, names[place])
+        if loop is None:
+            remarks.append(f"{names[place]} is sampled more than once in the common period: its loop has no margins")
+        else:
+            loops.append(loop)
+    back = np.linalg.inv(turned)
+    return SampledModel(
+        period=float(period),
+        states=tuple(names[int(k)] for k in kept),
+        transition=transition,
+        poles=values,
+        right=turned @ right,
+        left=back.T @ left,
+        loops=tuple(loops),
+        remarks=tuple(remarks),
+    )
+
+
+def _eigen(Z: Array) -> tuple[Complex, Complex, Complex]:
+    found: Any = eig(Z, left=True, right=True)
+    return found[0], found[1], found[2]
+
+
+def _instants(samples: Sequence[Sample]) -> tuple[Fraction, list[tuple[Fraction, list[Sample]]]]:
+    """The common period of all samples, and what is due at each instant of it."""
+    periods = {each.period for each in samples}
+    denominator = lcm(*(each.denominator for each in periods))
+    period = Fraction(lcm(*(int(each * denominator) for each in periods)), denominator)
+    if sum(period / each.period for each in samples) > MOST:
+        message = f"the samples have a common period of {float(period):.6g} s only: choose sample times that are multiples of each other"
+        raise ModelError(Fault("", 0, 0, "control", message))
+    due: dict[Fraction, list[Sample]] = {}
+    for each in samples:
+        for j in range(int(period / each.period)):
+            due.setdefault((each.first + j * each.period) % period, []).append(each)
+    order = {id(each): k for k, each in enumerate(samples)}
+    return period, [(t, sorted(due[t], key=lambda each: order[id(each)])) for t in sorted(due)]
+
+
+def _over_a_period(A: Array, F: Array, period: Fraction, instants: list[tuple[Fraction, list[Sample]]]) -> Array:
+    """The change of all states from before the first instant to before it a period later."""
+    Z = np.eye(len(A))
+    for (t, due), after in zip(instants, _ends(period, instants), strict=True):
+        Z = expm(A * float(after - t)) @ _jump(Z, F, due)
+    return Z
+
+
+def _ends(period: Fraction, instants: list[tuple[Fraction, list[Sample]]]) -> Iterator[Fraction]:
+    yield from (t for t, _ in instants[1:])
+    yield period + instants[0][0]
+
+
+def _jump(Z: Array, F: Array, due: Sequence[Sample]) -> Array:
+    """Z after the samples of an instant: those at once one after the other, the others together."""
+    Z, later = Z.copy(), {}
+    for each in due:
+        value = F[each.state] @ Z
+        if each.at_once:
+            Z[each.state] = value
+        else:
+            later[each.state] = value
+    for state, value in later.items():
+        Z[state] = value
+    return Z
+
+
+def _loop(
+    A: Array, F: Array, period: Fraction, instants: list[tuple[Fraction, list[Sample]]], place: int, name: str
+) -> Loop | None:
+    """The loop opened where the machine reads the sampled state `place`; None where it is sampled more than once in the period."""
+    when = [k for k, (_, due) in enumerate(instants) if any(each.state == place for each in due)]
+    if len(when) != 1:
+        return None
+    begin = instants[when[0]][0]
+    turned = sorted((((t - begin) % period, due) for t, due in instants), key=lambda each: each[0])
+    n = len(A)
+    # one more state, the copy that the machine reads, and the input as another one
+    opened, laws = np.zeros((n + 2, n + 2)), np.zeros((n + 2, n + 2))
+    opened[:n, :n], laws[:n, :n] = A, F
+    opened[:n, n], opened[:n, place] = A[:, place], 0.0
+    Z = _jump(np.eye(n + 2), laws, turned[0][1])
+    leaving = Z[place, : n + 1].copy()
+    Z[n] = 0.0
+    Z[n, n + 1] = 1.0
+    for k, (t, due) in enumerate(turned):
+        Z = _jump(Z, laws, due) if k else Z
+        after = turned[k + 1][0] if k + 1 < len(turned) else period
+        Z = expm(opened * float(after - t)) @ Z
+    # the copy is set anew before anything reads it
+    return loop_of(name, float(period), Z[: n + 1, : n + 1], Z[: n + 1, n + 1], leaving)

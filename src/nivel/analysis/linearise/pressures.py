@@ -62,7 +62,7 @@ def transformation(rows: Array, places: Sequence[int], scale: Array) -> tuple[Ar
 
 def transformed(space: StateSpace, T: Array) -> StateSpace:
     """The same equations for T x, without what is left of terms that cancel."""
-    back: Array = np.linalg.inv(T)
+    back: Array = np.asarray(np.linalg.inv(T), dtype=np.float64)
 
     def product(*factors: Array) -> Array:
         whole, size = factors[0], np.abs(factors[0])
@@ -75,5 +75,5 @@ def transformed(space: StateSpace, T: Array) -> StateSpace:
 
 def seen(found: Eigen, T: Array) -> Eigen:
     """Eigenvectors of the equations for T x."""
-    back: Array = np.linalg.inv(T)
+    back: Array = np.asarray(np.linalg.inv(T), dtype=np.float64)
     return Eigen(found.values, found.zero, T @ found.right, back.T @ found.left, found.zeros)

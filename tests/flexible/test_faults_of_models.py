@@ -10,6 +10,7 @@ from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.model.beam import Beam, mass_matrix, stiffness
 from nivel.flexible.model.model_file import parse_model
+from nivel.flexible.reduction.factor import Factor, NoStiffnessError
 from nivel.machine.beams.section import Material, Rectangle
 from nivel.machine.beams.section_properties import section_of
 
@@ -168,6 +169,38 @@ def test_mechanism_is_named_with_the_nodes_that_move(tmp_path, interfaces):
     assert "node" in message
     assert "3 (" in message or "4 (" in message or "1 (" in message
     assert "remove hinges" in message
+
+
+@pytest.mark.parametrize(("axis", "share"), [(0, 0.6), (0, 1.5), (5, 0.13)])
+def test_negative_energy_is_no_mechanism(tmp_path, axis, share):
+    """A spring of negative stiffness from end to end of the two beams, of which one end has K_ii: they have K_ii / 2 along, K_ii / 8 in bending."""
+    text = hinged(tmp_path)
+    K = scipy.io.mmread(tmp_path / "k.mtx").toarray()
+    for a in (3, 4, 5):
+        i, j = 6 + a, 18 + a - 3
+        K[[i, j], [i, j]] += 1e4
+        K[[i, j], [j, i]] -= 1e4
+    i, j, negative = axis, 12 + axis, share * K[axis, axis]
+    K[[i, j], [i, j]] -= negative
+    K[[i, j], [j, i]] += negative
+    scipy.io.mmwrite(tmp_path / "k.mtx", sp.coo_array(K), symmetry="symmetric")
+    message = message_of(text, tmp_path)
+    assert "a motion of negative energy" in message
+    assert "mechanism" not in message
+
+
+@pytest.mark.parametrize(("links", "singular"), [(2000, False), (50, True)])
+def test_a_pivot_of_round_off_is_told_from_a_soft_chain(links, singular):
+    """A chain of springs is held at one end, and is soft: 1/A⁻¹ of its end is 1/links. One that is held nowhere is singular."""
+    K = sp.lil_array(sp.diags_array([np.full(links, 2.0), -np.ones(links - 1), -np.ones(links - 1)], offsets=[0, 1, -1]))
+    K[-1, -1] = 1.0
+    if not singular:
+        Factor(sp.csc_array(K))
+        return
+    K[0, 0] = 1.0
+    with pytest.raises(NoStiffnessError) as caught:
+        Factor(sp.csc_array(K * (1.0 / 3.0)))
+    assert np.ptp(caught.value.motion) < 1e-3
 
 
 def test_stiffening_of_matrices_needs_elements(tmp_path):

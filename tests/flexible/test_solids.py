@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import weakref
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.recovery import hot_spots, stress, von_mises
 from nivel.flexible.model.model_file import parse_model
+from nivel.flexible.reduction import factor
 from nivel.flexible.reduction.free_body import FreeBody
 from nivel.flexible.reduction.inertia_loads import inertia_loads
 from nivel.flexible.reduction.ties import with_interfaces
@@ -268,3 +270,25 @@ def test_mesh_that_would_fill_the_memory_is_refused():
     text = block(size=0.06).replace("element_size: 0.06", "element_size: 0.1 mm")
     with pytest.raises(ModelError, match=r"would make 8e\+10 elements; give a larger"):
         reduced(text)
+
+
+def test_one_factor_is_kept_at_a_time(monkeypatch):
+    """Factors are most of the memory of a reduction. Nothing asks SuperLU for L or U, which are copies."""
+    alive, most = weakref.WeakSet(), []
+
+    class Watched:
+        def __init__(self, lu):
+            self.solve = lu.solve
+
+    def watched(*given, **options):
+        lu = Watched(true(*given, **options))
+        alive.add(lu)
+        most.append(len(alive))
+        return lu
+
+    true = factor.spl.splu
+    monkeypatch.setattr(factor.spl, "splu", watched)
+    text = block(interfaces=f"{ROOT}, {TIP}", reduction="modes: 4, inertia_modes: true, stiffening: true")
+    body = reduced(text.replace("element_size: ", "element_size: 2*"))[0]
+    assert len(body.stiffening) > 3
+    assert most == [1, 1, 1]

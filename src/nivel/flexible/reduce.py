@@ -97,10 +97,8 @@ def _at_source(located: Located, message: str) -> ModelError:
 
 def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Located, say: Stage) -> Reduction:
     model, record = body.model, located.record
-    say("factorising the stiffness", 0.35)
-    _ = body.factor
     boundary = np.concatenate([_rows(model, each.node) for each in attachments]) if attachments else np.zeros(0, int)
-    say("computing normal and correction modes", 0.45)
+    say("computing normal and correction modes", 0.35)
     basis = _basis(body, boundary, located)
     if not basis.vectors.shape[1]:
         raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
@@ -112,6 +110,7 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
     say("computing the modes of the whole model for comparison", 0.7)
     error = mesh_error(located, model, modes, eigenvalues)
     findings = findings_of(body, attachments, boundary, basis, found, modes, error)
+    body.forget_factor()
     say("computing inertia invariants and stress modes", 0.88)
     reduced = ReducedBody(
         name=record.name,

@@ -18,6 +18,8 @@ GROUNDED: Final = 1e-6  # force of a rigid motion as a share of what stiffness c
 SLOWEST, FASTEST = 5.0, 1e5  # [m/s] of waves in materials
 FEW: Final = 100  # nodes below which a model may be condensed, and waves through its matrices are only a rough guess
 LIGHTEST, DENSEST = 0.01, 1e5  # [kg/m^3]
+NEGATIVE: Final = 1e-9  # share of the largest eigenvalue, below which a negative one is round-off
+LANCZOS: Final = 60  # vectors
 SHOWN: Final = 6  # nodes that a message names
 
 
@@ -45,7 +47,7 @@ def problems(model: FiniteElementModel) -> list[str]:
     found = [unsymmetric(model.stiffness, "stiffness"), unsymmetric(model.mass.matrix, "mass")]
     found += [_unconnected(model), _without_mass(model), _grounded(model)]
     found = [each for each in found if each]
-    return found or [each for each in [_waves(model)] if each]
+    return found or [each for each in [_negative_energy(model), _waves(model)] if each]
 
 
 def _unconnected(model: FiniteElementModel) -> str:
@@ -67,6 +69,44 @@ def _unconnected(model: FiniteElementModel) -> str:
     return (
         f"the model falls into {number} parts that no stiffness joins: {'; '.join(texts)}{more}. Merge coincident nodes, tie the "
         "parts in the finite-element program, or reduce each part as a body of its own"
+    )
+
+
+def _negative_energy(model: FiniteElementModel) -> str:
+    """Whether a motion has negative energy; elements known here give none. The rest of this check is that of the factor.
+
+    By Lanczos' method on the stiffness scaled to a unit diagonal, whose Ritz values are never below the least eigenvalue.
+    """
+    if model.elements is not None:
+        return ""
+    diagonal = model.stiffness.diagonal()
+    if diagonal.min(initial=0.0) < 0.0:
+        return _not_elastic(model, int(np.argmin(diagonal)))
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    basis, rows = [np.random.default_rng(4).normal(size=len(scale))], []
+    basis[0] /= np.linalg.norm(basis[0])
+    for _ in range(min(LANCZOS, len(scale))):
+        image = scale * (model.stiffness @ (scale * basis[-1]))
+        rows.append(image)
+        new = image.copy()
+        for _ in range(2):
+            new -= np.array(basis).T @ (np.array(basis) @ new)
+        size = np.linalg.norm(new)
+        if size < 1e-12:
+            break
+        basis.append(new / size)
+    V = np.array(basis[: len(rows)])
+    small = V @ np.array(rows).T
+    values, vectors = np.linalg.eigh(0.5 * (small + small.T))
+    if values[0] >= -NEGATIVE * values[-1]:
+        return ""
+    return _not_elastic(model, int(np.argmax(np.abs(scale * (V.T @ vectors[:, 0])))))
+
+
+def _not_elastic(model: FiniteElementModel, independent: int) -> str:
+    return (
+        f"the stiffness matrix has a motion of negative energy, at most at node {_node_of(model, independent)}, which no elastic body has. "
+        "Export it without a load near buckling, and look for a wrong sign or rows in another order than the table `freedoms` says"
     )
 
 
@@ -193,11 +233,9 @@ def _power(ratio: float) -> str:
     return f", about 1e{exponent}: {meaning}; check `units`, and the units of densities"
 
 
-def mechanism(body: FreeBody, error: NoStiffnessError, rows: Whole | None = None) -> str:
+def mechanism(body: FreeBody, error: NoStiffnessError) -> str:
     """Which nodes can move although no rigid motion is left."""
-    motion = np.zeros(body.model.count)
-    motion[body.free if rows is None else rows] = error.motion
-    moved = np.nan_to_num(body.model.node_motion(motion[:, None])[:, :, 0])
+    moved = np.nan_to_num(body.model.node_motion(error.motion[:, None])[:, :, 0])
     size = np.abs(moved).max(axis=1)
     nodes = np.argsort(size)[::-1]
     nodes = nodes[size[nodes] > 0.5 * size.max()][:SHOWN]

@@ -22,6 +22,7 @@ FACES: Final = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))  # outwards
 _a, _b = (5.0 - np.sqrt(5.0)) / 20.0, (5.0 + 3.0 * np.sqrt(5.0)) / 20.0
 GAUSS: Final = np.array([[_a, _a, _a], [_b, _a, _a], [_a, _b, _a], [_a, _a, _b]])  # exact for polynomials of degree 2
 CHUNK: Final = 8  # fields at once
+ELEMENTS: Final = 1000  # at once, for many fields
 
 
 def shape_gradients(at: Array, count: int) -> Array:
@@ -137,18 +138,20 @@ class Tetrahedra:
     def energy_error(self, displacement: Array) -> Array:
         """(n,) share of the strain energy that finer elements would add, by how far strains at Gauss points are from those averaged at
         nodes (Zienkiewicz, Zhu 1987)."""
+        parts = [displacement[:, k : k + CHUNK] for k in range(0, displacement.shape[1], CHUNK)]
+        return np.concatenate([self._energy_error(part) for part in parts]) if parts else np.zeros(0)
+
+    def _energy_error(self, displacement: Array) -> Array:
         D, n = elasticity(self.material), displacement.shape[1]
         smooth = self.strain(displacement)[np.searchsorted(self.stations, self.nodes)]
+        u = displacement[self.freedoms[self.nodes]]
         off, whole = np.zeros(n), np.zeros(n)
         for at, (gradients, volume) in zip(self._gauss, self.points, strict=True):
             shape = shape_functions(at, self.nodes.shape[1])
-            for k in range(0, n, CHUNK):
-                part = slice(k, k + CHUNK)
-                u = displacement[self.freedoms[self.nodes]][..., part]
-                strain = _strain(np.einsum("enb,enak->eabk", gradients, u, optimize=True))
-                left = np.einsum("p,epik->eik", shape, smooth[..., part], optimize=True) - strain
-                off[part] += np.einsum("e,eik,ij,ejk->k", volume, left, D, left, optimize=True)
-                whole[part] += np.einsum("e,eik,ij,ejk->k", volume, strain, D, strain, optimize=True)
+            strain = _strain(np.einsum("enb,enak->eabk", gradients, u, optimize=True))
+            left = np.einsum("p,epik->eik", shape, smooth, optimize=True) - strain
+            off += np.einsum("e,eik,ij,ejk->k", volume, left, D, left, optimize=True)
+            whole += np.einsum("e,eik,ij,ejk->k", volume, strain, D, strain, optimize=True)
         return off / np.maximum(whole, 1e-300)
 
     def turn(self, displacement: Array) -> Array:
@@ -164,18 +167,20 @@ class Tetrahedra:
         """Zienkiewicz & Taylor 2000, The Finite Element Method, vol. 2. Summed over Gauss points without a global matrix."""
         D, n, count = elasticity(self.material), modes.shape[1], displacement.shape[1]
         out = np.zeros((count, n, n))
-        at = self.freedoms[self.nodes]
-        for gradients, volume in self.points:
-            moved = np.einsum("enb,enak->eabk", gradients, displacement[at], optimize=True)
-            stress = np.einsum("ij,ejk,e->kie", D, _strain(moved), volume, optimize=True)
-            slopes = np.einsum("enb,enaj->abej", gradients, modes[at], optimize=True)
-            slopes = np.ascontiguousarray(slopes)  # [a, b] (e, n): ∂φ_a/∂x_b
-            for k in range(count):
-                weight = stress[k][[0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(3, 3, -1)
-                for along in slopes:
-                    for b in range(3):
-                        pulled = sum(weight[b, c][:, None] * along[c] for c in range(3))
-                        out[k] += along[b].T @ pulled
+        for first in range(0, len(self.nodes), ELEMENTS):
+            part = slice(first, first + ELEMENTS)
+            at = self.freedoms[self.nodes[part]]
+            for gradients, volume in self.points:
+                moved = np.einsum("enb,enak->eabk", gradients[part], displacement[at], optimize=True)
+                stress = np.einsum("ij,ejk,e->kie", D, _strain(moved), volume[part], optimize=True)
+                slopes = np.einsum("enb,enaj->abej", gradients[part], modes[at], optimize=True)
+                slopes = np.ascontiguousarray(slopes)  # [a, b] (e, n): ∂φ_a/∂x_b
+                for k in range(count):
+                    weight = stress[k][[0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(3, 3, -1)
+                    for along in slopes:
+                        for b in range(3):
+                            pulled = sum(weight[b, c][:, None] * along[c] for c in range(3))
+                            out[k] += along[b].T @ pulled
         return 0.5 * (out + out.transpose(0, 2, 1))
 
 

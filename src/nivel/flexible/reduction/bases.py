@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from nivel.errors import ModelError
 from nivel.flexible.model.model import Array
 from nivel.flexible.model.sparse import Sparse
-from nivel.flexible.reduction.factor import Factor, Whole, lowest_modes, pivots
+from nivel.flexible.reduction.factor import Whole, lowest_modes, pivots
 from nivel.flexible.reduction.free_body import FreeBody
 from nivel.flexible.reduction.inertia_loads import inertia_loads
 
@@ -62,7 +62,8 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
         )
     held = _with_pins(body, boundary)
     inner = np.setdiff1d(np.arange(body.model.count), boundary)
-    corrections, factor, free = _correction_modes(body, boundary, held)
+    corrections = _correction_modes(body, boundary, held)
+    factor, free = body.factor(held), body.all_but(held)
     if len(held) == len(boundary):
         found = _chosen(modes, lambda n: lowest_modes(*_within(body, inner), n, factor.solve))
     else:
@@ -89,12 +90,7 @@ def inertia_modes(body: FreeBody, boundary: Whole) -> Array:
 
     With these in the basis, the reduced body answers exactly to its own inertia while it moves steadily.
     """
-    held = _with_pins(body, boundary)
-    free = np.setdiff1d(np.arange(body.model.count), held)
-    loads = np.hstack(list(inertia_loads(body).values()))
-    out = np.zeros_like(loads)
-    out[free] = Factor(sp.csc_array(body.K[free][:, free])).solve(loads[free])
-    return out
+    return body.held_solution(_with_pins(body, boundary), np.hstack(list(inertia_loads(body).values())))
 
 
 def free_interface(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
@@ -166,12 +162,10 @@ def _within(body: FreeBody, inner: Whole) -> tuple[Sparse, sp.csc_array]:
     return sp.csc_array(body.K[inner][:, inner]), sp.csc_array(body.M[inner][:, inner])
 
 
-def _correction_modes(body: FreeBody, boundary: Whole, held: Whole) -> tuple[Array, Factor, Whole]:
-    """(N, b) static displacement for unit motion of each boundary freedom; the factor of the rest, and that rest."""
-    free = np.setdiff1d(np.arange(body.model.count), held)
-    factor = Factor(sp.csc_array(body.K[free][:, free]))
-    out = np.zeros((body.model.count, len(boundary)))
+def _correction_modes(body: FreeBody, boundary: Whole, held: Whole) -> Array:
+    """(N, b) static displacement for unit motion of each boundary freedom."""
+    if not len(boundary):
+        return np.zeros((body.model.count, 0))
+    out = body.held_solution(held, -(body.K[:, boundary].toarray()))
     out[boundary, np.arange(len(boundary))] = 1.0
-    if len(boundary):
-        out[free] = -factor.solve(body.K[free][:, boundary].toarray())
-    return out, factor, free
+    return out

@@ -12,10 +12,9 @@ no stress, so a pendulum held at its hinge needs no interface loads.
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from nivel.flexible.model.model import Array
-from nivel.flexible.reduction.factor import Factor, Whole
+from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody
 from nivel.flexible.reduction.inertia_loads import inertia_loads
 
@@ -31,14 +30,11 @@ def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, W
     """
     elements = body.model.elements
     assert elements is not None
-    free = np.setdiff1d(np.arange(body.model.count), support)
-    factor = Factor(sp.csc_array(body.K[free][:, free]))
     loads = {**inertia_loads(body), **{f"interface.{name}": _units(body, rows) for name, rows in loaded.items()}}
     out = {}
     full = body.model.expansion @ modes
     for name, load in loads.items():
-        moved = np.zeros_like(load)
-        moved[free] = factor.solve(load[free])
+        moved = body.held_solution(support, load)
         out[name] = elements.geometric_stiffness(body.model.expansion @ moved, full)
     return out
 

@@ -173,7 +173,7 @@ def test_mechanism_is_named_with_the_nodes_that_move(tmp_path, interfaces):
 
 @pytest.mark.parametrize(("axis", "share"), [(0, 0.6), (0, 1.5), (5, 0.13)])
 def test_negative_energy_is_no_mechanism(tmp_path, axis, share):
-    """A spring of negative stiffness from end to end of the two beams, of which one end has K_ii: they have K_ii / 2 along, K_ii / 8 in bending."""
+    """A spring of negative stiffness from end to end of the two beams: they have K_ii / 2 along, K_ii / 8 in bending."""
     text = hinged(tmp_path)
     K = scipy.io.mmread(tmp_path / "k.mtx").toarray()
     for a in (3, 4, 5):
@@ -192,7 +192,9 @@ def test_negative_energy_is_no_mechanism(tmp_path, axis, share):
 @pytest.mark.parametrize(("links", "singular"), [(2000, False), (50, True)])
 def test_a_pivot_of_round_off_is_told_from_a_soft_chain(links, singular):
     """A chain of springs is held at one end, and is soft: 1/A⁻¹ of its end is 1/links. One that is held nowhere is singular."""
-    K = sp.lil_array(sp.diags_array([np.full(links, 2.0), -np.ones(links - 1), -np.ones(links - 1)], offsets=[0, 1, -1]))
+    K = sp.lil_array(
+        sp.diags_array([np.full(links, 2.0), -np.ones(links - 1), -np.ones(links - 1)], offsets=[0, 1, -1])
+    )
     K[-1, -1] = 1.0
     if not singular:
         Factor(sp.csc_array(K))

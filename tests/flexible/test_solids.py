@@ -149,12 +149,13 @@ def test_strain_energy_of_stresses_is_that_of_the_stiffness(rng):
     model = assembled(block(length=0.4, size=0.1))
     u = 1e-4 * np.sin(7 * model.position + rng.normal(size=3)).ravel()[:, None]
     elements = model.elements
-    nodes = u[elements.freedoms[elements.nodes]][..., 0]
+    (its,) = elements.blocks
+    nodes = u[elements.freedoms[its.nodes]][..., 0]
     energy = 0.0
-    from nivel.flexible.model.tetrahedra import elasticity
+    from nivel.flexible.model.solid_elements import elasticity
 
     D = elasticity(elements.material)
-    for gradients, volume in elements.points:
+    for gradients, volume in its.points:
         g = np.einsum("enb,ena->eab", gradients, nodes)
         e = np.stack(
             [

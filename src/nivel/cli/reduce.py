@@ -123,7 +123,7 @@ def _table(findings: Findings):
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
-    for heading in ("mode", "whole model [Hz]", "reduced [Hz]", "error", "MAC"):
+    for heading in ("free mode", "whole model [Hz]", "reduced [Hz]", "error", "MAC"):
         table.add_column(heading, justify="right")
     for k, (full, reduced, error) in enumerate(zip(findings.full, findings.reduced, findings.errors, strict=False)):
         if k >= SHOWN:

@@ -190,7 +190,9 @@ def _statements(full: Array, reduced: Array, found: Orthonormal) -> list[str]:
     if count:
         until = count if not len(good) else int(good[0])
         limit = f", up to {full[until - 1]:.4g} Hz" if until else ""
-        out.append(f"The first {until} of {count} frequencies are within 1 % of those of the whole model{limit}.")
+        out.append(
+            f"The first {until} of {count} frequencies of the free body are within 1 % of those of the whole model{limit}."
+        )
     return out
 
 

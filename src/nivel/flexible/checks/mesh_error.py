@@ -15,7 +15,8 @@ from nivel.flexible.body.body import MeshError
 from nivel.flexible.model.frame_source import frame_model
 from nivel.flexible.model.model import FiniteElementModel
 from nivel.flexible.model.model_file import Located
-from nivel.flexible.model.tetrahedra import Tetrahedra
+from nivel.flexible.model.solid_elements import SolidElements
+from nivel.flexible.model.solid_shapes import TETRAHEDRON_4, TETRAHEDRON_10
 from nivel.flexible.reduction.free_body import FreeBody
 
 Array = NDArray[np.float64]
@@ -26,8 +27,11 @@ RICHARDSON = 4.0 / 3.0  # for errors that fall with the square of the length, or
 
 
 def mesh_error(located: Located, model: FiniteElementModel, modes: Array, eigenvalues: Array) -> MeshError | None:
-    """The estimate for `modes` (N, n) of a body with these `eigenvalues` (n,) [1/s²]; None where elements are not known."""
-    if isinstance(model.elements, Tetrahedra):
+    """The estimate for `modes` (N, n) of a body with these `eigenvalues` (n,) [1/s²]; None where elements are not known
+    or are no tetrahedra."""
+    if isinstance(model.elements, SolidElements):
+        if any(block.shape not in (TETRAHEDRON_4, TETRAHEDRON_10) for block in model.elements.blocks):
+            return None
         return MeshError(SMOOTHED * model.elements.energy_error(model.expansion @ modes), dynamic=False)
     if located.record.frame is None or 2 * model.count > MOST_FREEDOMS:
         return None

@@ -16,7 +16,21 @@ from nivel.flexible.foreign.nastran import read_grids, table
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-TETRAHEDRA: Final = {"C3D4": 4, "C3D10": 10, "C3D10M": 10, "C3D10MH": 10, "C3D10T": 10, "C3D4T": 4}
+SOLIDS: Final = {
+    "C3D4": 4,
+    "C3D4T": 4,
+    "C3D6": 6,
+    "C3D8": 8,
+    "C3D8I": 8,
+    "C3D8R": 8,
+    "C3D10": 10,
+    "C3D10M": 10,
+    "C3D10MH": 10,
+    "C3D10T": 10,
+    "C3D15": 15,
+    "C3D20": 20,
+    "C3D20R": 20,
+}  # types of elements whose stress can be recovered, with their number of nodes
 
 
 class RigidGroup(NamedTuple):
@@ -33,17 +47,17 @@ class RigidGroup(NamedTuple):
 
 @dataclass
 class Mesh:
-    """Numbers (n,) and places (n, 3) of nodes; node sets by name; `elements` (e, 4 or 10) numbers of nodes of tetrahedra.
+    """Numbers (n,) and places (n, 3) of nodes; node sets by name; `elements` numbers of nodes of solids, by type.
 
-    only_tetrahedra : whether there are no other elements. types : line of the first element of each type. young,
+    only_solids : whether there are no other elements. types : line of the first element of each type. young,
     poisson, density : of the only material, or None.
     """
 
     numbers: Whole
     places: Array
     sets: dict[str, list[int]] = field(default_factory=dict)
-    elements: list[list[int]] = field(default_factory=list)
-    only_tetrahedra: bool = True
+    elements: dict[str, list[list[int]]] = field(default_factory=dict)
+    only_solids: bool = True
     materials: int = 0
     young: float | None = None
     poisson: float | None = None
@@ -94,7 +108,7 @@ class _Input:
         self.numbers: list[int] = []
         self.places: list[list[float]] = []
         self.sets: dict[str, list[int]] = {}
-        self.elements: list[list[int]] = []
+        self.elements: dict[str, list[list[int]]] = {}
         self.others = False
         self.materials = self.instances = 0
         self.values: dict[str, list[float]] = {}
@@ -148,7 +162,7 @@ class _Input:
         self.materials += keyword == "MATERIAL"
         if keyword == "ELEMENT":
             self.types.setdefault(options.get("TYPE", "").upper(), line)
-            self.others |= options.get("TYPE", "").upper() not in TETRAHEDRA
+            self.others |= options.get("TYPE", "").upper() not in SOLIDS
         self._bind(keyword, options, line)
 
     def _bind(self, keyword: str, options: dict[str, str], line: int) -> None:
@@ -176,17 +190,17 @@ class _Input:
                 self.places.append([float(part) if part else 0.0 for part in [*parts[1:4], "", "", ""][:3]])
                 if "NSET" in options:
                     self.sets.setdefault(options["NSET"], []).append(int(parts[0]))
-            case "ELEMENT" if options.get("TYPE", "").upper() in TETRAHEDRA:
-                self._element(TETRAHEDRA[options["TYPE"].upper()], parts)
+            case "ELEMENT" if options.get("TYPE", "").upper() in SOLIDS:
+                self._element(options["TYPE"].upper(), parts)
             case "NSET":
                 self._set(options, [part for part in parts if part])
             case "ELASTIC" | "DENSITY" if keyword not in self.values:
                 self.values[keyword] = [float(part) for part in parts if part]
 
-    def _element(self, count: int, parts: list[str]) -> None:
+    def _element(self, kind: str, parts: list[str]) -> None:
         self.pending += [int(part) for part in parts if part]
-        if len(self.pending) > count:
-            self.elements.append(self.pending[1 : count + 1])
+        if len(self.pending) > SOLIDS[kind]:
+            self.elements.setdefault(kind, []).append(self.pending[1 : SOLIDS[kind] + 1])
             self.pending = []
 
     def _set(self, options: dict[str, str], parts: list[str]) -> None:

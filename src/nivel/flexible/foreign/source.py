@@ -17,14 +17,15 @@ from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh, read_mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.solids import blocks_of, first_inverted
 from nivel.flexible.foreign.triplet_files import read_abaqus, read_calculix, read_freedoms, read_matrix_market
 from nivel.flexible.model.mass import from_matrix
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import LENGTHS, MASSES, Matrices
 from nivel.flexible.model.selection import NodeSets
+from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, surface
 from nivel.flexible.model.sparse import Sparse
-from nivel.flexible.model.tetrahedra import Tetrahedra, inverted, surface
 from nivel.machine.beams.section import Material
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
@@ -180,7 +181,7 @@ def _check_nodes(located: Located, mesh: Mesh, read: _Read) -> None:
         faults.append(
             located.fault(("matrices", "nodes"), f"{message}; take the mesh that the matrices were made with")
         )
-    unknown = sorted({node for element in mesh.elements for node in element} - known)
+    unknown = sorted({node for kind in mesh.elements.values() for element in kind for node in element} - known)
     if unknown:
         names = ", ".join(map(str, unknown[:8]))
         message = f"elements of the mesh have nodes that do not exist: {names}{_hole(mesh.numbers)}"
@@ -224,7 +225,7 @@ def _model(
         elements=elements,
         triangles=triangles,
         solids=solids,
-        volume=None if elements is None else float(elements.volumes.sum()),
+        volume=None if elements is None else elements.volume,
         notes=(*notes, *more),
     )
     return model, sets
@@ -263,43 +264,49 @@ def _elements(
     position: Array,
     length: float,
     mass_unit: float,
-) -> tuple[Tetrahedra | None, Whole, Whole, tuple[str, ...]]:
-    """Stress of meshes of tetrahedra of one material; faces for pictures; what is left out, in words."""
+) -> tuple[SolidElements | None, Whole, Whole, tuple[str, ...]]:
+    """Stress of meshes of solids of one material; faces for pictures; what is left out, in words."""
     none = np.zeros((0, 3), dtype=np.int64), np.zeros((0, 4), dtype=np.int64)
-    sizes = {len(element) for element in mesh.elements}
-    if len(sizes) != 1 or not all(node in place for element in mesh.elements for node in element):
-        why = (
-            ("stress is not known: the mesh has no tetrahedra of one kind",)
-            if mesh.elements or not mesh.only_tetrahedra
-            else ()
-        )
-        return None, *none, why
-    nodes = np.array([[place[node] for node in element] for element in mesh.elements], dtype=np.int64)
-    bad = inverted(nodes, position)
-    if len(bad):
-        message = (
-            f"{len(bad)} of {len(nodes)} elements are turned inside out (the first is number {bad[0] + 1} of the file)"
-        )
+    if not mesh.elements or not all(node in place for kind in mesh.elements.values() for each in kind for node in each):
+        return None, *none, _why_no_stress(mesh)
+    blocks = blocks_of(mesh, place, position)
+    bad = first_inverted(blocks)
+    if bad:
         raise ModelError(
-            located.fault(("matrices", "nodes"), f"{message}: their nodes are in another order, or a node was moved")
+            located.fault(("matrices", "nodes"), f"{bad}: their nodes are in another order, or a node was moved")
         )
-    triangles, solids = surface(nodes), nodes
+    triangles, solids = surface(blocks.values()), _tetrahedra(blocks, none[1])
     if (
-        not mesh.only_tetrahedra
+        not mesh.only_solids
         or mesh.materials != 1
         or mesh.young is None
         or mesh.poisson is None
-        or np.any(freedoms[:, :3] < 0)
+        or np.any(freedoms[np.unique(np.concatenate([each.nodes.ravel() for each in blocks.values()])), :3] < 0)
     ):
         return (
             None,
             triangles,
             solids,
-            ("stress is not known: it needs a mesh of tetrahedra alone, of one elastic material",),
+            ("stress is not known: it needs a mesh of solids alone, of one elastic material",),
         )
     pressure = mass_unit / length  # mass / (length s²)
     density = (mesh.density or 1.0) * mass_unit / length**3
     material = Material.model_construct(
         youngs_modulus=mesh.young * pressure, poisson_ratio=mesh.poisson, density=density
     )
-    return Tetrahedra(nodes, freedoms[:, :3], position, material), triangles, solids, ()
+    return SolidElements(tuple(blocks.values()), freedoms[:, :3], position, material), triangles, solids, ()
+
+
+def _why_no_stress(mesh: Mesh) -> tuple[str, ...]:
+    if mesh.elements:
+        return (
+            "stress is not known: nodes of its elements have no rows in the matrices, as those of *RIGID BODY have none; "
+            "leave the tie to `interfaces` here",
+        )
+    return () if mesh.only_solids else ("stress is not known: the mesh has no solids",)
+
+
+def _tetrahedra(blocks: dict[str, SolidBlock], none: Whole) -> Whole:
+    """Nodes of a mesh of tetrahedra of one kind, for export; of other meshes none."""
+    nodes = [block.nodes for block in blocks.values()]
+    return nodes[0] if len(nodes) == 1 and nodes[0].shape[1] in (4, 10) else none

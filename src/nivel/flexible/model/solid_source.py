@@ -16,8 +16,9 @@ from nivel.flexible.model.mesher import SolidMesh, meshed
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets
+from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, surface
+from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
 from nivel.flexible.model.sparse import Sparse
-from nivel.flexible.model.tetrahedra import Tetrahedra, inverted, surface
 from nivel.machine.beams.section import Material
 
 # degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
@@ -50,7 +51,8 @@ def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[Fi
 
 def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementModel:
     """The model of a mesh. Raises ModelError where an element is turned inside out."""
-    bad = inverted(mesh.nodes, mesh.position)
+    block = SolidBlock(TETRAHEDRON_10, mesh.nodes, mesh.position)
+    bad = block.inverted()
     if len(bad):
         raise ModelError(
             f"{len(bad)} of {len(mesh.nodes)} elements are turned inside out: {_numbers(bad)}; mesh finer around curves"
@@ -69,8 +71,8 @@ def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementMo
         stiffness=stiffness,
         mass=PointMass(mesh.position, at_nodes(all_freedoms, freedoms.size), mass),
         expansion=sp.csr_array(sp.eye_array(freedoms.size)),
-        elements=Tetrahedra(mesh.nodes, freedoms, mesh.position, material),
-        triangles=surface(mesh.nodes),
+        elements=SolidElements((block,), freedoms, mesh.position, material),
+        triangles=surface([block]),
         solids=mesh.nodes,
         volume=mesh.volume,
         notes=(note,),
@@ -100,21 +102,23 @@ def matrices(mesh: SolidMesh, material: Material) -> tuple[Sparse, sp.csr_array]
     node = np.argsort(_nodes_of(basis.doflocs.T, mesh.position))
     mass = _reordered(mass_form.assemble(basis) * material.density, node)
     basis = skfem.Basis(grid, skfem.ElementTetP2(), intorder=STIFFNESS_DEGREE)
-    products = {}
+    products: dict[tuple[int, int], Any] = {}
+    slope: Any = grad
     for a, b in AXES:
-        form: Any = skfem.BilinearForm(lambda u, v, _, a=a, b=b: grad(v)[a] * grad(u)[b])
+        form: Any = skfem.BilinearForm(lambda u, v, _, a=a, b=b: slope(v)[a] * slope(u)[b])
         products[a, b] = _reordered(form.assemble(basis), node)
         products[b, a] = sp.csr_array(products[a, b].T)
     return _stiffness(products, *lame_parameters(material.youngs_modulus, material.poisson_ratio)), mass
 
 
 def _reordered(matrix: Any, order: Whole) -> sp.csr_array:
-    return sp.csr_array(sp.csr_array(matrix)[order][:, order])
+    rows: Any = sp.csr_array(matrix)
+    return sp.csr_array(rows[order][:, order])
 
 
-def _stiffness(products: dict[tuple[int, int], sp.csr_array], lame: float, shear: float) -> Sparse:
+def _stiffness(products: dict[tuple[int, int], Any], lame: float, shear: float) -> Sparse:
     """(3 n, 3 n) from the products of slopes G_ab (n, n) [m]."""
-    trace = sum(products[a, a] for a in range(3))
+    trace = products[0, 0] + products[1, 1] + products[2, 2]
     rows, columns, values = [], [], []
     for (a, b), product in products.items():
         block = lame * product + shear * products[b, a]

@@ -18,7 +18,9 @@ from nivel.flexible.reduction.factor import Factor, NoStiffnessError, Whole, det
 class FreeBody:
     """`model` with its matrices K, M (N, N).
 
-    Factors of K take most of the memory of a reduction, so there is one at a time, the last that was asked for. The elastic inverse is that of a body held at six freedoms, between two projections: the load is first balanced by
+    Factors of K take most of the memory of a reduction, so there is one at a time, the last that was asked for.
+
+    The elastic inverse is that of a body held at six freedoms, between two projections: the load is first balanced by
     inertia forces of a rigid motion, the answer freed of rigid motion. It does not depend on the six freedoms.
     """
 

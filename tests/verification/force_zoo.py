@@ -108,6 +108,9 @@ OTHERS = {
 }
 
 
+EGG = {"type": "ellipsoid", "semi_axes": [0.4, 0.3, 0.25]}
+
+
 def round_pair(first, second, apart, contact=CONTACT):
     """Body c, with the first shape, and a block with the second one, which touch."""
     more = {
@@ -190,6 +193,12 @@ CASES = {
        for name, other in OTHERS.items()},
     "box and capsule, stick": round_pair({"type": "box", "size": [0.5, 0.6, 0.4]}, {"type": "capsule", "radius": 0.25, "length": 0.6},
                                          [-0.4, -0.25, 0.2], STICKING),
+    "ellipsoid": Case(ON_FLOOR, ON, True, shape("c", "ellipsoid", semi_axes=[0.5, 0.35, 0.25])),
+    "ellipsoid, sticks": Case(ON_FLOOR_STICKING, ON, True, shape("c", "ellipsoid", semi_axes=[0.5, 0.35, 0.25])),
+    "ellipsoid and box": round_pair(EGG, OTHERS["box"], [-0.5, -0.25, 0.15]),
+    "box and ellipsoid, stick": round_pair(OTHERS["box"], EGG, [-0.45, -0.2, 0.15], STICKING),
+    "ellipsoid and capsule": round_pair(EGG, OTHERS["capsule"], [-0.55, -0.25, 0.15]),
+    "ellipsoids": round_pair(EGG, {"type": "ellipsoid", "semi_axes": [0.3, 0.45, 0.35]}, [-0.55, -0.25, 0.15]),
     "hulls": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3,
                    "friction_model": "coulomb", "friction_transition_speed": 0.8,
                    "bodies": ["c", "block"]}, ("c", "block", [-0.38, -0.25, 0.1]), True,

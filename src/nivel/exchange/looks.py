@@ -67,6 +67,11 @@ class Drawing:
             return {"type": "sphere", "radius": number(look.sizes[0]), **centre}
         order = np.argmax(np.abs(at.axes), axis=0)
         straight = bool(np.all(np.abs(at.axes).max(axis=0) > 1.0 - ALONG))
+        if look.kind == "ellipsoid" and straight:
+            semi_axes = [0.0, 0.0, 0.0]
+            for k, size in enumerate(look.sizes):
+                semi_axes[int(order[k])] = number(size)
+            return {"type": "ellipsoid", "semi_axes": semi_axes, **centre}
         if look.kind == "ellipsoid" or (
             not straight and not (look.kind != "box" and np.abs(at.axes[:, 2]).max() > 1.0 - ALONG)
         ):

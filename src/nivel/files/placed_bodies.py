@@ -20,7 +20,7 @@ from nivel.machine import (
     Joint,
     Mesh,
     Shape,
-    Sphere,
+    Standing,
     Tube,
     frame_from_axes,
     placement,
@@ -98,7 +98,7 @@ def placed_beam(beam: Beam, placing: Placement) -> Beam:
 def _moved_body(body: Body, placing: Placement) -> Body:
     """`body` moved without being turned."""
     shape = body.shape
-    if shape is None or isinstance(shape, Sphere | Mesh) or shape.from_ is None or shape.to is None:
+    if shape is None or isinstance(shape, Standing) or shape.from_ is None or shape.to is None:
         return body.replace(position=placing.point(body.position or (0.0, 0.0, 0.0)))
     return body.replace(shape=shape.replace(from_=placing.point(shape.from_), to=placing.point(shape.to)))
 
@@ -109,7 +109,7 @@ def _placed_shape(shape: Shape, placing: Placement) -> Shape:
         return _placed_mesh(shape, placing)
     if isinstance(shape, Extrusion):
         shape = shape.replace(outline=_mirrored_outline(shape, placing))
-    if isinstance(shape, Sphere) or shape.from_ is None:
+    if isinstance(shape, Standing) or shape.from_ is None:
         return shape if shape.centre is None else shape.replace(centre=placing.in_body(shape.centre))
     match shape:
         case Box():

@@ -46,6 +46,8 @@ def solid(shape: dict[str, Any], facets: int = FACETS) -> list[Face] | Ball:
             faces = _box(np.array(shape["size"], dtype=float))
         case "sphere":
             return Ball(centre, float(shape["radius"]))
+        case "ellipsoid":
+            faces = _ellipsoid(np.array(shape["semi_axes"], dtype=float), facets)
         case "cylinder":
             faces = _round(shape["length"], [shape["radius"]], shape.get("along") or "x", facets)
         case "tube":
@@ -91,6 +93,8 @@ def _rims(shape: dict[str, Any]) -> Array:
             return 0.5 * np.array(shape["size"], dtype=float) * np.array(list(product((-1.0, 1.0), repeat=3)))
         case "sphere":
             return shape["radius"] * np.concatenate([np.eye(3), -np.eye(3)])
+        case "ellipsoid":
+            return np.concatenate([np.diag(shape["semi_axes"]), -np.diag(shape["semi_axes"])])
         case "extrusion":
             section = np.array(shape["outline"], dtype=float)
         case "capsule":
@@ -161,7 +165,7 @@ def _capsule_profile(radius: float, straight: float) -> Array:
     """(n, 2) place along the axis and distance from it, from one end to the other."""
     angle = np.linspace(0.0, 0.5 * np.pi, 7)
     cap = np.stack([0.5 * straight + radius * np.sin(angle), radius * np.cos(angle)], axis=1)
-    return np.concatenate([(cap * [-1.0, 1.0])[::-1], cap])
+    return np.concatenate([(cap * [-1.0, 1.0])[::-1], cap if straight else cap[1:]])
 
 
 def _lathe(profile: Array, along: str, facets: int) -> list[Face]:
@@ -178,6 +182,16 @@ def _lathe(profile: Array, along: str, facets: int) -> list[Face]:
             normal = np.zeros(3)
             normal[order] = [r0 - r1, (s1 - s0) * np.cos(middle), (s1 - s0) * np.sin(middle)]
             faces.append(Face(corners, normal / np.linalg.norm(normal), np.zeros(4, dtype=bool)))
+    return faces
+
+
+def _ellipsoid(semi_axes: Array, facets: int) -> list[Face]:
+    """A ball of radius 1, stretched."""
+    faces = _lathe(_capsule_profile(1.0, 0.0), "z", facets)
+    for face in faces:
+        face.corners = face.corners * semi_axes
+        normal = face.normal / semi_axes
+        face.normal = normal / np.linalg.norm(normal)
     return faces
 
 

@@ -4,7 +4,18 @@ from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import Inertia, MassProperties, mass_properties
-from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Extrusion,
+    Mesh,
+    Shape,
+    Sphere,
+    Standing,
+    Tube,
+)
 from nivel.machine.control import Block
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import Orientation, euler_parameters, rotation_matrix

@@ -22,7 +22,7 @@ from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
-from nivel.machine.bodies.shape import Mesh, Shape, Sphere
+from nivel.machine.bodies.shape import Mesh, Shape, Standing
 from nivel.machine.control import ControlBlock
 from nivel.machine.control.problems import problems_of_control
 from nivel.machine.core.checked import Checked, Problem, lines_of
@@ -186,5 +186,5 @@ class MachineRecord(Checked):
 
     def _problems_of_surroundings(self) -> Iterator[Problem]:
         for k, each in enumerate(self.surroundings):
-            if not isinstance(each, Sphere | Mesh) and each.from_ is not None:
+            if not isinstance(each, Standing) and each.from_ is not None:
                 yield Problem(("surroundings", k), "a solid of the surroundings stands along the axes, at its `centre`")

@@ -45,7 +45,7 @@ from nivel.flexible.body.picture import moving_surface
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.colour import digits_of
-from nivel.machine.bodies.shape import Box, Extrusion, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube
 from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper
@@ -254,6 +254,8 @@ def _shape(shape: Shape) -> dict[str, Any]:
             return out | {"surface": surface_text(*mesh_surface(shape))}
         case Sphere():
             return out | {"radius": shape.radius}
+        case Ellipsoid():
+            return out | {"semi_axes": list(shape.semi_axes)}
         case Box():
             return out | {"size": list(box_size(shape))}
         case Tube():

@@ -61,12 +61,12 @@ class Steps:
 class Part:
     """A solid in the body frame with its centre at `centre`.
 
-    size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length;
-    a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion,
-    corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. colour : empty, that of the body.
+    size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; ellipsoid: semi-axes;
+    extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an
+    extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. colour : empty, that of the body.
     """
 
-    kind: Literal["box", "cylinder", "tube", "sphere", "capsule", "extrusion", "mesh"]
+    kind: Literal["box", "cylinder", "tube", "sphere", "ellipsoid", "capsule", "extrusion", "mesh"]
     centre: Triple
     size: list[float]
     along: Literal["x", "y", "z"] = "x"

@@ -184,6 +184,8 @@ def _uncoloured(shape: dict[str, Any], block: Block) -> Part:
             return Part("box", centre, [float(each) for each in shape["size"]])
         case "sphere":
             return Part("sphere", centre, [float(shape["radius"])])
+        case "ellipsoid":
+            return Part("ellipsoid", centre, [float(each) for each in shape["semi_axes"]])
         case "cylinder" | "capsule":
             return Part(shape["type"], centre, [float(shape["radius"]), float(shape["length"])], along)
         case "tube":

@@ -107,7 +107,7 @@ SAME: Final[dict[str, str]] = {
     "static_coefficient": "mu s, static friction, static",
     "equilibrium": "static, statics, rest, settled, balanced",
     "box": "brick, cuboid, block, rectangular, cube",
-    "sphere": "ball, ellipsoid, globe",
+    "sphere": "ball, globe",
     "extrusion": "prism, extruded solid, polygon, profile",
     "mesh": "stl, cad, obj, step file, file solid, triangles",
     "rope": "cable, wire, wire rope, tendon, string, tether, tensile link",

@@ -51,6 +51,8 @@ function longestSide(part: Part): number {
       return Math.max(a, b, c);
     case "sphere":
       return 2 * a;
+    case "ellipsoid":
+      return 2 * Math.max(a, b, c);
     case "cylinder":
     case "capsule":
       return Math.max(2 * a, b);

@@ -82,6 +82,9 @@ export function partGeometry(part: Part, arrays: Arrays, facets = ROUND): THREE.
     case "sphere":
       geometry = new THREE.SphereGeometry(a, facets, facets / 2);
       break;
+    case "ellipsoid":
+      geometry = new THREE.SphereGeometry(1, facets, facets / 2).scale(a, b, c);
+      break;
     case "extrusion":
       geometry = prism(part);
       break;
@@ -94,7 +97,7 @@ export function partGeometry(part: Part, arrays: Arrays, facets = ROUND): THREE.
 
 /** The edges that a drawing would show, or null where there are none, or too many to look for. */
 export function edgesOf(part: Part, geometry: THREE.BufferGeometry): THREE.BufferGeometry | null {
-  if (part.kind === "sphere" || part.kind === "capsule") return null;
+  if (part.kind === "sphere" || part.kind === "ellipsoid" || part.kind === "capsule") return null;
   const triangles = (geometry.index?.count ?? geometry.getAttribute("position").count) / 3;
   return triangles > MOST_EDGED ? null : new THREE.EdgesGeometry(geometry, CREASE);
 }

@@ -106,6 +106,19 @@ def is_apart(record, k):
 
 
 @stage
+def all_apart(record):
+    """Whether all frictions are of patches where nothing touches; then none has an effort."""
+    friction = record.friction
+    for k in range(friction.columns.shape[0]):
+        if not is_apart(record, k):
+            return False
+    for k in range(friction.columns.shape[0]):
+        friction.force[k], friction.anchor[k] = 0.0, 0.0
+        friction.work[PROPOSED, k], friction.work[RESTING, k] = 0.0, 0.0
+    return True
+
+
+@stage
 def respond(machine):
     """Multipliers and whitened accelerations for a unit effort on each coordinate, S, and the masses that efforts move."""
     record = record_at(machine)
@@ -154,6 +167,9 @@ def start(machine):
     for row in range(rows):
         friction.lam[row] = constraints.lam[row]
     for k in range(friction.columns.shape[0]):
+        if is_apart(record, k):
+            friction.free[k] = 0.0
+            continue
         total = -constraints.gamma[rows + k]
         for n in range(friction.block[k, 0], friction.block[k, 1]):
             for i in range(saddle.z.shape[1]):
@@ -730,6 +746,8 @@ def apply(machine, number, t):
     record = record_at(machine)
     friction, saddle, control = record.friction, record.saddle, record.control
     count = friction.columns.shape[0]
+    if all_apart(record):
+        return OK
     find_capacities(machine, t)
     respond(machine)
     start(machine)
@@ -749,6 +767,8 @@ def apply(machine, number, t):
         if friction.columns[k, MODEL] == LUGRE and relaxation(machine, k) * control.stick[1] > FASTEST:
             control.failure[0] = k
             return BRISTLE_TOO_FAST
+        if is_apart(record, k):
+            continue
         for body in range(saddle.z.shape[0]):
             for i in range(saddle.z.shape[1]):
                 saddle.z[body, i] += force * friction.change[k, body, i]

@@ -2,8 +2,9 @@
 
 What touches is a segment, or a point, with a radius. Its depth at a point is the radius less the signed distance of that point from the
 other shape (`nivel.kernels.forces.surface_distance`). The force is along the gradient of that distance, so it has a potential. A capsule
-touches with its deepest point, and, where the other shape has flat sides, with that end which is less deep: then it lies on a side with
-both ends, and both forces are continuous whatever it does.
+touches with its deepest point, and, where the other shape has straight or flat sides, with that end which is less deep: then it lies on
+a side with both ends, and both forces are continuous whatever it does. Where a part of it is beyond a side, its end is the last place over
+that side, less deep by up to a radius where it is nearer than that to the other end: so two points become one as the side is left.
 """
 
 from __future__ import annotations
@@ -29,16 +30,18 @@ from nivel.kernels.forces.contact import (
     report_contact,
     velocity_at,
 )
-from nivel.kernels.forces.surface_distance import nearest_of_segment, surface_distance
+from nivel.kernels.forces.surface_distance import BOX, SEGMENT, nearest_of_segment, surface_distance
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
 
 # numbers behind those of `nivel.kernels.forces.contact`; SWAPPED: 1 where the round body is the second one; RADIUS, HALF: of it; CORE:
 # radius of the other capsule; BALL: sum of radii of balls about both markers; SHAPE: of the other one, then its numbers
 SWAPPED, RADIUS, HALF, CORE, BALL, SHAPE, NUMBERS_OF_SHAPE = 0, 1, 2, 3, 4, 5, 6
 # Bodies are far from each other where their balls are apart by this share of the radii.
 FAR = 0.25
+# Ends that are as deep, by this share of the radius, are equally deep; an axis turns along a side where its direction has less across.
+EQUAL, ALONG = 1e-9, 1e-12
 
 
 @stage
@@ -72,6 +75,54 @@ def is_far(machine, k):
     return True
 
 
+@leaf
+def clipped(low, high, x, a, limit):
+    """The part of [low, high] where |x + t a| ≤ limit; the second is below the first where there is none."""
+    if np.abs(real(a)) < ALONG:
+        return (low, high) if np.abs(real(x)) <= real(limit) else (high, low)
+    s, t = (-limit - x) / a, (limit - x) / a
+    if real(s) > real(t):
+        s, t = t, s
+    return s if real(s) > real(low) else low, t if real(t) < real(high) else high
+
+
+@leaf
+def ends_over_side(kind, x, a, half, n, t):
+    """The part of the segment x + t a that is over the side of a segment or a box above which its point t is; of other shapes all."""
+    low, high = -half + 0.0 * x[0], half + 0.0 * x[0]
+    if kind == SEGMENT:
+        low, high = clipped(low, high, x[2], a[2], n[0])
+    elif kind == BOX:
+        _, g0, g1, g2 = surface_distance(kind, (x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]), n)
+        u, v, w = np.abs(real(g0)), np.abs(real(g1)), np.abs(real(g2))
+        if u < v or u < w:
+            low, high = clipped(low, high, x[0], a[0], n[0])
+        if v <= u or v < w:
+            low, high = clipped(low, high, x[1], a[1], n[1])
+        if w <= u or w <= v:
+            low, high = clipped(low, high, x[2], a[2], n[2])
+    return low, high
+
+
+@leaf
+def other_end(kind, x, a, half, n, t, radius):
+    """(place on the segment x + t a of the end that is less deep, by how much it counts as less deep still), where t is deepest."""
+    low, high = ends_over_side(kind, x, a, half, n, t)
+    length = high - low
+    if real(length) < 0.0:
+        length = 0.0 * length
+    less = 0.0 * length
+    if real(length) < real(radius):
+        share = 1.0 - length / radius
+        less = radius * share * share
+    up = surface_distance(kind, (x[0] + high * a[0], x[1] + high * a[1], x[2] + high * a[2]), n)[0]
+    down = surface_distance(kind, (x[0] + low * a[0], x[1] + low * a[1], x[2] + low * a[2]), n)[0]
+    takes_high = real(up) > real(down)
+    if np.abs(real(up) - real(down)) <= EQUAL * real(radius):
+        takes_high = real(high) - real(t) > real(t) - real(low)
+    return high if takes_high else low, less
+
+
 @stage
 def find_round_point(machine, k, n):
     """Where point n of contact k may touch and the normal there, left in the numbers; returns (depth, its rate)."""
@@ -88,15 +139,12 @@ def find_round_point(machine, k, n):
     kind, shape, half = np.int64(real(more[SHAPE])), more[NUMBERS_OF_SHAPE:], more[HALF]
     A, r = markers.A[j], markers.r[j]
     x, a = seen(A, minus(markers.r[i], r)), seen(A, axis(markers.A[i], 2))
-    if n == 0:
-        t = nearest_of_segment(kind, x, a, half, shape)
-    else:
-        up = surface_distance(kind, (x[0] + half * a[0], x[1] + half * a[1], x[2] + half * a[2]), shape)[0]
-        down = surface_distance(kind, (x[0] - half * a[0], x[1] - half * a[1], x[2] - half * a[2]), shape)[0]
-        t = half if real(up) > real(down) else -half
+    t, less = nearest_of_segment(kind, x, a, half, shape), 0.0 * half
+    if n == 1:
+        t, less = other_end(kind, x, a, half, shape, t, more[RADIUS])
     y = x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]
     distance, g0, g1, g2 = surface_distance(kind, y, shape)
-    depth = more[RADIUS] + more[CORE] - distance
+    depth = more[RADIUS] + more[CORE] - less - distance
     # in the middle of the overlap
     below = more[RADIUS] - 0.5 * depth
     p, normal = numbers[POINT:NORMAL], numbers[NORMAL:SUMS]

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator
 
 from nivel.machine.bodies.flexibility import FlexibleBody
 from nivel.machine.bodies.inertia import InertiaTensor, impossible, mass_properties
-from nivel.machine.bodies.shape import Mesh, Shape, Sphere
+from nivel.machine.bodies.shape import Mesh, Shape, Sphere, Standing
 from nivel.machine.bodies.solids import volume, why_not_solid
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
@@ -96,7 +96,7 @@ class Body(Checked):
             yield from self._problems_of_inertia()
         if self.angular_velocity is not None and self.angular_velocity_body is not None:
             yield Problem((), "give `angular_velocity` (global axes) or `angular_velocity_body` (body axes), not both")
-        if self.shape is not None and not isinstance(self.shape, Sphere | Mesh) and self.shape.from_ is not None:
+        if self.shape is not None and not isinstance(self.shape, Standing) and self.shape.from_ is not None:
             for name in ("position", "orientation"):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "follows from the shape's `from` and `to` and must not be given")
@@ -104,7 +104,7 @@ class Body(Checked):
 
     def _problems_of_looks(self) -> Iterator[Problem]:
         for k, each in enumerate(self.looks):
-            if not isinstance(each, Sphere | Mesh) and each.from_ is not None:
+            if not isinstance(each, Standing) and each.from_ is not None:
                 yield Problem(
                     ("looks", k), "`looks` stand in the body frame, at their `centre`: `from` and `to` are global"
                 )
@@ -129,7 +129,7 @@ class Body(Checked):
         if self.inertia_about == "origin":
             yield superfluous("inertia_about", "does not belong to a flexible body, whose inertia is in its file")
         shape = self.shape
-        if isinstance(shape, Mesh) or (shape is not None and not isinstance(shape, Sphere) and shape.from_ is not None):
+        if isinstance(shape, Mesh) or (shape is not None and not isinstance(shape, Standing) and shape.from_ is not None):
             message = (
                 "a flexible body is drawn from its file; its `shape` is what touches in a contact, a solid about a `centre` that is at an "
                 "interface"

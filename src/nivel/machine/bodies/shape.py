@@ -1,8 +1,8 @@
-"""Homogeneous solids: box, cylinder, capsule, tube, sphere, extrusion, mesh. They give a body its looks and, with a density or mass,
+"""Homogeneous solids: box, cylinder, capsule, tube, sphere, ellipsoid, extrusion, mesh. They give a body its looks and, with a density or mass,
 its inertia.
 
-A shape stands in the body frame with its centre at `centre`, a mesh with the origin of its file at `position`. All but spheres and
-meshes may instead be laid between two global points `from:` and `to:`; then they define the body frame too (placement.py) and the
+A shape stands in the body frame with its centre at `centre`, a mesh with the origin of its file at `position`. All but spheres,
+ellipsoids and meshes may instead be laid between two global points `from:` and `to:`; then they define the body frame too (placement.py) and the
 centre is its origin.
 """
 
@@ -224,8 +224,19 @@ class Sphere(_Coloured):
     centre: Maybe[Position] = _CENTRE
 
 
-Shape = Annotated[Box | Cylinder | Capsule | Tube | Sphere | Extrusion | Mesh, Field(discriminator="type")]
+class Ellipsoid(_Coloured):
+    """A solid with three semi-axes: `semi_axes` along the body x, y and z axes."""
+
+    type: Literal["ellipsoid"] = "ellipsoid"
+    semi_axes: ThreeNumbers[PositiveLength] = Field(description="along the body x, y and z axes", usual=SOLID)
+    centre: Maybe[Position] = _CENTRE
+
+
+Shape = Annotated[
+    Box | Cylinder | Capsule | Tube | Sphere | Ellipsoid | Extrusion | Mesh, Field(discriminator="type")
+]
 Long = Box | Cylinder | Capsule | Tube | Extrusion  # those that may be laid between two points
+Standing = Sphere | Ellipsoid | Mesh  # those that may not
 
 
 def _refuse_along(shape: Cylinder | Capsule | Tube | Extrusion) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.machine.bodies.polygon import section
-from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Long, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Long, Mesh, Shape, Sphere, Tube
 from nivel.machine.bodies.surface import Enclosed, Triangles, enclosed, surface_arrays, welded, why_open
 from nivel.machine.core.orientation import rotation_matrix
 
@@ -42,6 +42,8 @@ def volume(shape: Shape) -> float:
             return float(np.pi * (shape.outer_radius**2 - shape.inner_radius**2) * length(shape))
         case Sphere():
             return float(4 / 3 * np.pi * shape.radius**3)
+        case Ellipsoid():
+            return float(4 / 3 * np.pi * np.prod(shape.semi_axes))
         case Extrusion():
             return section(np.array(shape.outline)).area * length(shape)
         case Mesh():
@@ -76,6 +78,9 @@ def squared_gyration(shape: Shape) -> Array:
             return _of_round_bar(shape.outer_radius**2 + shape.inner_radius**2, length(shape), shape.along)
         case Sphere():
             return 0.4 * shape.radius**2 * np.eye(3)
+        case Ellipsoid():
+            a, b, c = shape.semi_axes
+            return np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2]) / 5
         case Extrusion():
             return _of_extrusion(shape)
         case Mesh():

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nivel.machine.bodies.shape import Mesh, Sphere
+from nivel.machine.bodies.shape import Standing
 from nivel.machine.core.orientation import (
     euler_parameters,
     euler_parameters_from_matrix,
@@ -34,7 +34,7 @@ def placement(body: Body) -> tuple[Array, Array]:
     Between two points: the origin is their midpoint and x points from the first to the second (`frame_between`).
     """
     shape = body.shape
-    if shape is not None and not isinstance(shape, Sphere | Mesh) and shape.from_ is not None and shape.to is not None:
+    if shape is not None and not isinstance(shape, Standing) and shape.from_ is not None and shape.to is not None:
         start, end = np.array(shape.from_), np.array(shape.to)
         return (start + end) / 2, euler_parameters_from_matrix(frame_between(start, end))
     return np.array(body.position or (0.0, 0.0, 0.0)), euler_parameters(body.orientation)

@@ -29,7 +29,7 @@ from nivel.machine.units.quantity import listed
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
-ROUND: Final = ("sphere", "capsule")  # that touch everything at the nearest points
+ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at the nearest points
 SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
 
 
@@ -45,8 +45,8 @@ class Material(Record):
 class Contact(ForceElement):
     """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, or by a `law`; with Coulomb friction.
 
-    A `body` with the shape sphere, capsule, box, cylinder, extrusion or mesh on a `plane`; two `bodies`, of which one is a sphere or a
-    capsule, at the nearest points; or two `bodies` of the shapes box, cylinder, extrusion and mesh, which touch with their convex hulls
+    A `body` with the shape sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh on a `plane`; two `bodies`, of which one is a
+    sphere, a capsule or an ellipsoid, at the nearest points; or two `bodies` of the shapes box, cylinder, extrusion and mesh, which touch with their convex hulls
     and press by `foundation_modulus` · depth on every point of the area where they touch.
     """
 
@@ -59,7 +59,7 @@ class Contact(ForceElement):
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
         default=None,
-        description="that touches the `plane`; its shape is sphere, capsule, box, cylinder, extrusion or mesh",
+        description="that touches the `plane`; its shape is sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
     )
     plane: Maybe[MarkerPlace] = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"

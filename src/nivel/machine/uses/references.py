@@ -38,7 +38,7 @@ CONTROL_KEYS: Final = (
     "law",
 )
 SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
-_SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
+_SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "ellipsoid", "extrusion", "mesh")
 
 
 def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faults:
@@ -179,7 +179,7 @@ def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
                 yield (*place, key), message
         return
     if entry(contact, "foundation_modulus") is not None:
-        message = f"is for two of {', '.join(HULLS)}; what touches a {' or '.join(ROUND)} takes a `stiffness`"
+        message = f"is for two of {', '.join(HULLS)}; what touches a {' or '.join((', '.join(ROUND[:-1]), ROUND[-1]))} takes a `stiffness`"
         yield (*place, "foundation_modulus"), message
     if entry(contact, "materials") is not None and shapes != ["sphere", "sphere"]:
         message = "`materials` give the stiffness of spheres on planes and of two spheres (Hertz): give the `stiffness`"

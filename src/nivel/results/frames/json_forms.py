@@ -25,6 +25,7 @@ SHAPE: Final = Either(
     (
         {"type": frozenset(["box"]), **DRAWN, "size": VECTOR},
         {"type": frozenset(["sphere"]), **DRAWN, "radius": float},
+        {"type": frozenset(["ellipsoid"]), **DRAWN, "semi_axes": VECTOR},
         {"type": frozenset(["cylinder", "capsule"]), **LONG, "radius": float},
         {"type": frozenset(["tube"]), **LONG, "outer_radius": float, "inner_radius": float},
         {"type": frozenset(["extrusion"]), **LONG, "outline": [(float, float)]},

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces import bushing, contact, hull_contact, round_contact, surface_distance
+from nivel.kernels.forces import bushing, contact, ellipsoid_contact, hull_contact, round_contact, surface_distance
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.body import Body
-from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces import Bushing, Contact, Contacts, Material, Stop
@@ -23,6 +23,7 @@ from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
+from nivel.system.forces.ellipsoids import numbers_of_ellipsoids, numbers_over_plane
 from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.hulls import hull_of, row_of
 from nivel.system.forces.kind import ForceKind
@@ -70,23 +71,30 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         _add_hulls(builder, force, first)
         return
     more: list[float] = []
-    several = False
+    several, family = False, contact.apply
     if force.bodies is not None:
         bodies = [builder.machine.body_named[name] for name in force.bodies]
         markers = [_shape_marker(builder, body) for body in bodies]
         if all(isinstance(body.shape, Sphere) for body in bodies):
             kind, size = contact.SPHERES, [_radius(body) for body in bodies]
             curvature = sum(1.0 / radius for radius in size)
+        elif any(isinstance(body.shape, Ellipsoid) for body in bodies):
+            kind, size, curvature, family = contact.ROUND, [], 0.0, ellipsoid_contact.apply
+            more = numbers_of_ellipsoids(bodies, sum(_ball(body) for body in bodies))
         else:
-            kind, size, curvature = contact.ROUND, [], 0.0
+            kind, size, curvature, family = contact.ROUND, [], 0.0, round_contact.apply
             more, several = _round_numbers(bodies)
     else:
         assert force.body is not None  # the record was checked
         assert force.plane is not None
         body = builder.machine.body_named[force.body]
         markers = [_shape_marker(builder, body), builder.end(force.plane)]
-        kind, size = _shape(contact, body)
-        curvature = 1.0 / size[0]
+        kind, size, curvature = contact.ROUND, [], 0.0
+        if isinstance(body.shape, Ellipsoid):
+            family, more = ellipsoid_contact.apply, numbers_over_plane(body.shape)
+        else:
+            kind, size = _shape(contact, body)
+            curvature = 1.0 / size[0]
     stiffness = force.stiffness if force.materials is None else hertzian(force.materials, curvature)
     law = NONE
     if force.law is not None:
@@ -108,7 +116,6 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
     frame = markers[1] if force.bodies is None else builder.frame(force.bodies[1])
     columns = [first, kind, *markers, law, points, *patch, *_surface(builder, force, frame)]
-    family = round_contact.apply if kind == contact.ROUND else contact.apply
     builder.elements.add(family, columns, numbers, points, tuple(range(points)))
 
 
@@ -180,6 +187,8 @@ def _ball(body: Body) -> float:
             return math.hypot(body.shape.radius, 0.5 * length(body.shape))
         case Capsule():
             return body.shape.radius + 0.5 * length(body.shape)
+        case Ellipsoid():
+            return max(body.shape.semi_axes)
         case Extrusion() | Mesh():
             return float(np.linalg.norm(_corners(body), axis=1).max())
     raise ValueError(f"body {body.name} has no shape that can touch")
@@ -242,8 +251,7 @@ def _round_numbers(bodies: Sequence[Body]) -> tuple[list[float], bool]:
     if isinstance(other.shape, Capsule):
         core = other.shape.radius
     ball = own.radius + half + _ball(other)
-    several = half > 0.0 and not isinstance(other.shape, Capsule)
-    return [float(first), own.radius, half, core, ball, float(kind), *numbers], several
+    return [float(first), own.radius, half, core, ball, float(kind), *numbers], half > 0.0
 
 
 def _distance_numbers(body: Body) -> tuple[int, list[float]]:
@@ -270,7 +278,7 @@ def _shape_marker(builder: SystemBuilder, body: Body) -> int:
     shape = body.shape
     if isinstance(shape, Extrusion | Mesh):
         return builder.place((body.name, np.zeros(3), np.eye(3)))
-    assert isinstance(shape, Sphere | Box | Cylinder | Capsule)  # the record was checked
+    assert isinstance(shape, Sphere | Ellipsoid | Box | Cylinder | Capsule)  # the record was checked
     axes = np.eye(3)
     if isinstance(shape, Cylinder | Capsule):
         axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])
@@ -279,5 +287,5 @@ def _shape_marker(builder: SystemBuilder, body: Body) -> int:
 
 KINDS = (
     ForceKind(Bushing, add_bushing, (bushing.apply,)),
-    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply, round_contact.apply)),
+    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply, round_contact.apply, ellipsoid_contact.apply)),
 )

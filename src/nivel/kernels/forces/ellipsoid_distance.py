@@ -1,0 +1,347 @@
+"""Signed distance of points, polytopes and other ellipsoids from an ellipsoid; negative where they overlap.
+
+The distance φ of a point from a convex body is a convex function of the point, so its least value over a polytope stands at one place: in
+a face, on an edge or at a corner. In a face ∇φ is against the face's normal, so the place is that of the ellipsoid's support there.
+Of two ellipsoids it is the largest gap nᵀd - h₁(n) - h₂(n) over the unit vectors n, h(n) = √(nᵀ M n) the support function of xᵀ M⁻¹ x ≤ 1.
+Both are exact, and so is their gradient, as long as an ellipsoid is not deeper inside than its least radius of curvature.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.native.function import leaf, part
+
+# numbers of a polytope: the counts of corners, faces and edges, then corners (3 each), faces (normal and distance, 4 each) and edges (6
+# each, both ends)
+CORNERS, FACES, EDGES, FIRST = 0, 1, 2, 3
+# Iterations of Newton's method, which comes to a root from one side; of the search on an edge and between ellipsoids.
+MOST, SEARCH, TURNS = 60, 60, 40
+# A coordinate of a point counts for no less than this share of its semi-axis, so that no point lies in a plane of symmetry.
+LEAST = 1e-12
+# A place in a face may be beyond its edge by this share of the distance.
+EDGE = 1e-12
+# Bounds of the search between two ellipsoids, which begins at the direction of the homothetic touch.
+BISECTIONS = 30
+
+
+@leaf
+def off_plane(x, a):
+    """a x, or LEAST a² where that is less in size."""
+    y = a * x
+    least = LEAST * real(a) * real(a)
+    if np.abs(real(y)) < least:
+        y = y + (least if real(y) >= 0.0 else -least)
+    return y
+
+
+@leaf
+def from_ellipsoid(x, n):
+    """(distance, gradient) of a point from the ellipsoid with the semi-axes n, in its axes.
+
+    The foot is a² x/(t + a²) along each axis, t the root of Σ (a x/(t + a²))² = 1 (Eberly 2013).
+    """
+    a, b, c = n[0] * n[0], n[1] * n[1], n[2] * n[2]
+    u, v, w = off_plane(x[0], n[0]), off_plane(x[1], n[1]), off_plane(x[2], n[2])
+    t = max(-real(a) + np.abs(real(u)), -real(b) + np.abs(real(v)), -real(c) + np.abs(real(w)))
+    for _ in range(MOST):
+        f, g, h = real(u) / (t + real(a)), real(v) / (t + real(b)), real(w) / (t + real(c))
+        value = f * f + g * g + h * h - 1.0
+        slope = -2.0 * (f * f / (t + real(a)) + g * g / (t + real(b)) + h * h / (t + real(c)))
+        change = -value / slope if slope < 0.0 else 0.0
+        if not change > 1e-16 * (np.abs(t) + real(a)):
+            break
+        t += change
+    # one step more carries the slopes
+    f, g, h = u / (t + a), v / (t + b), w / (t + c)
+    value = f * f + g * g + h * h - 1.0
+    slope = f * f / (t + a) + g * g / (t + b) + h * h / (t + c)
+    s = t + 0.5 * value / slope
+    f, g, h = u / (s + a), v / (s + b), w / (s + c)
+    p, q, r = f / n[0], g / n[1], h / n[2]
+    size = np.sqrt(p * p + q * q + r * r)
+    p, q, r = p / size, q / size, r / size
+    return (x[0] - f * n[0]) * p + (x[1] - g * n[1]) * q + (x[2] - h * n[2]) * r, p, q, r
+
+
+@leaf
+def along_edge(m, e, t, n):
+    """(distance at m + t e, its rate with t)."""
+    d, p, q, r = from_ellipsoid((m[0] + t * e[0], m[1] + t * e[1], m[2] + t * e[2]), n)
+    return d, p * e[0] + q * e[1] + r * e[2]
+
+
+@part
+def nearest_on_edge(m, e, n):
+    """t of the point m + t e, |t| ≤ 1/2, with the least distance: that is convex, so its rate has one root at most (Illinois rule)."""
+    y, b, a = (real(m[0]), real(m[1]), real(m[2])), (real(e[0]), real(e[1]), real(e[2])), (real(n[0]), real(n[1]), real(n[2]))
+    none = 0.0 * m[0]
+    low, high = -0.5, 0.5
+    f, g = along_edge(y, b, low, a)[1], along_edge(y, b, high, a)[1]
+    if f >= 0.0:
+        return none + low
+    if g <= 0.0:
+        return none + high
+    t, side = 0.5 * (low + high), 0
+    size = g - f
+    for k in range(SEARCH):
+        # every third step halves, whatever the rule says
+        t = 0.5 * (low + high) if k % 3 == 2 else (low * g - high * f) / (g - f)
+        if not low < t < high:
+            break
+        value = along_edge(y, b, t, a)[1]
+        if np.abs(value) <= 1e-15 * size:
+            break
+        if value > 0.0:
+            high, g = t, value
+            f = 0.5 * f if side == 1 else f
+            side = 1
+        else:
+            low, f = t, value
+            g = 0.5 * g if side == -1 else g
+            side = -1
+    # steps of Newton's iteration carry the slopes; what the first leaves open, because differences are no slopes, the second finds
+    reach = 1e-5
+    bend = along_edge(y, b, t + reach, a)[1] - along_edge(y, b, t - reach, a)[1]
+    found = t + none
+    if bend > 0.0:
+        for _ in range(2):
+            slope = along_edge(m, e, found, n)[1]
+            found = found - 2.0 * reach * (slope - real(slope)) / bend
+    return found
+
+
+@leaf
+def seen(B, d):
+    """Bᵀ d."""
+    return (
+        B[0] * d[0] + B[3] * d[1] + B[6] * d[2],
+        B[1] * d[0] + B[4] * d[1] + B[7] * d[2],
+        B[2] * d[0] + B[5] * d[1] + B[8] * d[2],
+    )
+
+
+@leaf
+def turned(B, d):
+    """B d."""
+    return B[0] * d[0] + B[1] * d[1] + B[2] * d[2], B[3] * d[0] + B[4] * d[1] + B[5] * d[2], B[6] * d[0] + B[7] * d[1] + B[8] * d[2]
+
+
+@leaf
+def support(B, a, n):
+    """(h, x): h = √(nᵀ M n) and the point x = M n/h of an ellipsoid about the origin, farthest along the unit vector n; its axes are the
+    columns of B."""
+    g = seen(B, n)
+    g0, g1, g2 = a[0] * g[0], a[1] * g[1], a[2] * g[2]
+    h = np.sqrt(g0 * g0 + g1 * g1 + g2 * g2)
+    return h, turned(B, (a[0] * g0 / h, a[1] * g1 / h, a[2] * g2 / h))
+
+
+@leaf
+def in_face(polytope, y, at, faces):
+    """Whether point y of face `at` is not beyond its edges."""
+    first = FIRST + 3 * np.int64(real(polytope[CORNERS]))
+    for k in range(faces):
+        p = first + 4 * k
+        if p == at:
+            continue
+        over = real(y[0]) * real(polytope[p]) + real(y[1]) * real(polytope[p + 1]) + real(y[2]) * real(polytope[p + 2])
+        size = np.abs(real(y[0])) + np.abs(real(y[1])) + np.abs(real(y[2])) + np.abs(real(polytope[p + 3]))
+        if over > real(polytope[p + 3]) + EDGE * size:
+            return False
+    return True
+
+
+@part
+def from_polytope(polytope, c, B, a):
+    """(distance, its gradient with the place of the polytope, its nearest or deepest point, whether that is in a face) of a polytope, in
+    whose axes all is, from the ellipsoid at c whose axes are the columns of B.
+
+    Where the centre is inside the polytope the ellipsoid comes out by the face that is next.
+    """
+    corners, faces, edges = np.int64(real(polytope[CORNERS])), np.int64(real(polytope[FACES])), np.int64(real(polytope[EDGES]))
+    first = FIRST + 3 * corners
+    o = 0.0 * c[0]
+    next_face, most, is_inside = first, -np.inf, faces > 0
+    for k in range(faces):
+        p = first + 4 * k
+        n = polytope[p] + o, polytope[p + 1] + o, polytope[p + 2] + o
+        h, x = support(B, a, n)
+        above = dot(n, c) - polytope[p + 3]
+        gap = above - h
+        if real(above) > 0.0:
+            is_inside = False
+            y = c[0] - x[0] - gap * n[0], c[1] - x[1] - gap * n[1], c[2] - x[2] - gap * n[2]
+            if in_face(polytope, y, p, faces):
+                return gap, -n[0], -n[1], -n[2], y[0], y[1], y[2], 1.0
+        if real(gap) > most:
+            next_face, most = p, real(gap)
+    if is_inside:
+        n = polytope[next_face] + o, polytope[next_face + 1] + o, polytope[next_face + 2] + o
+        h, x = support(B, a, n)
+        gap = dot(n, c) - polytope[next_face + 3] - h
+        return gap, -n[0], -n[1], -n[2], c[0] - x[0] - gap * n[0], c[1] - x[1] - gap * n[1], c[2] - x[2] - gap * n[2], 1.0
+    first += 4 * faces
+    least, m, e = np.inf, (o, o, o), (o, o, o)
+    for k in range(max(edges, 1)):
+        if edges == 0:  # a point
+            m = seen(B, (polytope[FIRST] - c[0], polytope[FIRST + 1] - c[1], polytope[FIRST + 2] - c[2]))
+            break
+        p = first + 6 * k
+        middle = seen(
+            B,
+            (
+                0.5 * (polytope[p] + polytope[p + 3]) - c[0],
+                0.5 * (polytope[p + 1] + polytope[p + 4]) - c[1],
+                0.5 * (polytope[p + 2] + polytope[p + 5]) - c[2],
+            ),
+        )
+        along = seen(B, (polytope[p + 3] - polytope[p] + o, polytope[p + 4] - polytope[p + 1] + o, polytope[p + 5] - polytope[p + 2] + o))
+        y, b, s = (real(middle[0]), real(middle[1]), real(middle[2])), (real(along[0]), real(along[1]), real(along[2])), (
+            real(a[0]), real(a[1]), real(a[2]),
+        )  # fmt: skip
+        d, rate = along_edge(y, b, 0.0, s)
+        # a convex function is nowhere below its tangent
+        if d - 0.5 * np.abs(rate) < least:
+            t = nearest_on_edge(y, b, s)
+            d = along_edge(y, b, t, s)[0]
+            if d < least:
+                least, m, e = d, middle, along
+    t = nearest_on_edge(m, e, a) if edges > 0 else o
+    y = m[0] + t * e[0], m[1] + t * e[1], m[2] + t * e[2]
+    d, p, q, r = from_ellipsoid(y, a)
+    g, y = turned(B, (p, q, r)), turned(B, y)
+    return d, g[0], g[1], g[2], c[0] + y[0], c[1] + y[1], c[2] + y[2], 0.0
+
+
+@leaf
+def times_matrix(B, a, x):
+    """M x, M = B diag(a²) Bᵀ."""
+    y = seen(B, x)
+    return turned(B, (a[0] * a[0] * y[0], a[1] * a[1] * y[1], a[2] * a[2] * y[2]))
+
+
+@leaf
+def solve_symmetric(P, Q, R, d):
+    """x of [P Q R] x = d, by Cramer's rule."""
+    u, v, w = cross(Q, R), cross(R, P), cross(P, Q)
+    k = dot(P, u)
+    return dot(u, d) / k, dot(v, d) / k, dot(w, d) / k
+
+
+@leaf
+def homothetic_direction(A, a, B, b, d):
+    """The unit normal where two ellipsoids touch that are both scaled until they do: C⁻¹ d, C = (1 - λ) M₁ + λ M₂, with the λ that makes
+    λ (1 - λ) dᵀ C⁻¹ d largest (Perram, Wertheim 1985)."""
+    low, high = 0.0, 1.0
+    X = d
+    for _ in range(BISECTIONS):
+        s = 0.5 * (low + high)
+        P, Q, R = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+        p1, q1, r1 = times_matrix(A, a, P), times_matrix(A, a, Q), times_matrix(A, a, R)
+        p2, q2, r2 = times_matrix(B, b, P), times_matrix(B, b, Q), times_matrix(B, b, R)
+        k = 1.0 - s
+        X = solve_symmetric(
+            (k * p1[0] + s * p2[0], k * p1[1] + s * p2[1], k * p1[2] + s * p2[2]),
+            (k * q1[0] + s * q2[0], k * q1[1] + s * q2[1], k * q1[2] + s * q2[2]),
+            (k * r1[0] + s * r2[0], k * r1[1] + s * r2[1], k * r1[2] + s * r2[2]),
+            d,
+        )
+        if k * k * dot(X, times_matrix(A, a, X)) - s * s * dot(X, times_matrix(B, b, X)) > 0.0:
+            low = s
+        else:
+            high = s
+    size = np.sqrt(dot(X, X))
+    return X[0] / size, X[1] / size, X[2] / size
+
+
+@leaf
+def across(n):
+    """Two unit vectors across the unit vector n and each other."""
+    a = (1.0, 0.0, 0.0) if np.abs(n[0]) < 0.6 else (0.0, 1.0, 0.0)
+    t = cross(n, a)
+    size = np.sqrt(dot(t, t))
+    t = t[0] / size, t[1] / size, t[2] / size
+    return t, cross(n, t)
+
+
+@leaf
+def gap_and_slope(A, a, B, b, d, n):
+    """(gap nᵀd - h₁ - h₂, its gradient d - x₁ - x₂) with the unit normal n from the first ellipsoid to the second."""
+    h, x = support(A, a, n)
+    k, y = support(B, b, n)
+    return dot(n, d) - h - k, (d[0] - x[0] - y[0], d[1] - x[1] - y[1], d[2] - x[2] - y[2])
+
+
+@leaf
+def bend_of(B, a, n, t, u):
+    """tᵀ (M/h - M n nᵀ M/h³) u, of the second derivatives of the support function."""
+    h, x = support(B, a, n)
+    return (dot(t, times_matrix(B, a, u)) - dot(t, x) * dot(u, x)) / h
+
+
+@leaf
+def turn_towards(A, a, B, b, d, n, G, gap):
+    """The tangent vector by which Newton's method for the largest gap turns the unit vector n, where the gap has the gradient G."""
+    t, u = across(n)
+    x, y = dot(t, G), dot(u, G)
+    p = bend_of(A, a, n, t, t) + bend_of(B, b, n, t, t) + gap
+    q = bend_of(A, a, n, t, u) + bend_of(B, b, n, t, u)
+    r = bend_of(A, a, n, u, u) + bend_of(B, b, n, u, u) + gap
+    k = p * r - q * q
+    if not (k > 0.0 and p > 0.0):
+        p, q, r = np.abs(gap) + p * p, 0.0, np.abs(gap) + p * p  # uphill
+        k = p * r
+    f, g = (r * x - q * y) / k, (p * y - q * x) / k
+    return f * t[0] + g * u[0], f * t[1] + g * u[1], f * t[2] + g * u[2]
+
+
+@leaf
+def turned_by(n, v, share):
+    """(n + share v), of unit length."""
+    x, y, z = n[0] + share * v[0], n[1] + share * v[1], n[2] + share * v[2]
+    size = np.sqrt(x * x + y * y + z * z)
+    return x / size, y / size, z / size
+
+
+@part
+def between_ellipsoids(A, a, B, b, d):
+    """(distance, unit normal from the first to the second, the point of the second that is nearest or deepest) of two ellipsoids with the
+    axes A, B and the semi-axes a, b; d from the centre of the first to that of the second, from which the point is counted."""
+    A0 = real(A[0]), real(A[1]), real(A[2]), real(A[3]), real(A[4]), real(A[5]), real(A[6]), real(A[7]), real(A[8])
+    B0 = real(B[0]), real(B[1]), real(B[2]), real(B[3]), real(B[4]), real(B[5]), real(B[6]), real(B[7]), real(B[8])
+    a0, b0, d0 = (real(a[0]), real(a[1]), real(a[2])), (real(b[0]), real(b[1]), real(b[2])), (real(d[0]), real(d[1]), real(d[2]))
+    n = homothetic_direction(A0, a0, B0, b0, d0)
+    gap, G = gap_and_slope(A0, a0, B0, b0, d0, n)
+    v = (0.0, 0.0, 0.0)
+    for _ in range(TURNS):
+        v = turn_towards(A0, a0, B0, b0, d0, n, G, gap)
+        if not dot(v, v) > 1e-30:
+            break
+        share = 1.0
+        while share > 1e-3:
+            if gap_and_slope(A0, a0, B0, b0, d0, turned_by(n, v, share))[0] >= gap:
+                break
+            share *= 0.5
+        before = gap
+        n = turned_by(n, v, share)
+        gap, G = gap_and_slope(A0, a0, B0, b0, d0, n)
+        if not gap > before:
+            break
+    # one step more carries the slopes
+    o = 0.0 * d[0]
+    m = n[0] + o, n[1] + o, n[2] + o
+    uphill = gap_and_slope(A, a, B, b, d, m)[1]
+    t, u = across(n)
+    p = bend_of(A0, a0, n, t, t) + bend_of(B0, b0, n, t, t) + gap
+    q = bend_of(A0, a0, n, t, u) + bend_of(B0, b0, n, t, u)
+    r = bend_of(A0, a0, n, u, u) + bend_of(B0, b0, n, u, u) + gap
+    k = p * r - q * q
+    if k > 0.0:
+        f, g = dot(t, uphill), dot(u, uphill)
+        f, g = (r * f - q * g) / k, (p * g - q * f) / k
+        m = turned_by(m, (f * t[0] + g * u[0], f * t[1] + g * u[1], f * t[2] + g * u[2]), 1.0)
+    y = support(B, b, m)[1]
+    return gap_and_slope(A, a, B, b, d, m)[0], m[0], m[1], m[2], -y[0], -y[1], -y[2]

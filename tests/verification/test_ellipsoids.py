@@ -56,7 +56,11 @@ def test_an_ellipsoid_rocks_with_the_frequency_of_its_curvature(on):
         "forces": {"rolls": {**CONTACT, "stiffness": 1e7, "body": "egg", "plane": "floor", "friction": 0.8}},
     }
     if on == "box":
-        sections["bodies"]["table"] = {"mass": 5, "position": [0, 0, -0.1], "shape": {"type": "box", "size": [2, 2, 0.2]}}
+        sections["bodies"]["table"] = {
+            "mass": 5,
+            "position": [0, 0, -0.1],
+            "shape": {"type": "box", "size": [2, 2, 0.2]},
+        }
         sections["joints"] = {"held": {"type": "fixed", "bodies": ["ground", "table"], "point": [0, 0, 0]}}
         sections["forces"]["rolls"] = {**CONTACT, "stiffness": 1e7, "bodies": ["egg", "table"], "friction": 0.8}
     r = simulate(sections, integrator="radau", duration=1.0, tolerance=1e-8, step=1e-4, output_interval=5e-3)
@@ -69,7 +73,12 @@ def pair(shape, other, on):
     sections = {
         "gravity": [0, 0, 0],
         "bodies": {
-            "ball": {**{"mass": 1, "inertia": [0.02, 0.02, 0.02]}, "position": on, "velocity": [0, 0, -1], "shape": shape}
+            "ball": {
+                **{"mass": 1, "inertia": [0.02, 0.02, 0.02]},
+                "position": on,
+                "velocity": [0, 0, -1],
+                "shape": shape,
+            }
         },
         "markers": FLOOR,
         "forces": {"touch": {**CONTACT, "stiffness": 1e4, "restitution": 1, "body": "ball", "plane": "floor"}},
@@ -96,7 +105,9 @@ def test_an_ellipsoid_of_equal_axes_is_a_sphere(name):
     ellipsoid = pair({"type": "ellipsoid", "semi_axes": [0.2, 0.2, 0.2]}, other, on)
     assert sphere.array("force.touch.normal_force").max() > 10.0
     np.testing.assert_allclose(ellipsoid.array("ball.position"), sphere.array("ball.position"), atol=1e-8)
-    np.testing.assert_allclose(ellipsoid.array("ball.angular_velocity"), sphere.array("ball.angular_velocity"), atol=1e-6)
+    np.testing.assert_allclose(
+        ellipsoid.array("ball.angular_velocity"), sphere.array("ball.angular_velocity"), atol=1e-6
+    )
 
 
 @pytest.mark.parametrize("name", [*OTHERS, "ellipsoid"])

@@ -22,7 +22,7 @@ from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
-from nivel.machine.bodies.shape import Mesh, Shape, Standing
+from nivel.machine.bodies.shape import Shape, Standing
 from nivel.machine.control import ControlBlock
 from nivel.machine.control.problems import problems_of_control
 from nivel.machine.core.checked import Checked, Problem, lines_of

@@ -20,9 +20,9 @@ export interface Steps {
   step: number[];
 }
 
-/** A solid in the body frame with its centre at `centre`. size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. colour : empty, that of the body. */
+/** A solid in the body frame with its centre at `centre`. size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; ellipsoid: semi-axes; extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. colour : empty, that of the body. */
 export interface Part {
-  kind: "box" | "cylinder" | "tube" | "sphere" | "capsule" | "extrusion" | "mesh";
+  kind: "box" | "cylinder" | "tube" | "sphere" | "ellipsoid" | "capsule" | "extrusion" | "mesh";
   centre: [number, number, number];
   size: number[];
   along: "x" | "y" | "z";

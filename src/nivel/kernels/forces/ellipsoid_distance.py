@@ -76,7 +76,11 @@ def along_edge(m, e, t, n):
 @part
 def nearest_on_edge(m, e, n):
     """t of the point m + t e, |t| ≤ 1/2, with the least distance: that is convex, so its rate has one root at most (Illinois rule)."""
-    y, b, a = (real(m[0]), real(m[1]), real(m[2])), (real(e[0]), real(e[1]), real(e[2])), (real(n[0]), real(n[1]), real(n[2]))
+    y, b, a = (
+        (real(m[0]), real(m[1]), real(m[2])),
+        (real(e[0]), real(e[1]), real(e[2])),
+        (real(n[0]), real(n[1]), real(n[2])),
+    )
     none = 0.0 * m[0]
     low, high = -0.5, 0.5
     f, g = along_edge(y, b, low, a)[1], along_edge(y, b, high, a)[1]
@@ -126,7 +130,11 @@ def seen(B, d):
 @leaf
 def turned(B, d):
     """B d."""
-    return B[0] * d[0] + B[1] * d[1] + B[2] * d[2], B[3] * d[0] + B[4] * d[1] + B[5] * d[2], B[6] * d[0] + B[7] * d[1] + B[8] * d[2]
+    return (
+        B[0] * d[0] + B[1] * d[1] + B[2] * d[2],
+        B[3] * d[0] + B[4] * d[1] + B[5] * d[2],
+        B[6] * d[0] + B[7] * d[1] + B[8] * d[2],
+    )
 
 
 @leaf
@@ -161,7 +169,11 @@ def from_polytope(polytope, c, B, a):
 
     Where the centre is inside the polytope the ellipsoid comes out by the face that is next.
     """
-    corners, faces, edges = np.int64(real(polytope[CORNERS])), np.int64(real(polytope[FACES])), np.int64(real(polytope[EDGES]))
+    corners, faces, edges = (
+        np.int64(real(polytope[CORNERS])),
+        np.int64(real(polytope[FACES])),
+        np.int64(real(polytope[EDGES])),
+    )
     first = FIRST + 3 * corners
     o = 0.0 * c[0]
     next_face, most, is_inside = first, -np.inf, faces > 0
@@ -182,7 +194,16 @@ def from_polytope(polytope, c, B, a):
         n = polytope[next_face] + o, polytope[next_face + 1] + o, polytope[next_face + 2] + o
         h, x = support(B, a, n)
         gap = dot(n, c) - polytope[next_face + 3] - h
-        return gap, -n[0], -n[1], -n[2], c[0] - x[0] - gap * n[0], c[1] - x[1] - gap * n[1], c[2] - x[2] - gap * n[2], 1.0
+        return (
+            gap,
+            -n[0],
+            -n[1],
+            -n[2],
+            c[0] - x[0] - gap * n[0],
+            c[1] - x[1] - gap * n[1],
+            c[2] - x[2] - gap * n[2],
+            1.0,
+        )
     first += 4 * faces
     least, m, e = np.inf, (o, o, o), (o, o, o)
     for k in range(max(edges, 1)):
@@ -198,7 +219,14 @@ def from_polytope(polytope, c, B, a):
                 0.5 * (polytope[p + 2] + polytope[p + 5]) - c[2],
             ),
         )
-        along = seen(B, (polytope[p + 3] - polytope[p] + o, polytope[p + 4] - polytope[p + 1] + o, polytope[p + 5] - polytope[p + 2] + o))
+        along = seen(
+            B,
+            (
+                polytope[p + 3] - polytope[p] + o,
+                polytope[p + 4] - polytope[p + 1] + o,
+                polytope[p + 5] - polytope[p + 2] + o,
+            ),
+        )
         y, b, s = (real(middle[0]), real(middle[1]), real(middle[2])), (real(along[0]), real(along[1]), real(along[2])), (
             real(a[0]), real(a[1]), real(a[2]),
         )  # fmt: skip
@@ -312,7 +340,11 @@ def between_ellipsoids(A, a, B, b, d):
     axes A, B and the semi-axes a, b; d from the centre of the first to that of the second, from which the point is counted."""
     A0 = real(A[0]), real(A[1]), real(A[2]), real(A[3]), real(A[4]), real(A[5]), real(A[6]), real(A[7]), real(A[8])
     B0 = real(B[0]), real(B[1]), real(B[2]), real(B[3]), real(B[4]), real(B[5]), real(B[6]), real(B[7]), real(B[8])
-    a0, b0, d0 = (real(a[0]), real(a[1]), real(a[2])), (real(b[0]), real(b[1]), real(b[2])), (real(d[0]), real(d[1]), real(d[2]))
+    a0, b0, d0 = (
+        (real(a[0]), real(a[1]), real(a[2])),
+        (real(b[0]), real(b[1]), real(b[2])),
+        (real(d[0]), real(d[1]), real(d[2])),
+    )
     n = homothetic_direction(A0, a0, B0, b0, d0)
     gap, G = gap_and_slope(A0, a0, B0, b0, d0, n)
     v = (0.0, 0.0, 0.0)

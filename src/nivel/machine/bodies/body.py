@@ -129,7 +129,9 @@ class Body(Checked):
         if self.inertia_about == "origin":
             yield superfluous("inertia_about", "does not belong to a flexible body, whose inertia is in its file")
         shape = self.shape
-        if isinstance(shape, Mesh) or (shape is not None and not isinstance(shape, Standing) and shape.from_ is not None):
+        if isinstance(shape, Mesh) or (
+            shape is not None and not isinstance(shape, Standing) and shape.from_ is not None
+        ):
             message = (
                 "a flexible body is drawn from its file; its `shape` is what touches in a contact, a solid about a `centre` that is at an "
                 "interface"

@@ -1,8 +1,8 @@
-"""Homogeneous solids: box, cylinder, capsule, tube, sphere, ellipsoid, extrusion, mesh. They give a body its looks and, with a density or mass,
-its inertia.
+"""Homogeneous solids: box, cylinder, capsule, tube, sphere, ellipsoid, extrusion, mesh. They give a body its looks and, with a density or
+mass, its inertia.
 
-A shape stands in the body frame with its centre at `centre`, a mesh with the origin of its file at `position`. All but spheres,
-ellipsoids and meshes may instead be laid between two global points `from:` and `to:`; then they define the body frame too (placement.py) and the
+A shape stands in the body frame with its centre at `centre`, a mesh with the origin of its file at `position`. All but spheres, ellipsoids
+and meshes may instead be laid between two global points `from:` and `to:`; then they define the body frame too (placement.py) and the
 centre is its origin.
 """
 
@@ -232,9 +232,7 @@ class Ellipsoid(_Coloured):
     centre: Maybe[Position] = _CENTRE
 
 
-Shape = Annotated[
-    Box | Cylinder | Capsule | Tube | Sphere | Ellipsoid | Extrusion | Mesh, Field(discriminator="type")
-]
+Shape = Annotated[Box | Cylinder | Capsule | Tube | Sphere | Ellipsoid | Extrusion | Mesh, Field(discriminator="type")]
 Long = Box | Cylinder | Capsule | Tube | Extrusion  # those that may be laid between two points
 Standing = Sphere | Ellipsoid | Mesh  # those that may not
 

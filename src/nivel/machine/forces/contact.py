@@ -46,8 +46,8 @@ class Contact(ForceElement):
     """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, or by a `law`; with Coulomb friction.
 
     A `body` with the shape sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh on a `plane`; two `bodies`, of which one is a
-    sphere, a capsule or an ellipsoid, at the nearest points; or two `bodies` of the shapes box, cylinder, extrusion and mesh, which touch with their convex hulls
-    and press by `foundation_modulus` · depth on every point of the area where they touch.
+    sphere, a capsule or an ellipsoid, at the nearest points; or two `bodies` of the shapes box, cylinder, extrusion and mesh, which touch
+    with their convex hulls and press by `foundation_modulus` · depth on every point of the area where they touch.
     """
 
     outputs: ClassVar[tuple[str, ...]] = (

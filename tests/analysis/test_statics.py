@@ -130,6 +130,52 @@ def test_a_machine_that_is_only_free_as_a_whole_rests_where_it_is_drawn():
         assert "nothing holds the machine as a whole in 6 motions" in free.text
 
 
+def free_bar(*, right=5.0, **more):
+    """Two bodies on a slide with a spring, in space; 5 N pull the left one, `right` the right one."""
+    return {
+        "bodies": {"a": solid(), "b": solid(position=[1, 0, 0])},
+        "joints": {"rail": slide("a", "b")},
+        "forces": {
+            "coil": {"type": "joint-spring-damper", "coordinate": "rail.displacement", "stiffness": 100.0},
+            "left": {"type": "force", "body": "a", "vector": [-5.0, 0, 0]},
+            "right": {"type": "force", "body": "b", "vector": [right, 0, 0]},
+        },
+        **more,
+    }
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_loads_that_balance_each_other_need_no_ground(coordinates):
+    """The spring stretches by F/k; about its axis and along all three nothing holds the bar, and turned it swings back:
+    ω² = F l/(2 I + 2 m l²/4)."""
+    result = machine(free_bar()).statics(coordinates=coordinates, duration=0, modes=6)
+    assert result.array("rail.displacement")[-1] == pytest.approx(0.05, rel=1e-9)
+    squares = result.array("vibration_stiffness")[-1]
+    mass, inertia = solid()["mass"], solid()["inertia"][1]
+    turning = 5.0 * 1.05 / (2 * inertia + mass * 1.05**2 / 2)
+    np.testing.assert_array_equal(squares[:4], 0.0)
+    np.testing.assert_allclose(squares[4:6], turning, rtol=1e-9)
+    assert result.trust.verdict == "amber"
+
+
+def test_a_path_of_a_free_machine_whose_loads_grow_and_turn():
+    """Loads F(t) (cos φ, sin φ) and their opposite: the bar turns by φ, and its spring stretches by F/k."""
+    bar = free_bar()
+    for name, sign in (("left", "-"), ("right", "")):
+        bar["forces"][name]["vector"] = [f"{sign}(2+time)*cos(time)", f"{sign}(2+time)*sin(time)", 0]
+    result = machine(bar).statics(duration=1, step=0.2)
+    np.testing.assert_allclose(result.array("rail.displacement"), (2.0 + result.time) / 100.0, rtol=1e-9)
+    along = result.array("b.position") - result.array("a.position")
+    np.testing.assert_allclose(np.arctan2(along[:, 1], along[:, 0]), result.time, atol=1e-9)
+
+
+def test_loads_that_do_not_balance_each_other_are_told_with_their_sum():
+    failing(free_bar(right=7.0), r"their sum is \(2, 0, 0\) N", duration=0)
+    bar = free_bar()
+    bar["forces"]["twist"] = {"type": "torque", "body": "a", "vector": [3.0, 0, 0]}
+    failing(bar, r"their sum is a moment of \(3, .*\) N m", duration=0)
+
+
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_of_a_free_mechanism_the_motion_of_its_parts_is_named(coordinates):
     pin = {"type": "revolute", "bodies": ["a", "b"], "point": [0.5, 0, 0], "axis": [0, 0, 1]}
@@ -178,7 +224,7 @@ def test_mechanisms_are_named_with_what_moves(sections, names):
 
 
 def test_what_falls_for_ever_is_named():
-    error = failing({"gravity": DOWN, "bodies": {"stone": solid()}}, "keeps moving")
+    error = failing({"gravity": DOWN, "bodies": {"stone": solid()}}, r"their sum is \(0, -9.81, 0\) N")
     assert "stone, y of its position, unbalanced by 9.81 N" in error.message
 
 

@@ -9,26 +9,19 @@ from nivel.analysis.statics.labels import direction_in_words, worst_row
 from nivel.analysis.statics.linear import PivotError
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
-from nivel.analysis.statics.rigid_motions import of_whole
+from nivel.analysis.statics.rigid_motions import is_tied, of_whole, resultant
 from nivel.analysis.statics.search import MOVES_ON
 from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, softest
 from nivel.analysis.statics.zero_stiffness import loose_coordinates
 
 # Forces left over that are this share of the loads are no reason to go on.
 IMPLICIT_ACCELERATIONS = 1e-6
-# (message, advice) of a machine that nothing holds, whose loads move its parts against each other
-FREE_UNDER_LOAD = (
-    "nothing holds the machine as a whole, so its place under its loads is not determined",
-    "Hold one of its bodies, by a joint or a driver: where the loads balance each other that bears nothing.",
-)
 HOLD = "Hold that motion by a joint, a spring, a driver, or a load that brings it back."
 
 
 def without_stiffness(equations: StaticEquations, state: Rest, loose: Softest) -> tuple[str, str]:
     """(message, advice) where the machine can move without any resistance from an equilibrium."""
     whole = of_whole(equations, state, equations.tangent(state))
-    if whole.alone:
-        return FREE_UNDER_LOAD
     words = direction_in_words(equations, loose.direction if whole.inner is None else whole.inner)
     message = f"the machine is a mechanism: a motion has no stiffness, in which most moves: {words}"
     coordinates = loose_coordinates(equations, state)
@@ -44,6 +37,9 @@ def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, 
         loose = softest(equations.tangent(error.state))
     except (StateError, PivotError):
         return f"no equilibrium was found at t = 0: {error.reason}", "Look at the laws of the forces at t = 0."
+    unbalanced = _free_under_load(equations, error.state)
+    if unbalanced is not None:
+        return unbalanced
     row = worst_row(equations, r, C)
     message = f"no equilibrium was found at t = 0: {error.reason}; worst is {row}"
     if loose is not None and is_mechanism(loose):
@@ -57,6 +53,27 @@ def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, 
     return message, (
         "Is the machine held against its loads in every direction? If so draw it nearer to its equilibrium, or let loads grow with "
         "time from t = 0 (an expression of t, or a table)."
+    )
+
+
+def _free_under_load(equations: StaticEquations, state: Rest) -> tuple[str, str] | None:
+    """(message, advice) of a machine that nothing holds, whose loads move it as a whole; else None."""
+    try:
+        if is_tied(equations, equations.tangent(state)):
+            return None
+        force, moment = resultant(equations, state)
+        least = IMPLICIT_ACCELERATIONS * equations.loads(state)
+    except StateError:
+        return None
+    if np.abs(force).max() * equations.system.size > least:
+        left = f"({', '.join(f'{value:.4g}' for value in force)}) N"
+    elif np.abs(moment).max() > least:
+        left = f"a moment of ({', '.join(f'{value:.4g}' for value in moment)}) N m"
+    else:
+        return None
+    return (
+        f"nothing holds the machine as a whole, and its loads do not balance each other: their sum is {left}",
+        "Hold one of its bodies, by a joint or a driver, or apply the load that is missing.",
     )
 
 
@@ -83,8 +100,9 @@ def path_ended(
         message += f"; worst is {worst_row(equations, r, C)}"
     except (StateError, ValueError):
         pass
-    if of_whole(equations, last.state, last.found.tangent).alone:
-        return f"stopped at t = {t:.9g} s: {FREE_UNDER_LOAD[0]}", FREE_UNDER_LOAD[1]
+    unbalanced = _free_under_load(equations, error.state)
+    if unbalanced is not None:
+        return f"stopped at t = {t:.9g} s: {unbalanced[0]}", unbalanced[1]
     loose = softest(last.found.tangent)
     if loose is not None and loose.share < 1e-4:
         message += f"; softest is a motion in which most moves: {direction_in_words(equations, loose.direction)}"

@@ -103,6 +103,7 @@ class Tangent:
     """Matrices at a state, without units: K (f, f) stiffness, C (K, f) constraints; M, D (f, f) of their own units, made when asked for.
 
     slope, opening : derivatives of r (f,) and C (K,) with respect to time over its scale.
+    tie : (f, f) stiffness besides, in linear equations alone, of what holds a machine that is free as a whole in its place; or None.
     """
 
     K: Sparse
@@ -111,6 +112,7 @@ class Tangent:
     opening: Array
     inertia: Callable[[], Sparse]
     damping: Callable[[], Sparse]
+    tie: Sparse | None = None
 
     @cached_property
     def M(self) -> Sparse:
@@ -128,8 +130,8 @@ class Tangent:
         return null_space(self.C.toarray()) if self.C.shape[0] else np.eye(self.K.shape[0])
 
     def saddle(self, shift: float = 0.0) -> Sparse:
-        """[K + shift, Cᵀ; C, 0]."""
-        K, C = self.K.tocoo(), self.C.tocoo()
+        """[K + shift, Cᵀ; C, 0], K with the tie."""
+        K, C = (self.K if self.tie is None else self.K + self.tie).tocoo(), self.C.tocoo()
         free = K.shape[0]
         size, every = free + C.shape[0], np.arange(free if shift else 0)
         value = np.concatenate([K.data, C.data, C.data, np.full(len(every), shift)])
@@ -141,7 +143,7 @@ class Tangent:
         """The same as a full matrix (f + K, f + K)."""
         free, rows = self.K.shape[0], self.C.shape[0]
         out = np.zeros((free + rows, free + rows))
-        out[:free, :free] = self.K.toarray()
+        out[:free, :free] = self.K.toarray() if self.tie is None else (self.K + self.tie).toarray()
         out[free:, :free] = self.C.toarray()
         out[:free, free:] = out[free:, :free].T
         out[np.arange(free), np.arange(free)] += shift
@@ -149,7 +151,7 @@ class Tangent:
 
     def rigid(self) -> Tangent:
         """The same constraints without any stiffness."""
-        return replace(self, K=0.0 * self.K)
+        return replace(self, K=0.0 * self.K, tie=None)
 
 
 class StaticEquations:

@@ -15,6 +15,7 @@ import numpy as np
 
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
 from nivel.analysis.statics.linear import PivotError, bordered, saddle_factors, solve_bordered
+from nivel.analysis.statics.rigid_motions import with_tie
 from nivel.system.system import Array
 
 # The least share of a step that is tried.
@@ -100,6 +101,7 @@ def _iterate(
             r, C = equations.evaluate(state)
             if iteration.balanced and _is_balanced(equations, state, r, C, iteration.balanced):
                 return Found(state, tangent, number, moved, tuple(sizes))
+            tangent = with_tie(equations, state, tangent, r)
             found: Any = saddle_factors(tangent) if border is None and len(r) + len(C) else None
             found = bordered(tangent, border) if border is not None else found
             change = _change(found, r, C, border)

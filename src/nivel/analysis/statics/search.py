@@ -18,6 +18,7 @@ import numpy as np
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
 from nivel.analysis.statics.linear import PivotError, negative_directions, saddle_factors, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
+from nivel.analysis.statics.rigid_motions import with_tie
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, equilibrate_states, find_moving_states, growing_motions
 from nivel.system.system import Array
@@ -100,6 +101,7 @@ def _settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fo
         tangent = equations.tangent(state)
         if _is_balanced(equations, state, r, tangent):
             return Found(state, tangent, 0, np.zeros(len(r)), ())
+        tangent = with_tie(equations, state, tangent, r)
         found = _let_go(equations, Found(state, tangent, 0, np.zeros(len(r)), ()), r, iteration)
         if found is not None:
             return found
@@ -213,7 +215,7 @@ def _try(equations: StaticEquations, state: Rest, tangent: Tangent, sigma: float
     f = len(applied)
     if not f:
         return _Tried(state, 0.0, 0.0)
-    found = saddle_factors(tangent, sigma)
+    found = saddle_factors(with_tie(equations, state, tangent, applied), sigma)
     x = found.solve(-np.concatenate([applied, C]))
     q, lam = x[:f], equations.force_of(x[f:])
     size = float(np.max(np.abs(q), initial=0.0))

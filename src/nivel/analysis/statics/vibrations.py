@@ -23,6 +23,8 @@ from nivel.system.system import Array
 # Squares of frequencies ω² = φᵀ K φ below this share of |φ|ᵀ |K| |φ| are round-off: rigid motions. Where forces have no potential all are
 # known to such a share of the largest only.
 ROUND_OFF = 1e-13
+# Squares of frequencies below this share of the largest are zero, since a frequency of 1e-12 of another one is not computed.
+NONE = 1e-24
 # Machines of up to so many unknowns get their damping: the eigenvalues of a full matrix of twice the size.
 DAMPED = 400
 
@@ -46,7 +48,7 @@ def vibrations(tangent: Tangent, count: int) -> Vibrations:
     """The `count` lowest vibrations about the equilibrium of a tangent."""
     squares, shapes = lowest(tangent, count, tangent.M)
     known = np.einsum("ik,ik->k", np.abs(shapes), np.abs(tangent.K) @ np.abs(shapes))
-    still = np.abs(squares) <= ROUND_OFF * known
+    still = (np.abs(squares) <= ROUND_OFF * known) | (np.abs(squares) <= NONE * fastest(tangent))
     if not has_potential(tangent):
         still |= np.abs(squares) <= ROUND_OFF * _largest(tangent)
     squares = np.where(still, 0.0, squares)

@@ -128,7 +128,7 @@ def look_at_free(subject: Equilibria) -> Remark | None:
     if not subject.free_motions or subject.rigid:
         return None
     several = "1 motion" if subject.free_motions == 1 else f"{subject.free_motions} motions"
-    said = f"nothing holds the machine as a whole in {several}: it rests where it is drawn, and would anywhere else"
+    said = f"nothing holds the machine as a whole in {several}: it rests here, and would anywhere else"
     return Remark("free", "amber", f"Free: {said} (green if it is held)")
 
 

@@ -48,9 +48,9 @@ def test_velocity_beyond_a_jump_is_that_of_both_impulses(integrator, settings, w
     check_velocity(at, within, integrator=integrator, **settings)
 
 
-@pytest.mark.parametrize("at", [0.3, 0.30003])
-def test_velocity_beyond_a_jump_with_chosen_steps(at):
-    check_velocity(at, 1e-10, integrator="generalised-alpha", step_control="error", tolerance=1e-6)
+@pytest.mark.parametrize(("at", "within"), [(0.0, 5e-8), (0.3, 1e-10), (0.30003, 1e-10)])
+def test_velocity_beyond_a_jump_with_chosen_steps(at, within):
+    check_velocity(at, within, integrator="generalised-alpha", step_control="error", tolerance=1e-6)
 
 
 def check_velocity(at, within, **settings):

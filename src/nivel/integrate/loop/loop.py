@@ -246,6 +246,13 @@ def correct_reached(correct, machine, history):
 
 
 @leaf
+def size_of_last(run, h):
+    """The last step of fixed size, of what is left: h itself where that is round-off of it, so that a run of n steps is n steps."""
+    left = run.clock[REACHED] - run.clock[TIME]
+    return h if np.abs(left - h) <= NEAR * run.clock[REACHED] else left
+
+
+@leaf
 def take_step(evaluate, correct, step, machine, history):
     """One step from the accepted state to clock[REACHED], with the correction; then its events. Returns a status."""
     run = run_at(history)
@@ -254,7 +261,7 @@ def take_step(evaluate, correct, step, machine, history):
     fixed = counter[ALL_STEPS] > 0
     if fixed:
         clock[REACHED] = time_of(run, n + 1)
-        clock[STEP] = clock[REACHED] - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
+        clock[STEP] = size_of_last(run, h) if n + 1 == counter[ALL_STEPS] else h
     else:
         allow(run)
     find_bound(machine, run)

@@ -56,6 +56,8 @@ FREE, HELPS, MOST_PATIENCE = (SAFETY / WORTH) ** 2, 0.5, 1024.0
 LEAST_HELD, LEAP, MOST_LEAPS = 16.0, 10.0, 30.0
 # entries of run.numbers: steps since errors were filtered, after how many they are again; steps of the same length, leaps tried
 UNFILTERED, PATIENCE, HELD, LEAPS = 9, 10, 11, 12
+# [s] no step, but the begin of one: see `nivel.analysis.curves.corners`
+AT_ONCE = 2e-12
 # What the iteration leaves, as a share of what a step may be wrong by: it must not look like an error of the step.
 CLOSE = 0.01
 
@@ -175,7 +177,8 @@ def controlled_step(evaluate, machine, history):
         status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], close))
         factor = AFTER_FAILURE
         if status == OK:
-            error = choose_error(machine, history, end, h)
+            # what is done up to a corner right behind the start is no error: a load that jumps there acts from the start on
+            error = 0.0 if fresh and corner < np.inf and h <= AT_ONCE else choose_error(machine, history, end, h)
             factor = exceeds_rotation_limit(machine, h)
             if error <= 1.0 and factor == 1.0:
                 break

@@ -816,6 +816,7 @@ class Machine(Model):
             lambda begin, end: self.kinematics(
                 drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
             ),
+            lambda: self.configuration_curve(name),
         )
 
     @checked_arguments

@@ -53,6 +53,8 @@ def test_a_rocker_turns_back_where_crank_and_coupler_are_in_line():
     np.testing.assert_allclose(abs(crank[-1] - crank[0]), TURN, atol=1e-9)
     assert found.crossed == ()
     assert set(found.turning[0].joints) <= {"left", "near", "far", "right"}
+    assert found.trust.light == found.summary()["light"] == "green"
+    assert found.to_xarray().attrs["headline"] == "verified by the closed joints at every position"
 
 
 def test_a_double_rocker_goes_through_both_ways_of_assembly():
@@ -73,6 +75,7 @@ def test_a_parallelogram_crosses_the_antiparallelogram_where_it_is_flat():
     crank = np.interp(found.crossed, found.arc, found.values[:, found.names.index("left.angle")])
     np.testing.assert_allclose(sorted(np.abs(np.sin(crank + 0.5 * np.pi))), [0.0, 0.0], atol=0.05)
     assert "one of several" in str(found)
+    assert found.trust.light == "amber"
 
 
 def test_the_curve_of_positions_is_that_of_the_driven_machine():

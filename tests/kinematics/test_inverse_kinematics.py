@@ -41,6 +41,8 @@ def test_two_links_follow_their_closed_form():
     a, b = LENGTHS[:2]
     wanted = np.arccos((np.sum(places**2, axis=1) - a * a - b * b) / (2.0 * a * b))
     np.testing.assert_allclose(found["j2.angle"], wanted, atol=1e-8)
+    assert found.trust.light == found.to_xarray().attrs["verdict"] == "green"
+    assert "verified by the place of the point in every posture" in str(found)
 
 
 def test_a_redundant_arm_comes_near_the_preferred_posture():
@@ -73,6 +75,8 @@ def test_a_place_that_only_limits_put_out_of_reach_is_told_with_them():
     assert not found.reached[0]
     assert found.error[0, 0] == pytest.approx(near - 0.5, abs=1e-6)
     assert found.limits[0] == ("j2.angle",)
+    assert found.trust.verdict == "red"
+    assert "0 of 1 are reached" in found.trust.items[1].text
     assert "at their limits: j2.angle" in found.statements()[0]
 
 

@@ -1,12 +1,16 @@
 """Kinematic analysis against closed forms of linkages, its own derivatives, and runs; what it refuses, and where machines lock up."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
 import nivel
 from example_files import rigid_example
-from nivel.results.analyses.mechanism import joint_place
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Reach
+from nivel.results.analyses.mechanism import Range, joint_place
 from references import four_bar, one_dof, slider_crank
 
 EXAMPLES = "examples"
@@ -118,10 +122,24 @@ def test_a_rocker_goes_as_far_as_crank_and_coupler_are_in_line():
     assert not found.full_turn
     assert "drive is held by" in found.low_reason
     assert f"rocker_pivot.angle is {found.low:.6g} rad" in found.low_reason
+    assert found.trust.light == "green"
+    assert "the turning points of the curve of positions" in str(found)
+    ends = next(item for item in found.trust.items if item.name == "ends")
+    assert ends.fraction < 1e-9
+
+
+def test_ends_of_a_range_that_are_no_turning_points_are_red():
+    """Half a degree before the dead centre."""
+    found = Range("pivot.angle", "rad", -1.0, 0.49, False, "", "the machine jams")
+    reach = Reach(outcome="done", range=found, ways=(), turning=(-2.0, 0.5))
+    assert assess(reach).verdict == "red"
+    assert assess(replace(reach, turning=None)).light == "not verified"
 
 
 def test_a_crank_that_can_turns_right_round():
-    assert nivel.load(f"{EXAMPLES}/mechanisms/four-bar-revolutes.yaml").range_of_motion("crank_pivot").full_turn
+    found = nivel.load(f"{EXAMPLES}/mechanisms/four-bar-revolutes.yaml").range_of_motion("crank_pivot")
+    assert found.full_turn
+    assert found.summary()["light"] == "green"
 
 
 def test_a_locked_machine_keeps_its_positions_and_says_what_holds_it():

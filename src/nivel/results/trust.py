@@ -275,6 +275,16 @@ class Trust:
             "trust": self.to_json(),
         }
 
+    def summary(self) -> dict[str, Any]:
+        """Keys of the summary of an analysis for programs."""
+        facts = {"verdict": self.verdict, "light": self.light, "verified": self.verified, "headline": self.headline}
+        return {**facts, "trust": json.loads(self.to_json())}
+
+    def told_lines(self, *known: str) -> list[str]:
+        """What a terminal is told: light and headline, and the lines that are not green, but for those that it knows already."""
+        left = [item for item in self.items if item.verdict != "green" and item.name not in known]
+        return [f"trust: {self.told}", *(f"  {item.text}" for item in left)]
+
     def lines(self) -> list[str]:
         """One line per item: its verdict and its statement."""
         return [f"{item.verdict:>5}  {item.text}" for item in self.items]

@@ -11,7 +11,7 @@ clipping). Freedoms that the path leaves go towards a preferred posture. Loops s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,8 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.inverse.mechanics import Mechanics
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Led
 from nivel.errors import Fault, ModelError
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
@@ -85,7 +87,7 @@ class PathFollower:
             measures.append([float(np.prod(size)), float(size[-1])])
             active.append(self._active(q))
             starts.append(tries)
-        return JointPath(
+        found = JointPath(
             name=self.task.point,
             time=time,
             coordinates=self.mechanics.position_names,
@@ -98,6 +100,7 @@ class PathFollower:
             limits=tuple(active),
             starts=np.array(starts),
         )
+        return replace(found, trust=assess(Led(outcome="done", path=found)))
 
     def _best(self, q: Array, k: int) -> tuple[Array, int]:
         """The nearest posture found for place k, and from how many starts."""

@@ -7,7 +7,7 @@ along τ is closed again by corrections as small as possible, and the sign of τ
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,8 @@ from nivel.analysis.assembly.equations import MotionEquations, change_between, e
 from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.assembly.redundancy import scaled_jacobian
 from nivel.analysis.kinematics.singular import TAKES_PART, determinant_sign, independent_rows
+from nivel.analysis.trust.report import assess
+from nivel.analysis.trust.subject import Curve
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
@@ -118,6 +120,12 @@ class _Curve:
             return None
         return found if np.linalg.norm(self.displacement(place, found) - h * place.tangent) <= ASIDE * abs(h) else None
 
+    def opening(self, place: _Place) -> float:
+        """How far joints are open at a place at most, as a share of the scales of their rows."""
+        self.motion.evaluate(0.0, place.y)
+        constraints = self.system.record.constraints
+        return float(np.max(np.abs(constraints.C) / constraints.scale, initial=0.0))
+
     def displacement(self, first: _Place, second: _Place) -> Array:
         """(6 B,) from one place to another, lengths in machine lengths."""
         n = self.system.positions
@@ -215,7 +223,7 @@ def configuration_curve(machine: MachineRecord, coordinate: str) -> Configuratio
     rates = np.array([place.rates[k] for place in places])
     if closed and abs(rates[0]) <= STILL * np.abs(rates).max() and rates[1] * rates[-2] < 0.0:
         turning.insert(0, Turning(0.0, float(curve.start.values[k]), curve.joints_involved(curve.start, k)))
-    return ConfigurationCurve(
+    found = ConfigurationCurve(
         machine=machine.name,
         coordinate=coordinate,
         names=tuple(curve.names),
@@ -226,3 +234,5 @@ def configuration_curve(machine: MachineRecord, coordinate: str) -> Configuratio
         turning=tuple(turning),
         crossed=tuple(crossed),
     )
+    opening = max(curve.opening(place) for place in places)
+    return replace(found, trust=assess(Curve(outcome="done", curve=found, opening=opening)))

@@ -28,10 +28,14 @@ if TYPE_CHECKING:
     from nivel.analysis.trust.other_elements import Compared, Pair
     from nivel.machine.joints.driver import Driver
     from nivel.machine.machine_record import MachineRecord
+    from nivel.results.analyses.configuration_curve import ConfigurationCurve
     from nivel.results.analyses.efforts import Efforts
+    from nivel.results.analyses.mechanism import Range
     from nivel.results.comparison.comparison import Reference, Row
     from nivel.results.estimate import Estimate
+    from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
+    from nivel.results.trust import Trust
 
 
 @dataclass(frozen=True)
@@ -215,6 +219,31 @@ class Actuated(Subject):
         """Names and units of the joint coordinates of the motion."""
         names = self.result.coordinates.get("joint_coordinate_name", ())
         return {name: self.result.units(name) for name in names} if "joint_coordinate" in self.result.variables else {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Led(Subject):
+    """Postures that lead a point along a path."""
+
+    path: JointPath
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reach(Subject):
+    """The range of a joint coordinate. ways : trust reports of the kinematic analyses of both ways; turning : turning points of the
+    coordinate on the curve of positions [rad or m], None where that could not be followed."""
+
+    range: Range
+    ways: tuple[Trust, ...]
+    turning: tuple[float, ...] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curve(Subject):
+    """The curve of all positions of a machine. opening : how far its joints are open at most, as a share of their sizes."""
+
+    curve: ConfigurationCurve
+    opening: float
 
 
 @dataclass(frozen=True)

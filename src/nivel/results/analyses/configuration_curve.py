@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.results.frames.tabulated import Tabulated
+from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
     import xarray
@@ -30,7 +31,7 @@ class ConfigurationCurve(Tabulated):
     """values (T, m) [rad, m] of the joint coordinates `names` at the places `arc` (T,), the way of all bodies in machine lengths and rad.
 
     closed : it comes back to where it began. coordinate : whose turning points are given. crossed : places at which another curve of
-    positions crosses, so that the positions behind them are one of several.
+    positions crosses, so that the positions behind them are one of several. trust : the trust report.
     """
 
     machine: str
@@ -42,6 +43,7 @@ class ConfigurationCurve(Tabulated):
     closed: bool
     turning: tuple[Turning, ...]
     crossed: tuple[float, ...]
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     def to_xarray(self) -> xarray.Dataset:
         """The joint coordinates over the curve."""
@@ -51,9 +53,8 @@ class ConfigurationCurve(Tabulated):
             name: (("arc",), self.values[:, k], {"units": unit})
             for k, (name, unit) in enumerate(zip(self.names, self.units, strict=True))
         }
-        return xarray.Dataset(
-            values, coords={"arc": self.arc}, attrs={"machine": self.machine, "closed": int(self.closed)}
-        )
+        facts = {"machine": self.machine, "closed": int(self.closed), **self.trust.attributes()}
+        return xarray.Dataset(values, coords={"arc": self.arc}, attrs=facts)
 
     def summary(self) -> dict[str, Any]:
         """For programs."""
@@ -66,6 +67,7 @@ class ConfigurationCurve(Tabulated):
                 {"arc": each.arc, "value": each.value, "joints": list(each.joints)} for each in self.turning
             ],
             "crossed": list(self.crossed),
+            **self.trust.summary(),
         }
 
     def __str__(self) -> str:
@@ -87,4 +89,5 @@ class ConfigurationCurve(Tabulated):
             some = ", ".join(f"{each:.6g}" for each in self.crossed)
             said = f"another curve of positions crosses at {some} of the way {self.arc[-1]:.6g}"
             lines.append(f"  {said}: the positions behind are one of several")
+        lines += self.trust.told_lines("curve")
         return "\n".join(lines)

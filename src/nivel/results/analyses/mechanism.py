@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -18,6 +18,7 @@ from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.rotations import rotation_matrices
 from nivel.results.pages import page_maker
+from nivel.results.trust import Trust
 from nivel.system.joints.joints import looks_of
 
 if TYPE_CHECKING:
@@ -206,7 +207,7 @@ def _held(joint: dict[str, Any], bodies: Sequence[str]) -> tuple[str | None, Arr
 class Range:
     """How far a joint coordinate can go: from `low` to `high` [rad or m]; full_turn : it turns right round, both ways.
 
-    low_reason, high_reason : what ends it there, in a sentence; empty where nothing does.
+    low_reason, high_reason : what ends it there, in a sentence; empty where nothing does. trust : the trust report.
     """
 
     coordinate: str
@@ -216,17 +217,20 @@ class Range:
     full_turn: bool
     low_reason: str
     high_reason: str
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     def summary(self) -> dict[str, Any]:
         """For programs."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+        return {
+            name: getattr(self, name) for name in self.__dataclass_fields__ if name != "trust"
+        } | self.trust.summary()
 
     def __str__(self) -> str:
         if self.full_turn:
-            return f"{self.coordinate} turns right round"
+            return "\n".join([f"{self.coordinate} turns right round", *self.trust.told_lines()])
         lines = [f"{self.coordinate} goes from {self._shown(self.low)} to {self._shown(self.high)}"]
         lines += [f"  {word}: {text}" for word, text in (("low", self.low_reason), ("high", self.high_reason)) if text]
-        return "\n".join(lines)
+        return "\n".join([*lines, *self.trust.told_lines()])
 
     def _shown(self, value: float) -> str:
         return f"{value:.9g} {self.unit}" + (f" ({np.degrees(value):.6g}°)" if self.unit == "rad" else "")

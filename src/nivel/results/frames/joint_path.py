@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.results.frames.tabulated import Tabulated
+from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
     import xarray
@@ -26,7 +27,7 @@ class JointPath(Tabulated):
 
     error (T, 2) : of position [m] and orientation [rad]; reached (T,) : whether both are round-off. manipulability : √det(J Jᵀ) and
     smallest_singular_value of the path's Jacobian, lengths in m and turns times the machine's length. limits : coordinates at their
-    limits, at each time. starts (T,) : postures from which a search began.
+    limits, at each time. starts (T,) : postures from which a search began. trust : the trust report.
     """
 
     name: str
@@ -40,6 +41,7 @@ class JointPath(Tabulated):
     smallest_singular_value: Array
     limits: tuple[tuple[str, ...], ...]
     starts: NDArray[np.int64]
+    trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     def keys(self) -> tuple[str, ...]:
         """Names of the joint coordinates."""
@@ -75,7 +77,9 @@ class JointPath(Tabulated):
             "manipulability": (("time",), self.manipulability),
             "smallest_singular_value": (("time",), self.smallest_singular_value),
         }
-        return xarray.Dataset(values, coords={"time": self.time, "coordinate": list(self.coordinates)})
+        return xarray.Dataset(
+            values, coords={"time": self.time, "coordinate": list(self.coordinates)}, attrs=self.trust.attributes()
+        )
 
     def save_csv(self, path: str | PathLike[str], coordinates: tuple[str, ...] = ()) -> Path:
         """Write `time` and coordinates (default: the independent ones) as a table that `inverse(trajectory=…)` reads."""
@@ -96,8 +100,9 @@ class JointPath(Tabulated):
             "largest_position_error": float(self.error[:, 0].max(initial=0.0)),
             "largest_orientation_error": float(self.error[:, 1].max(initial=0.0)),
             "statements": self.statements(),
+            **self.trust.summary(),
         }
 
     def __str__(self) -> str:
         said = f"{self.name}: {int(self.reached.sum())} of {len(self.time)} places reached"
-        return "\n".join([said, *self.statements()])
+        return "\n".join([said, *self.statements(), *self.trust.told_lines("places")])

@@ -7,7 +7,18 @@ from dataclasses import dataclass
 from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.checks.followed import not_compared
 from nivel.analysis.trust.other_elements import Compared
-from nivel.analysis.trust.subject import Actuated, Equilibria, Linearisation, Methods, Positions, Run, Sweep
+from nivel.analysis.trust.subject import (
+    Actuated,
+    Curve,
+    Equilibria,
+    Led,
+    Linearisation,
+    Methods,
+    Positions,
+    Reach,
+    Run,
+    Sweep,
+)
 from nivel.machine.machine_record import MachineRecord
 
 SHOWN = 4  # names in a sentence
@@ -55,6 +66,26 @@ def _followed(subject: Positions | Actuated) -> tuple[tuple[str, ...], tuple[str
     lacks = (f"what {listed(left)} prescribe{'s' * (len(left) == 1)}",) if left else ()
     compared = len(left) < len(subject.drivers)
     return ("the functions of its drivers, evaluated apart",) if compared else (), lacks
+
+
+def look_at_led(subject: Led) -> Verification:
+    """The postures themselves: where they put the point, evaluated at each of them."""
+    return Verification(("the place of the point in every posture, with its joints closed",))
+
+
+def look_at_reach(subject: Reach) -> Verification:
+    """The kinematic analyses of both ways, and the turning points of the curve of positions."""
+    ways = "the closed joints of both ways"
+    if subject.range.full_turn or not (subject.range.low_reason or subject.range.high_reason):
+        return Verification((ways,))
+    if not subject.turning:
+        return Verification((ways,), ("the ends of the range",))
+    return Verification((ways, "the turning points of the curve of positions"))
+
+
+def look_at_curve(_: Curve) -> Verification:
+    """The joints at all places."""
+    return Verification(("the closed joints at every position",))
 
 
 def look_at_linear(subject: Linearisation) -> Verification:
@@ -113,6 +144,9 @@ CHECKS = (
     Check("verification", Equilibria, look_at_equilibria, lambda _: None, 1),
     Check("verification", Positions, look_at_positions, lambda _: None, 1),
     Check("verification", Actuated, look_at_efforts, lambda _: None, 1),
+    Check("verification", Led, look_at_led, lambda _: None, 1),
+    Check("verification", Reach, look_at_reach, lambda _: None, 1),
+    Check("verification", Curve, look_at_curve, lambda _: None, 1),
     Check("verification", Linearisation, look_at_linear, lambda _: None, 1),
     Check("verification", Methods, look_at_methods, lambda _: None, 1),
     Check("verification", Sweep, look_at_sweep, lambda _: None, 1),

@@ -81,10 +81,10 @@ if TYPE_CHECKING:
     from nivel.native.entry import Entry
     from nivel.results.analyses.configuration_curve import ConfigurationCurve
     from nivel.results.analyses.efforts import Efforts
+    from nivel.results.analyses.joint_path import JointPath
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.mechanism import Range
     from nivel.results.comparison.comparison import Comparison
-    from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 else:  # other words are refused by those who read settings, with the nearest one

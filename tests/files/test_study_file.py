@@ -102,6 +102,34 @@ def test_all_that_does_not_fit_the_machine_is_told_at_its_line(folder):
     ]
 
 
+def test_outputs_and_histories_that_no_run_has_are_told_before_anything_runs(folder):
+    text = (
+        "parameters: {block.mass: [1, 2]}\n"
+        "outputs:\n"
+        "  a: {type: max, of: rail.displacment}\n"
+        "  b: {type: max, of: rail.displacement, at_most: 3 N}\n"
+        "  c: {type: event-time, event: hit}\n"
+        "  d: {type: rms, of: block.position}\n"
+        "  e: {type: integral, of: rail.displacement.rate, at_most: 5 mm}\n"
+        "  f: {type: final, of: force.spring.magnitude, at_least: 2 kN}\n"
+        "save: [rail.displacement, block.velocty]\n"
+    )
+    with pytest.raises(ModelError) as error:
+        resolved(folder, text)
+    faults = told(error)
+    assert [(line, path) for line, path, _ in faults] == [
+        (5, "outputs.a.of"),
+        (6, "outputs.b.at_most"),
+        (7, "outputs.c.event"),
+        (8, "outputs.d.of"),
+        (11, "save"),
+    ]
+    assert "did you mean `rail.displacement`" in faults[0][2]
+    assert "the number is in m" in faults[1][2]
+    assert "as block.position.x" in faults[3][2]
+    assert "did you mean `block.velocity`" in faults[4][2]
+
+
 def test_a_tolerance_in_another_unit_is_told_as_it_is_written(folder):
     with pytest.raises(ModelError, match="`10 mm` is a length") as error:
         resolved(

@@ -62,6 +62,12 @@ def outputs_of(found: Found, outputs: Mapping[str, Output]) -> dict[str, Number]
     return numbers
 
 
+def check_function(output: PythonOutput) -> None:
+    """Raise ModelError where the text has no such function, or a limit measures something else than its number."""
+    _function(output.source, output.function, output.file)
+    _check_limits(output, output.units)
+
+
 def _at_output(name: str, fault: Fault) -> Fault:
     return Fault("", 0, 0, f"outputs.{name}.{fault.path or 'of'}", fault.message)
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from nivel.analysis.sweep.expected_names import wrong_names
 from nivel.analysis.sweep.quantiles import Distribution
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import OUTSIDE
@@ -58,6 +59,7 @@ def resolve(study: StudyFile, machine: Model) -> Resolved:
             _check_settings(machine, record.analysis, settings)
     except ModelError as error:
         faults += _of_settings(study, error)
+    faults += wrong_names(study, machine)
     if faults:
         raise ModelError(faults)
     return Resolved(study, machine, parameters, settings)

@@ -540,6 +540,7 @@ class Machine(Model):
         iterations: int = 200,
         accuracy: float = 1e-8,
         exact_slopes: bool = False,
+        time_limit: float | None = None,
         threads: int | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
@@ -549,8 +550,10 @@ class Machine(Model):
         objective : an output in words, ``"max(crank.angle)"``, ``"slider.position.x at 0.5 s"``, ``"time(lift)"``, a name (its value at the
         end), or a function of the result. parameters : bounds by path, ``{"bodies.rod.mass": (1, 3)}``, or (1, 2, 3) with a start between
         them. outputs : others, by name; limits : (least, greatest) of outputs, ``{"force": (None, 500.0)}``. method : of
-        `scipy.optimize.minimize`, or `differential-evolution`. starts : the first is the machine's own values, the others are drawn from a
-        Latin hypercube with `seed`. iterations : of each start, at most. accuracy : of the objective, as a share. settings : of the runs.
+        `scipy.optimize.minimize`, `differential-evolution`, or `CMA-ES` and `TPE` of the extra `search`. starts : the first is the
+        machine's own values, the others are drawn from a Latin hypercube with `seed`. time_limit [s] : of the processor time of
+        each run, which has no outputs where it takes longer. iterations : of each start, at most. accuracy : of the objective, as
+        a share. settings : of the runs.
 
         Slopes are differences of runs; with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
         outputs and slopes. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
@@ -574,6 +577,7 @@ class Machine(Model):
             tolerance=accuracy,
             threads=threads or processors(),
             exact=chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
+            time_limit=time_limit,
             listener=listener,
         )
 
@@ -645,6 +649,7 @@ class Machine(Model):
         iterations: int = 100,
         accuracy: float = 1e-10,
         exact_slopes: bool = False,
+        time_limit: float | None = None,
         threads: int | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
@@ -655,10 +660,11 @@ class Machine(Model):
         ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. parameters : as in `optimise`. deviations : standard
         deviations of the signals, where they are known; else each signal is measured by how much it varies, and the covariance follows from
         what is left. exact_slopes : those of the run on dual numbers, in place of differences.
-        starts, seed, iterations, accuracy, settings : as in `optimise`.
+        starts, seed, iterations, accuracy, time_limit, settings : as in `optimise`.
 
         `found.covariance` is that of the parameters in their order, `found.undetermined` names those that the measurements do not tell
-        apart. Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
+        apart, `found.on_bounds` those that would go on beyond their bounds, which have no deviation.
+        Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
         """
         from nivel.analysis.optimise.evaluations import box_of
         from nivel.analysis.optimise.identify import identify
@@ -671,6 +677,7 @@ class Machine(Model):
             box_of(chosen, parameters),
             signals_of(data, deviations or {}),
             with_slopes=chosen._with_slopes if exact_slopes else None,
+            time_limit=time_limit,
             starts=starts,
             seed=seed,
             most=iterations,

@@ -21,6 +21,7 @@ class Library(NamedTuple):
 LIBRARIES: Final = {
     "asammdf": Library("asammdf", "measured"),
     "asyncua": Library("asyncua", "opcua"),
+    "cma": Library("pycma", "search"),
     "control": Library("python-control", "control"),
     "gymnasium": Library("gymnasium", "gym"),
     "distributed": Library("Dask", "studies"),
@@ -33,6 +34,7 @@ LIBRARIES: Final = {
     "mcap_ros2.decoder": Library("mcap-ros2-support", "measured"),
     "meshio": Library("meshio", "flex"),
     "mujoco": Library("mujoco-core", "robots"),
+    "optuna": Library("Optuna", "search"),
     "paho.mqtt.client": Library("paho-mqtt", "mqtt"),
     "pandas": Library("pandas", ""),
     "pyarrow.parquet": Library("pyarrow", "measured"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -138,19 +138,22 @@ class Study:
         if search is None:
             said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
             raise ModelError(self.file.fault((), said))
-        return self.machine.optimise(
-            self._output(search.output),
+        units: dict[str, str] = {}
+        found = self.machine.optimise(
+            self._output(search.output, units),
             self._bounds,
             maximise=search.maximise,
-            outputs={name: self._output(name) for name in outputs},
+            outputs={name: self._output(name, units) for name in outputs},
             limits={name: each.limits for name, each in outputs.items() if each.limits != (None, None)},
             method=search.method,
             starts=search.starts,
             seed=search.seed,
             iterations=search.iterations,
+            time_limit=self.file.record.time_limit,
             threads=threads,
             listener=listener,
         )
+        return replace(found, dataset=self._of_search(found.dataset, list(outputs), units))
 
     @checked_arguments
     def identify(self, *, threads: int | None = None, listener: Listener | None = None) -> Identified:
@@ -162,27 +165,49 @@ class Study:
         if search is None:
             said = "the study says nothing of measurements: write `identify: {data: FILE.csv}`"
             raise ModelError(self.file.fault((), said))
-        return self.machine.identify(
+        found = self.machine.identify(
             beside(self.file.file, search.data),
             self._bounds,
             deviations=search.deviations,
             starts=search.starts,
             seed=search.seed,
             iterations=search.iterations,
+            time_limit=self.file.record.time_limit,
             threads=threads,
             listener=listener,
         )
+        return replace(found, dataset=self._of_search(found.dataset, ["sum_of_squares"], {}))
 
     @property
     def _bounds(self) -> dict[str, tuple[float, float]]:
         return {path: each.bounds for path, each in self.resolved.parameters.items() if isinstance(each, Between)}
 
-    def _output(self, name: str) -> Callable[[Any], float]:
-        """An output of the study as a function of a result."""
+    def _output(self, name: str, units: dict[str, str]) -> Callable[[Any], float]:
+        """An output of the study as a function of a result, which notes its unit."""
         from nivel.analysis.sweep.outputs import outputs_of
 
         record = {name: self.file.record.outputs[name]}
-        return lambda result: outputs_of(result, record)[name].value
+
+        def output(result: Any) -> float:
+            number = outputs_of(result, record)[name]
+            units[name] = number.units
+            return number.value
+
+        return output
+
+    def _of_search(self, found: xarray.Dataset, outputs: list[str], units: Mapping[str, str]) -> xarray.Dataset:
+        """The table of a search with what the report has to know of the study."""
+        found = found.assign_attrs({**found.attrs, **self._about(), "design": "", "outputs": json.dumps(outputs)})
+        found.attrs |= {"study": self.file.record.name, "description": self.file.record.description}
+        for name in outputs:
+            known = self.file.record.outputs.get(name)
+            limits = (None, None) if known is None else known.limits
+            facts = zip(("at_least", "at_most"), limits, strict=True)
+            found[name].attrs |= {
+                "units": units.get(name, ""),
+                **{key: each for key, each in facts if each is not None},
+            }
+        return found
 
     def _journal(self, target: Path, task: Any, variants: Variants, *, resume: bool, force: bool) -> Any:
         """Raises ModelError where there is one already that is neither to be used nor replaced, or the data file exists."""

@@ -67,6 +67,11 @@ def test_optimise_finds_what_python_finds(folder):
     assert facts["headline"]
     with xarray.open_dataset("best.nc", engine="h5netcdf") as table:
         assert table.sizes["variant"] == facts["evaluations"]
+        assert table["reach"].attrs == {"units": "m", "at_most": 0.12}
+    page = (folder / "best.html").read_text(encoding="utf-8")
+    assert "Course of the search" in page
+    assert f"{facts['values']['forces.spring.stiffness']:.6g}</td>" in page
+    assert "of runs within all limits" in page
     assert called("optimise", "best.yaml").exit_code == 2, "the data file is not replaced without --force"
 
 
@@ -75,6 +80,17 @@ def test_limits_that_cannot_be_kept_are_told(folder):
     done = called("optimise", "best.yaml", "--set", "optimise.starts=1")
     assert done.exit_code == 3
     assert "NOT ALL LIMITS ARE KEPT" in done.output
+
+
+def test_all_variants_are_kept_where_no_run_comes_to_its_end(folder):
+    text = STUDY.replace("from: 20 N/m, to: 200 N/m", "from: 1e11 N/m, to: 1e12 N/m") + BEST
+    (folder / "stiff.yaml").write_text(f"{text}settings: {{integrator: radau}}\ntime_limit: 20 ms\n")
+    done = called("optimise", "stiff.yaml", "--set", "optimise.starts=1")
+    assert done.exit_code == 3, done.output
+    assert "it took longer than the time limit of 20 ms" in done.output
+    assert "No values were found" in (folder / "stiff.html").read_text(encoding="utf-8")
+    with xarray.open_dataset("stiff.nc", engine="h5netcdf") as table:
+        assert set(table["outcome"].values) == {"timed out"}
 
 
 def test_identify_reads_the_table_beside_the_study(folder):
@@ -91,6 +107,12 @@ def test_identify_reads_the_table_beside_the_study(folder):
     facts = json.loads(done.stdout[done.stdout.index("{") : done.stdout.rindex("}") + 1])
     for path, value in (("forces.spring.stiffness", 64.0), ("forces.spring.damping", 2.5)):
         assert abs(facts["values"][path] - value) < 4.0 * facts["standard_deviations"][path] < 0.05 * value
+    (folder / "beyond.yaml").write_text(STUDY.replace("from: 0.5 N s/m", "from: 4 N s/m") + FROM_BENCH)
+    beyond = called("identify", "beyond.yaml")
+    assert beyond.exit_code == 0, beyond.output
+    assert "on a bound, without a deviation: forces.spring.damping" in beyond.output
+    page = (folder / "beyond.html").read_text(encoding="utf-8")
+    assert "<td>on its bound</td>" in page
 
 
 @pytest.mark.parametrize(

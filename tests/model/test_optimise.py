@@ -1,13 +1,17 @@
 """Optimisation and identification against closed forms, known machines and the statistics of least squares."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.optimise.evaluations import Evaluated, nothing_found
-from nivel.errors import ModelError, SolveError
+from needing import needs
+from nivel.analysis.optimise.evaluations import Evaluated
+from nivel.analysis.optimise.table import NothingFoundError, nothing_found
+from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
+from nivel.errors import Fault, ModelError, SolveError
 from nivel.files import parse_machine
 
 pytestmark = pytest.mark.compiles  # runs on dual numbers, which `nivel warmup` leaves out
@@ -144,12 +148,63 @@ def test_measurements_come_from_a_file_with_units(oscillator, tmp_path):
     assert found.residuals["rail.displacement"].shape == times.shape
 
 
-@pytest.mark.parametrize(("outcome", "kind"), [("failed", SolveError), ("refused", ModelError)])
+@pytest.mark.parametrize(("outcome", "kind"), [("failed", SolveError), ("refused", NothingFoundError)])
 def test_a_search_without_a_result_says_whether_runs_failed(outcome, kind):
     made = [Evaluated(np.zeros(1), np.full(1, np.nan), outcome, "the step is too long", 0)]
-    told = nothing_found(made, "objective", "no start has one", "")
+    table = object()
+    told = nothing_found(made, Fault("", 0, 0, "objective", "no start has one"), "", table)
     assert type(told) is kind
     assert str(told) == "objective: no start has one: the step is too long"
+    assert told.result is table
+
+
+def test_runs_that_take_too_long_are_ended_and_all_variants_are_kept(oscillator):
+    """Of 1e12 N/m the vibration has a million turns: minutes of steps, chosen by the method that comes in place of the usual one."""
+    stiff = oscillator.with_values({STIFFNESS: 1e12}).with_settings({"integrator": "radau"})
+    with pytest.raises(SolveError, match="it took longer than the time limit of 50 ms") as told:
+        stiff.optimise("max(rail.displacement)", {STIFFNESS: (1e11, 1e12)}, time_limit=0.05)
+    assert set(told.value.result["outcome"].values) == {"timed out"}
+    assert told.value.result[STIFFNESS].values[0] == 1e12
+    long = oscillator.with_settings({"duration": 2e4, "output_interval": 100.0})
+    rows = [{STIFFNESS: 20.0 + k} for k in range(3)]
+    ran = VariantRuns(long, formulas_for(long, rows)[0], time_limit=0.01).run(rows[0])
+    assert (ran.outcome, ran.result) == ("timed out", None)
+    with pytest.raises(ModelError, match="exact slopes have no time limit"):
+        oscillator.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, exact_slopes=True, time_limit=1.0)
+
+
+def test_a_parameter_that_would_go_beyond_its_bound_has_no_deviation(oscillator):
+    """The others have that of a fit in which it is held there."""
+    truth = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5})
+    data = measured(truth, 1e-3, 3)
+    found = oscillator.identify(data, {STIFFNESS: (20, 200), DAMPING: (3.0, 10.0)})
+    held = oscillator.with_values({DAMPING: 3.0}).identify(data, {STIFFNESS: (20, 200)})
+    assert found.on_bounds == (DAMPING,)
+    assert found.values[DAMPING] == 3.0
+    assert np.isnan(found.deviations[DAMPING])
+    assert found.values[STIFFNESS] == pytest.approx(held.values[STIFFNESS], rel=1e-6)
+    assert found.deviations[STIFFNESS] == pytest.approx(held.deviations[STIFFNESS], rel=1e-3)
+    assert held.on_bounds == ()
+
+
+@pytest.mark.parametrize(("method", "module", "near"), [("CMA-ES", "cma", 1e-4), ("TPE", "optuna", 0.05)])
+@pytest.mark.filterwarnings("ignore::Warning:(optuna|cma)")
+def test_methods_of_further_libraries_find_the_same_within_limits(oscillator, method, module, near):
+    needs(module)
+    given = "rms(rail.displacement.rate)", {STIFFNESS: (20.0, 200.0), DAMPING: (0.5, 10.0)}
+    within = {"outputs": {"reach": "max(rail.displacement)"}, "limits": {"reach": (None, 0.12)}}
+    known = oscillator.optimise(*given, **within)
+    found = oscillator.optimise(*given, **within, method=method, iterations=25, accuracy=1e-7)
+    assert found.kept
+    assert known.objective * (1 - 1e-4) <= found.objective <= known.objective * (1 + near)
+
+
+@pytest.mark.parametrize(("method", "package", "module"), [("CMA-ES", "pycma", "cma"), ("TPE", "Optuna", "optuna")])
+def test_a_missing_library_is_told_before_anything_runs(oscillator, monkeypatch, method, package, module):
+    monkeypatch.setitem(sys.modules, module, None)
+    message = rf"the method `{method}` needs {package}: pip install 'nivel\[search\]'"
+    with pytest.raises(ModelError, match=message):
+        oscillator.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, method=method)
 
 
 @pytest.mark.parametrize(

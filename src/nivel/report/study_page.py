@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel import __version__
+from nivel.report.search_part import SEARCHES, search_of
 from nivel.report.story import trusted
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.study_statistics import (
@@ -64,14 +65,15 @@ def study_html(dataset: xarray.Dataset) -> str:
     from jinja2 import Environment, FileSystemLoader
 
     table = Table.of(dataset)
-    trust = Trust.from_json(str(dataset.attrs["trust"]))
+    trust = dataset.attrs.get("trust")
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     return environment.get_template("study.html.j2").render(
         name=dataset.attrs.get("study") or f"{dataset.attrs['machine']}: sweep",
         description=dataset.attrs.get("description", ""),
         facts=_facts(dataset, table),
-        trusted=trusted(trust),
-        accepted=_yield(table),
+        trusted=None if trust is None else trusted(Trust.from_json(str(trust))),
+        search=search_of(dataset, table),
+        accepted=None if dataset.attrs["analysis"] in SEARCHES else _yield(table),
         figures=list(_figures(table)),
         reasons=_reasons(table)[:MOST_REASONS],
         more=max(0, len(_reasons(table)) - MOST_REASONS),

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
-from nivel.errors import Fault, ModelError, NivelError, SolveError
+from nivel.errors import Fault, ModelError, NivelError
 from nivel.model import Model
 from nivel.results.result import Result
 from nivel.words.wording import shown
@@ -117,15 +117,30 @@ class Evaluations:
     """Outputs (m,) of variants of a machine. made : all of them, in the order in which they were asked for."""
 
     def __init__(
-        self, machine: Model, box: Box, read: Reader, count: int, *, threads: int = 1, exact: Exact | None = None
+        self,
+        machine: Model,
+        box: Box,
+        read: Reader,
+        count: int,
+        *,
+        threads: int = 1,
+        exact: Exact | None = None,
+        time_limit: float | None = None,
     ) -> None:
-        """read : the outputs (count,) of a result. exact : outputs with their slopes; None: differences."""
+        """read : the outputs (count,) of a result. exact : outputs with their slopes; None: differences. time_limit [s] : of each run.
+
+        Raises ModelError for a limit with exact slopes, which are not watched.
+        """
         self.box, self._read, self._count, self._exact = box, read, count, exact
         self._slopes: dict[bytes, Array] = {}
         self.made: list[Evaluated] = []
         self._known: dict[bytes, Array] = {}
         self.start, self._threads, self.prepared_because = 0, 1, "slopes are exact"
         if exact is not None:
+            if time_limit is not None:
+                raise ModelError(
+                    Fault("", 0, 0, "time_limit", "runs with exact slopes have no time limit: leave one out")
+                )
             return
         rng = np.random.default_rng(0)
         rows = [
@@ -135,7 +150,7 @@ class Evaluations:
         self._runs: SimpleQueue[VariantRuns] = SimpleQueue()
         self._threads = threads if self._patches is not None else 1
         for _ in range(self._threads):
-            self._runs.put(VariantRuns(machine, self._patches))
+            self._runs.put(VariantRuns(machine, self._patches, time_limit))
 
     def at(self, z: Array) -> Array:
         """(m,) at a place in the unit cube."""
@@ -205,15 +220,6 @@ class Evaluations:
             a, b = _sides(z[k], SHARE)
             columns.append(_difference(middle, ends[2 * k], ends[2 * k + 1], a, b, steps[k]))
         return np.array(columns).T
-
-
-def nothing_found(made: Sequence[Evaluated], path: str, message: str, otherwise: str) -> NivelError:
-    """Why no start has outputs: SolveError where runs fail, else ModelError. otherwise : the reason where variants tell none."""
-    reasons = sorted({each.reason for each in made if each.reason})
-    text = f"{message}: {reasons[0] if reasons else otherwise}"
-    if any(each.outcome == "failed" for each in made):
-        return SolveError(f"{path}: {text}", time=0.0)
-    return ModelError(Fault("", 0, 0, path, text))
 
 
 def _sides(z: float, share: float) -> tuple[float, float]:

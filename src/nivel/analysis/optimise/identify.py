@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any, Final
 
@@ -16,9 +16,9 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Evaluations, nothing_found
-from nivel.analysis.optimise.optimise import dataset_of
+from nivel.analysis.optimise.evaluations import Box, Evaluations
 from nivel.analysis.optimise.spoken_outputs import at_times
+from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError
@@ -31,6 +31,9 @@ Array = NDArray[np.float64]
 FAR: Final = 1e3
 # singular values of J below this share of the largest say that a combination of parameters changes nothing
 FLAT: Final = 1e-7
+# shares of the range: where searches begin beside a bound, and how near to one a parameter counts as on it where it would go beyond
+INSIDE: Final = 1e-6
+NEAR: Final = 1e-4
 
 
 @dataclass(frozen=True)
@@ -50,8 +53,9 @@ class Identified:
     """What was found. values, deviations : by path, the latter standard deviations; covariance (p, p) and correlation in their order.
 
     deviation_of : standard deviation of the residuals of each signal; reached : (starts,) the sum of squares that each came to;
-    undetermined : paths of parameters that the measurements do not tell apart; dataset : every variant computed; machine : with what was
-    found; residuals : by signal; evaluations : number of runs.
+    undetermined : paths of parameters that the measurements do not tell apart; on_bounds : of those that would go on beyond a
+    bound, and have no deviation: those of the others hold with these held there; dataset : every variant computed; machine : with
+    what was found; residuals : by signal; evaluations : number of runs.
     """
 
     values: Mapping[str, float]
@@ -61,6 +65,7 @@ class Identified:
     deviation_of: Mapping[str, float]
     reached: Array
     undetermined: tuple[str, ...]
+    on_bounds: tuple[str, ...]
     residuals: Mapping[str, Array]
     dataset: xarray.Dataset
     machine: Any
@@ -78,111 +83,187 @@ def identify(
     tolerance: float = 1e-10,
     threads: int = 1,
     with_slopes: Callable[[Mapping[str, float]], Result] | None = None,
+    time_limit: float | None = None,
     listener: Listener | None = None,
 ) -> Identified:
     """The parameters with the least squares. with_slopes : the run of a variant with the slopes of its results; None: differences. most :
-    iterations of each start. Raises ModelError where no start has results."""
-    from scipy.optimize import least_squares
+    iterations of each start. time_limit [s] : of each run.
 
-    known = [each.deviation for each in signals]
-    if any(each is None for each in known) and any(each is not None for each in known):
+    Raises ModelError where no start has results, and SolveError where that is because runs fail; its `result` is the table of all variants.
+    """
+    begin = perf_counter()
+    _check_signals(signals, box)
+    residuals = _Residuals(box, signals, with_slopes)
+    exact = None if with_slopes is None else residuals.read_exact
+    evaluations = Evaluations(
+        machine, box, residuals.read, residuals.count, threads=threads, exact=exact, time_limit=time_limit
+    )
+    fit = _Fit(evaluations, residuals.count)
+    ends = []
+    for number, z in enumerate(box.starts(starts, seed)):
+        evaluations.start = number
+        ends.append(fit.from_start(z, most, tolerance))
+        if listener is not None and listener.progress is not None:
+            listener.progress(float(number + 1))
+    reached = np.array([2.0 * each.cost for each in ends])
+    attributes = {"analysis": "identify", "machine": machine.name, "seconds": perf_counter() - begin}
+    found = ends[int(np.argmin(reached))]
+    if not np.isfinite(evaluations.at(found.x)).all():
+        fault = Fault("", 0, 0, "data", "no start has results at all measurements")
+        table = _table(evaluations, attributes)
+        raise nothing_found(evaluations.made, fault, _when_measured(signals), table)
+    z, r, bound = fit.on_bounds(found.x)
+    spread = _spread(fit.slopes(z), r, box, bound, of_known=signals[0].deviation is not None)
+    left = residuals.by_signal(r)
+    values = box.values(z)
+    attributes |= {
+        "best": json.dumps(values),
+        "sum_of_squares": float(r @ r),
+        "undetermined": ", ".join(spread.undetermined),
+        "on_bounds": ", ".join(spread.on_bounds),
+    }
+    return Identified(
+        values=values,
+        deviations=dict(zip(box.paths, spread.deviations.tolist(), strict=True)),
+        covariance=spread.covariance,
+        correlation=spread.correlation,
+        deviation_of={name: float(np.sqrt(np.mean(row**2))) for name, row in left.items()},
+        reached=reached,
+        undetermined=spread.undetermined,
+        on_bounds=spread.on_bounds,
+        residuals=left,
+        dataset=_with_covariance(_table(evaluations, attributes), box, spread),
+        machine=machine.with_values(values),
+        evaluations=len(evaluations.made),
+    )
+
+
+class _Residuals:
+    """Differences of results and measurements, over the deviation of each signal."""
+
+    def __init__(
+        self, box: Box, signals: Sequence[Signal], with_slopes: Callable[[Mapping[str, float]], Result] | None
+    ) -> None:
+        self._box, self._signals, self._with_slopes = box, signals, with_slopes
+        self._units = [_unit(each) for each in signals]
+        self.count = sum(len(each.values) for each in signals)
+
+    def read(self, result: Result) -> Array:
+        """(n,) of a run. Raises ModelError where measurements have another unit."""
+        _check_units(self._signals, result)
+        rows = [
+            (at_times(result, each.name, each.times) - each.values) / unit
+            for each, unit in zip(self._signals, self._units, strict=True)
+        ]
+        return np.concatenate(rows)
+
+    def read_exact(self, values: Mapping[str, float]) -> tuple[Array, Array]:
+        """The same with slopes (n, p), from one run."""
+        assert self._with_slopes is not None
+        result = self._with_slopes(values)
+        columns = [
+            np.concatenate(
+                [
+                    at_times(result, f"d({each.name})/d({path})", each.times) / unit
+                    for each, unit in zip(self._signals, self._units, strict=True)
+                ]
+            )
+            for path in self._box.paths
+        ]
+        return self.read(result), np.array(columns).T
+
+    def by_signal(self, r: Array) -> dict[str, Array]:
+        """Residuals in SI units by signal."""
+        rows = np.split(r, np.cumsum([len(each.values) for each in self._signals])[:-1])
+        return {each.name: row * unit for each, row, unit in zip(self._signals, rows, self._units, strict=True)}
+
+
+class _Fit:
+    """Least squares in the unit cube."""
+
+    def __init__(self, evaluations: Evaluations, count: int) -> None:
+        self._evaluations, self._count = evaluations, count
+
+    def residuals(self, z: Array) -> Array:
+        found = self._evaluations.at(z)
+        return found if np.isfinite(found).all() else np.full(self._count, FAR)
+
+    def slopes(self, z: Array) -> Array:
+        found = self._evaluations.slopes(z)
+        return np.where(np.isfinite(found), found, 0.0)
+
+    def from_start(self, z: Array, most: int, tolerance: float) -> Any:
+        """What SciPy found from one start."""
+        from scipy.optimize import least_squares
+
+        return least_squares(
+            self.residuals,
+            np.clip(z, INSIDE, 1.0 - INSIDE),
+            jac=self.slopes,  # type: ignore[arg-type]
+            bounds=(0.0, 1.0),
+            xtol=tolerance,
+            ftol=tolerance,
+            gtol=1e-12,
+            max_nfev=most,
+        )
+
+    def on_bounds(self, z: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """What was found, put on the bounds that it would go beyond; residuals there; and which parameters (p,) these are.
+
+        The method stays a little inside: there the sum of squares falls towards the bound, and is no larger on it.
+        """
+        r = self.residuals(z)
+        down = self.slopes(z).T @ r
+        bound = ((z < NEAR) & (down > 0.0)) | ((z > 1.0 - NEAR) & (down < 0.0))
+        there = np.where(bound, np.round(z), z)
+        on = self.residuals(there)
+        if not bound.any() or on @ on > r @ r:
+            return z, r, np.zeros(len(z), dtype=bool)
+        return there, on, bound
+
+
+@dataclass(frozen=True)
+class _Spread:
+    """How certain parameters are: (p, p) covariance and correlation, (p,) standard deviations; paths of those that are undetermined, and of
+    those on bounds, which have none."""
+
+    covariance: Array
+    correlation: Array
+    deviations: Array
+    undetermined: tuple[str, ...]
+    on_bounds: tuple[str, ...]
+
+
+def _spread(J: Array, r: Array, box: Box, bound: NDArray[np.bool_], *, of_known: bool) -> _Spread:
+    """Those of parameters within their bounds, the others held there."""
+    free, span = np.flatnonzero(~bound), box.high - box.low
+    covariance = np.full((len(span), len(span)), np.nan)
+    variance = 1.0 if of_known else float(r @ r) / max(len(r) - len(free), 1)
+    own, loose = _covariance(J[:, free], variance)
+    covariance[np.ix_(free, free)] = own * np.outer(span[free], span[free])
+    deviations = np.sqrt(np.diagonal(covariance))
+    sizes = np.where(np.isfinite(deviations) & (deviations > 0.0), deviations, 1.0)
+    correlation = np.where(np.isinf(covariance), 1.0, covariance) / np.outer(sizes, sizes)
+    undetermined = tuple(box.paths[k] for k in free[loose])
+    return _Spread(
+        covariance, correlation, deviations, undetermined, tuple(box.paths[k] for k in np.flatnonzero(bound))
+    )
+
+
+def _check_signals(signals: Sequence[Signal], box: Box) -> None:
+    """Raise ModelError where deviations are known of some signals, or there are too few measurements."""
+    known = [each.deviation is not None for each in signals]
+    if any(known) and not all(known):
         raise ModelError(Fault("", 0, 0, "deviations", "give the standard deviation of all signals, or of none"))
-    units = [_unit(each) for each in signals]
     count = sum(len(each.values) for each in signals)
     if count <= len(box.paths):
         message = f"{count} measurements do not determine {len(box.paths)} parameters"
         raise ModelError(Fault("", 0, 0, "data", message))
 
-    def read(result: Result) -> Array:
-        _check_units(signals, result)
-        rows = [
-            (at_times(result, each.name, each.times) - each.values) / unit
-            for each, unit in zip(signals, units, strict=True)
-        ]
-        return np.concatenate(rows)
 
-    def read_exact(values: Mapping[str, float]) -> tuple[Array, Array]:
-        assert with_slopes is not None
-        result = with_slopes(values)
-        columns = [
-            np.concatenate(
-                [
-                    at_times(result, f"d({each.name})/d({path})", each.times) / unit
-                    for each, unit in zip(signals, units, strict=True)
-                ]
-            )
-            for path in box.paths
-        ]
-        return read(result), np.array(columns).T
-
-    begin, exact = perf_counter(), None if with_slopes is None else read_exact
-    evaluations = Evaluations(machine, box, read, count, threads=threads, exact=exact)
-
-    def residuals(z: Array) -> Array:
-        found = evaluations.at(z)
-        return found if np.isfinite(found).all() else np.full(count, FAR)
-
-    def slopes(z: Array) -> Array:
-        found = evaluations.slopes(z)
-        return np.where(np.isfinite(found), found, 0.0)
-
-    ends = []
-    for number, z in enumerate(box.starts(starts, seed)):
-        evaluations.start = number
-        inside = np.clip(z, 1e-6, 1.0 - 1e-6)
-        ends.append(
-            least_squares(
-                residuals,
-                inside,
-                jac=slopes,  # type: ignore[arg-type]
-                bounds=(0.0, 1.0),
-                xtol=tolerance,
-                ftol=tolerance,
-                gtol=1e-12,
-                max_nfev=most,
-            )
-        )
-        if listener is not None and listener.progress is not None:
-            listener.progress(float(number + 1))
-    reached = np.array([2.0 * each.cost for each in ends])
-    best = ends[int(np.argmin(reached))]
-    if not np.isfinite(evaluations.at(best.x)).all():
-        first, last = min(each.times.min() for each in signals), max(each.times.max() for each in signals)
-        otherwise = (
-            f"the run ends before the measurements do, or begins after them: they last from {first:g} to {last:g} s"
-        )
-        raise nothing_found(evaluations.made, "data", "no start has results at all measurements", otherwise)
-    span = box.high - box.low
-    scaled, undetermined = _covariance(slopes(best.x), best.fun, box, of_known=known[0] is not None)
-    covariance = scaled * np.outer(span, span)
-    deviations = np.sqrt(np.diagonal(covariance))
-    values = box.values(best.x)
-    rows = np.split(best.fun, np.cumsum([len(each.values) for each in signals])[:-1])
-    left = {each.name: row * unit for each, row, unit in zip(signals, rows, units, strict=True)}
-    sizes = np.where(np.isfinite(deviations) & (deviations > 0.0), deviations, 1.0)
-    correlation = np.where(np.isfinite(covariance), covariance, 1.0) / np.outer(sizes, sizes)
-    attributes = {
-        "analysis": "identify",
-        "machine": machine.name,
-        "seconds": perf_counter() - begin,
-        "best": json.dumps(values),
-        "sum_of_squares": float(reached.min()),
-        "undetermined": ", ".join(undetermined),
-        "prepared_because": evaluations.prepared_because,
-    }
-    return Identified(
-        values=values,
-        deviations=dict(zip(box.paths, deviations.tolist(), strict=True)),
-        covariance=covariance,
-        correlation=correlation,
-        deviation_of={name: float(np.sqrt(np.mean(row**2))) for name, row in left.items()},
-        reached=reached,
-        undetermined=undetermined,
-        residuals=left,
-        dataset=_with_covariance(_table(evaluations, attributes), box, deviations, covariance),
-        machine=machine.with_values(values),
-        evaluations=len(evaluations.made),
-    )
+def _when_measured(signals: Sequence[Signal]) -> str:
+    first, last = min(each.times.min() for each in signals), max(each.times.max() for each in signals)
+    return f"the run ends before the measurements do, or begins after them: they last from {first:g} to {last:g} s"
 
 
 def _check_units(signals: Sequence[Signal], result: Result) -> None:
@@ -203,31 +284,28 @@ def _unit(signal: Signal) -> float:
     return float(np.std(signal.values)) or float(np.abs(signal.values).max()) or 1.0
 
 
-def _covariance(J: Array, r: Array, box: Box, *, of_known: bool) -> tuple[Array, tuple[str, ...]]:
-    """(p, p) in the unit cube, infinite along what changes nothing; and the parameters that take part in that."""
+def _covariance(J: Array, variance: float) -> tuple[Array, NDArray[np.bool_]]:
+    """(p, p) in the unit cube, infinite along what changes nothing; and which parameters (p,) take part in that."""
     _, sizes, rows = np.linalg.svd(J, full_matrices=False)
     flat = sizes <= FLAT * sizes.max(initial=0.0)
-    variance = 1.0 if of_known else float(r @ r) / max(len(r) - len(box.paths), 1)
     inverse = np.where(flat, 0.0, 1.0 / np.where(flat, 1.0, sizes) ** 2)
     out = variance * (rows.T * inverse) @ rows
     loose = np.abs(rows[flat]).max(axis=0, initial=0.0) > 0.1
     out[loose, loose] = np.inf
-    return out, tuple(path for path, each in zip(box.paths, loose, strict=True) if each)
+    return out, loose
 
 
 def _table(evaluations: Evaluations, attributes: Mapping[str, Any]) -> xarray.Dataset:
     """All variants with their sums of squares."""
-    from dataclasses import replace
-
     evaluations.made = [
         replace(each, outputs=np.array([float(each.outputs @ each.outputs)])) for each in evaluations.made
     ]
-    return dataset_of(evaluations, ("sum_of_squares",), attributes)
+    return table_of(evaluations, ("sum_of_squares",), attributes)
 
 
-def _with_covariance(table: xarray.Dataset, box: Box, deviations: Array, covariance: Array) -> xarray.Dataset:
+def _with_covariance(table: xarray.Dataset, box: Box, spread: _Spread) -> xarray.Dataset:
     names = list(box.paths)
     return table.assign_coords(parameter=names, other_parameter=names).assign(
-        standard_deviation=("parameter", deviations),
-        covariance=(("parameter", "other_parameter"), covariance),
+        standard_deviation=("parameter", spread.deviations),
+        covariance=(("parameter", "other_parameter"), spread.covariance),
     )

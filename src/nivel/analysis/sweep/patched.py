@@ -31,12 +31,13 @@ from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, FRAMES, STOPPED, TIME, Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.block import Handle
-from nivel.kernels.core.status import DONE, OK
+from nivel.kernels.core.status import BUDGET_SPENT, DONE, OK
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model
 from nivel.results.memory import MemoryContents
 from nivel.results.result import Result
+from nivel.words.wording import seconds
 
 # places between the least and the greatest value of a parameter at which machines are prepared
 SHARES: Final = (0.0, 1.0, 0.35, 0.7)
@@ -52,10 +53,18 @@ MARGIN: Final = 0.99
 # bytes of frames of one run, at most
 MOST_BYTES: Final = 256_000_000
 BUDGET_OF_ALL: Final = 2**60
+WATCHED: Final = 2000  # steps between two looks at the time
 
 
 class UnsuitedError(Exception):
     """Why variants cannot be patched, in words."""
+
+
+class TooLongError(Exception):
+    """A run takes longer than its limit [s]."""
+
+    def __init__(self, limit: float) -> None:
+        super().__init__(f"it took longer than the time limit of {seconds(limit)}")
 
 
 @dataclass(frozen=True)
@@ -377,15 +386,18 @@ class PatchedRuns:
         self.loop_seconds = 0.0
         self._screen = Screen(prepared, plan.settings.step) if plan.is_open else None
 
-    def run(self, x: Array) -> Array | None:
+    def run(self, x: Array, limit: float | None = None) -> Array | None:
         """Frames (n, width) of the variant with parameters x, valid until the next run; None where it did not come to its end as it
-        should, so that it has to be prepared to find out why."""
+        should, so that it has to be prepared to find out why. Raises TooLongError where it takes longer than `limit` [s]."""
         self._found.put(self._blank.pieces, x)
         run = self._blank.run
-        run.counter[BUDGET] = BUDGET_OF_ALL
-        begin = thread_time()
-        status = self._advance()
-        self.loop_seconds = thread_time() - begin
+        begin, status = thread_time(), BUDGET_SPENT
+        while status == BUDGET_SPENT:
+            run.counter[BUDGET] = BUDGET_OF_ALL if limit is None else WATCHED
+            status = self._advance()
+            self.loop_seconds = thread_time() - begin
+            if limit is not None and status == BUDGET_SPENT and self.loop_seconds > limit:
+                raise TooLongError(limit)
         if status != DONE:
             return None
         if self._screen is not None and not self._screen.is_followed(float(run.clock[TIME]), run.y):

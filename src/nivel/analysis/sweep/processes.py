@@ -17,7 +17,8 @@ from time import monotonic
 from typing import Any, Final
 
 from nivel.analysis.sweep.task import Task
-from nivel.analysis.sweep.variant import KILLED, TIMED_OUT, VariantRun, run_variant
+from nivel.analysis.sweep.variant import KILLED, VariantRun, run_variant
+from nivel.analysis.sweep.variant_runs import TIMED_OUT
 from nivel.words.wording import seconds
 
 START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.analysis.sweep.worker import main; main()"

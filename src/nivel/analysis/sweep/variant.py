@@ -22,7 +22,7 @@ from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result
 
 DONE, STOPPED, FAILED, REFUSED, NOT_RUN = "done", "stopped", "failed", "refused", "not run"
-TIMED_OUT, KILLED = "timed out", "killed"
+KILLED: Final = "killed"
 ENDLESS: Final = 1e9  # s that second runs may go on: how far they come may not depend on how busy a processor is
 
 

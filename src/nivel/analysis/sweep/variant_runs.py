@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from time import thread_time
 from typing import Any, Final
 
 from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.simulate import simulate
-from nivel.analysis.sweep.patched import PatchedRuns, Patches, UnsuitedError, learn, read_values, sampled
+from nivel.analysis.sweep.patched import PatchedRuns, Patches, TooLongError, UnsuitedError, learn, read_values, sampled
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result
 
 Values = Mapping[str, Any]
+
+TIMED_OUT: Final = "timed out"
 
 # so many variants are worth the ones that are prepared to find formulas
 WORTH_FORMULAS: Final = 24
@@ -33,16 +37,26 @@ class Ran:
 
 
 class VariantRuns:
-    """Runs variants of a machine one by one: patched where formulas are known, else each prepared. Every thread needs its own."""
+    """Runs variants of a machine one by one: patched where formulas are known, else each prepared. Every thread needs its own.
 
-    def __init__(self, base: Model, patches: Patches | None = None) -> None:
-        self._base = base
+    time_limit [s] : of the processor time of each; what takes longer is `timed out`.
+    """
+
+    def __init__(self, base: Model, patches: Patches | None = None, time_limit: float | None = None) -> None:
+        self._base, self._limit = base, time_limit
         self._patched = None if patches is None else PatchedRuns(patches)
 
     def run(self, values: Values) -> Ran:
         """The machine with these values, run by its own settings, without a second run and a trust report."""
+        try:
+            return self._run(values)
+        except TooLongError as late:
+            return Ran(TIMED_OUT, str(late))
+
+    def _run(self, values: Values) -> Ran:
+        """Raises TooLongError."""
         if self._patched is not None:
-            frames = self._patched.run(read_values(values))
+            frames = self._patched.run(read_values(values), self._limit)
             if frames is not None:
                 event = self._patched.stopped_by
                 outcome, reason = ("stopped", f"event {event}") if event else ("done", "")
@@ -52,7 +66,8 @@ class VariantRuns:
     def _prepared(self, values: Values) -> Ran:
         try:
             machine = self._base.with_values(values) if values else self._base
-            result = simulate(plan_run(machine.record, machine.origin.settings_outside), judge=False)
+            plan = plan_run(machine.record, machine.origin.settings_outside)
+            result = simulate(plan, judge=False, listener=self._watch())
         except SolveError as error:
             return Ran("failed", str(error), error.result if isinstance(error.result, Result) else None)
         except ModelError as error:
@@ -65,6 +80,18 @@ class VariantRuns:
         if result.stopped_by:
             return Ran("stopped", f"event {result.stopped_by}", result, loop)
         return Ran("done", "", result, loop)
+
+    def _watch(self) -> Listener | None:
+        """Ends a run that takes too long."""
+        if self._limit is None:
+            return None
+        limit, begin = self._limit, thread_time()
+
+        def look(_: float) -> None:
+            if thread_time() - begin > limit:
+                raise TooLongError(limit)
+
+        return Listener(progress=look)
 
 
 def sample_of(rows: Sequence[Values]) -> tuple[Values, ...]:

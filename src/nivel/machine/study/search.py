@@ -13,7 +13,9 @@ from nivel.machine.settings.values import Count
 from nivel.machine.units.quantity import Whole, fault
 from nivel.words.wording import shown
 
-SearchMethod = Literal["SLSQP", "trust-constr", "L-BFGS-B", "Nelder-Mead", "COBYLA", "differential-evolution"]
+SearchMethod = Literal[
+    "SLSQP", "trust-constr", "L-BFGS-B", "Nelder-Mead", "COBYLA", "differential-evolution", "CMA-ES", "TPE"
+]
 SEARCH_METHODS: Final = get_args(SearchMethod)
 
 
@@ -37,7 +39,7 @@ class OptimiseSearch(Search):
 
     output: str = Field(description="name of the output that is to be least")
     maximise: bool = Field(default=False, description="it is to be largest instead")
-    method: SearchMethod = Field(default="SLSQP", description="method of SciPy")
+    method: SearchMethod = Field(default="SLSQP", description="method of SciPy; CMA-ES of pycma, or TPE of Optuna")
 
 
 class IdentifySearch(Search):

@@ -1,0 +1,140 @@
+"""A search from one start after another, by methods of SciPy and of further libraries, in the unit cube of the parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.optimise.evaluations import Evaluations
+from nivel.analysis.optimise.libraries import OF_LIBRARIES
+
+Array = NDArray[np.float64]
+Row = tuple[int, float, float]  # output, sign, limit
+
+WITH_SLOPES: Final = ("SLSQP", "trust-constr", "L-BFGS-B")
+CONSTRAINED: Final = ("SLSQP", "trust-constr", "COBYLA")
+# what a variant without outputs counts as: so many times the largest magnitude of the objective
+FAR: Final = 1e3
+# constraints are kept to this share of their limits
+KEPT: Final = 1e-6
+# weight of broken constraints for methods that know none
+WEIGHT: Final = 1e3
+PENALISED: Final = 1e6
+
+
+class Search:
+    """One method from one start after another, in the unit cube, with objectives of the order of one."""
+
+    def __init__(
+        self,
+        evaluations: Evaluations,
+        names: tuple[str, ...],
+        limits: Mapping[str, tuple[float, float]],
+        sign: float,
+        method: str,
+        most: int,
+        tolerance: float,
+        seed: int,
+    ) -> None:
+        self._evaluations, self._method, self._most, self._tolerance = evaluations, method, most, tolerance
+        self._sign, self._seed = sign, seed
+        # rows g >= 0: output, sign, limit
+        self._rows = [
+            (names.index(name), side, limit)
+            for name, (low, high) in limits.items()
+            for side, limit in ((1.0, low), (-1.0, high))
+            if np.isfinite(limit) and low < high
+        ]
+        # rows g = 0, of limits that leave one value
+        self._equal = [(names.index(name), 1.0, low) for name, (low, high) in limits.items() if low == high]
+        self._size = 1.0
+
+    def from_start(self, z: Array) -> tuple[Array, str]:
+        """The place that was reached, and what the method says."""
+        first = self._evaluations.at(z)[0]
+        self._size = abs(float(first)) or 1.0 if np.isfinite(first) else 1.0
+        from scipy import optimize
+
+        bounds = [(0.0, 1.0)] * len(z)
+        if self._method == "differential-evolution":
+            found = optimize.differential_evolution(
+                self._with_penalty, bounds, maxiter=self._most, rng=self._seed, tol=self._tolerance, x0=z, polish=False
+            )
+            return found.x, str(found.message)
+        if self._method in OF_LIBRARIES:
+            return OF_LIBRARIES[self._method](self._penalised, z, self._most, self._tolerance, self._seed)
+        given: dict[str, Any] = {"bounds": bounds, "method": self._method, "options": {"maxiter": self._most}}
+        if self._method in WITH_SLOPES:
+            given["jac"] = self._slope
+        if self._method in ("SLSQP", "L-BFGS-B"):
+            given["options"]["ftol"] = self._tolerance
+        objective = self._objective
+        if (self._rows or self._equal) and self._method in CONSTRAINED:
+            given["constraints"] = self._constraints()
+        elif self._rows or self._equal:
+            objective = self._with_penalty
+        found = optimize.minimize(objective, z, **given)
+        return np.clip(found.x, 0.0, 1.0), str(found.message)
+
+    def _objective(self, z: Array) -> float:
+        value = float(self._evaluations.at(np.clip(z, 0.0, 1.0))[0])
+        return self._sign * value / self._size if np.isfinite(value) else FAR
+
+    def _slope(self, z: Array) -> Array:
+        slope = self._sign * self._evaluations.slopes(np.clip(z, 0.0, 1.0))[0] / self._size
+        return np.where(np.isfinite(slope), slope, 0.0)
+
+    def _constraints(self) -> list[Any]:
+        """Constraints as the method takes them."""
+        from scipy import optimize
+
+        out: list[Any] = []
+        for kind, rows, most in (("ineq", self._rows, np.inf), ("eq", self._equal, 0.0)):
+            if not rows:
+                continue
+            room, slope = partial(self._room, rows), partial(self._room_slope, rows)
+            if self._method == "trust-constr":
+                out.append(optimize.NonlinearConstraint(room, 0.0, most, jac=slope))  # type: ignore[arg-type]
+            else:
+                out.append({"type": kind, "fun": room, "jac": slope})
+        return out
+
+    def _room(self, rows: Sequence[Row], z: Array) -> Array:
+        outputs = self._evaluations.at(np.clip(z, 0.0, 1.0))
+        return np.array([self._scaled_room(outputs, row) for row in rows])
+
+    def _scaled_room(self, outputs: Array, row: Row) -> float:
+        k, side, limit = row
+        room = side * (float(outputs[k]) - limit) / (abs(limit) or 1.0)
+        return room if np.isfinite(room) else -FAR
+
+    def _room_slope(self, rows: Sequence[Row], z: Array) -> Array:
+        slopes = self._evaluations.slopes(np.clip(z, 0.0, 1.0))
+        out = np.array([side * slopes[k] / (abs(limit) or 1.0) for k, side, limit in rows])
+        return np.where(np.isfinite(out), out, 0.0)
+
+    def worst_break(self, outputs: Array) -> float:
+        """By how much the worst constraint is broken, as a share of its limit."""
+        broken = [-self._scaled_room(outputs, row) for row in self._rows]
+        return max([0.0, *broken, *(abs(self._scaled_room(outputs, row)) for row in self._equal)])
+
+    def _with_penalty(self, z: Array) -> float:
+        outputs = self._evaluations.at(np.clip(z, 0.0, 1.0))
+        return self._objective(z) + WEIGHT * self.worst_break(outputs)
+
+    def _penalised(self, places: Sequence[Array]) -> list[float]:
+        """The same of several places, computed beside each other."""
+        self._evaluations.each(places)
+        return [self._with_penalty(z) for z in places]
+
+    def judged(self, z: Array) -> float:
+        """What places are compared by: the objective, far larger where constraints are broken."""
+        outputs = self._evaluations.at(z)
+        if not np.isfinite(outputs[0]):
+            return np.inf
+        broken = self.worst_break(outputs)
+        return self._sign * float(outputs[0]) + (PENALISED * (1.0 + broken) * self._size if broken > KEPT else 0.0)

@@ -15,21 +15,26 @@ KINDS: Final = ("liquid", GAS)
 DEFAULT: Final = ""  # name of the fluid of a machine without `fluids`
 RATED: Final = "`sonic_conductance`, in dm^3/(s*bar), and `critical_ratio`"
 OF_LIQUIDS: Final = ("wall_modulus",)
-OF_GASES: Final = ("heat_conductance",)
+# keys of components, of liquids whose temperature is a state; the first one of gases too
+WARM: Final = {"tank": ("temperature",), "cooler": ("heat_conductance",)}
+WALLS: Final = "heat_conductance"
+HOW: Final = "write `isothermal: false` and a `grade` in its fluid"
 
 
 def fluid_faults(machine: Any, nodes: Mapping[str, Any]) -> Faults:
     """Place and message of everything that is wrong. nodes : the component that makes each."""
     kinds = {str(entry(each, "name")): str(entry(each, "type") or "liquid") for each in elements(machine, "fluids")}
     kinds = kinds or {DEFAULT: "liquid"}
+    warm = {str(entry(each, "name")) for each in elements(machine, "fluids") if entry(each, "isothermal") is False}
     for at, component in enumerate(elements(machine, "hydraulics")):
         place: Place = ("hydraulics", at)
         touched = _touched(component, nodes, kinds)
         if len(set(touched.values())) > 1:
             said = ", ".join(f"{node} of {fluid}" for node, fluid in touched.items())
             yield place, f"one component carries one fluid; its nodes are {said}"
-        elif touched and (kind := kinds[next(iter(touched.values()))]) in KINDS:
+        elif touched and (kind := kinds[fluid := next(iter(touched.values()))]) in KINDS:
             yield from _of_kind(component, place, kind == GAS)
+            yield from _of_warmth(component, place, kind == GAS, fluid in warm)
 
 
 def _touched(component: Any, nodes: Mapping[str, Any], kinds: Mapping[str, str]) -> dict[str, str]:
@@ -61,9 +66,9 @@ def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
         known = ", ".join(f"`{word}`" for word, each in COMPONENT_OF.items() if each.gases)
         yield (*place, "type"), f"a {type_} is for liquids; circuits of gas know {known}"
         return
-    for key in OF_LIQUIDS if gas else OF_GASES:
+    for key in OF_LIQUIDS if gas else ():
         if entry(component, key) is not None:
-            yield (*place, key), f"`{key}` belongs to {'liquids' if gas else 'gases'}"
+            yield (*place, key), f"`{key}` belongs to liquids"
     rated = [(place, component), *(((*place, key), entry(component, key)) for key in ("cushion_A", "cushion_B"))]
     for where, rating in rated:
         if gas and entry(rating, "flow") is not None:
@@ -73,3 +78,14 @@ def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
                 (*where, "sonic_conductance"),
                 "a sonic conductance is of gases; liquids have `flow` at `pressure_drop`",
             )
+
+
+def _of_warmth(component: Any, place: Place, gas: bool, warm: bool) -> Faults:
+    """What belongs to fluids whose temperature is a state."""
+    own = WARM.get(str(entry(component, "type")), ())
+    if not warm:
+        for key in own:
+            if entry(component, key) is not None:
+                yield (*place, key), f"`{key}` belongs to a liquid whose temperature is a state; {HOW}"
+    if WALLS not in own and not (gas or warm) and entry(component, WALLS) is not None:
+        yield (*place, WALLS), f"`{WALLS}` belongs to gases, and to liquids whose temperature is a state; {HOW}"

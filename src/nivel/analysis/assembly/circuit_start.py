@@ -26,7 +26,7 @@ from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, SURROUNDINGS
 from nivel.kernels.hydraulics.piston import ORIGIN, guide
 from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record.record import NONE
-from nivel.machine.hydraulics import Actuator, Engine, HydraulicMotor, RotaryActuator
+from nivel.machine.hydraulics import Actuator, Engine, HydraulicMotor, Reservoir, RotaryActuator
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.fluid_law import mass_at
@@ -147,6 +147,8 @@ class _Start:
     def _lowest(self, fluid: int) -> float:
         """[Pa] of the lowest tank of a fluid."""
         tanks = [self._given(k) for k, node in enumerate(self.nodes) if not _has_state(node) and node.fluid == fluid]
+        for each in (each for each in self.machine.hydraulics if isinstance(each, Reservoir)):
+            tanks += [each.pressure for node in self.nodes if node.owner == each.name and node.fluid == fluid]
         return min(tanks, default=ATMOSPHERE)
 
     def _put(self, pressure: Array) -> None:
@@ -263,7 +265,7 @@ class _Start:
     def come_to_rest(self) -> None:
         """Let all states that are not held go where they stay."""
         fixed = {self.nodes[k].state for k in self.held}
-        fixed |= {node.energy for node in self.nodes}
+        fixed |= {state for node in self.nodes for state in (node.energy, node.warmth)}
         fixed |= {k for k, fact in enumerate(self.system.states) if fact.sampled or fact.name.startswith("hydraulics.")}
         own = _states_of_circuits(self.system)
         free = np.array([k for k in own if k not in fixed], dtype=int)

@@ -1,7 +1,8 @@
-"""Flows between the segments of long lines: inertia of the fluid, and friction that depends on the frequency.
+"""Flows of long lines between their segments, and of pipes with inertia: inertia of the fluid, and friction that depends on the frequency.
 
-    l/A d(ṁ)/dt = p_a - p_b - Δp        Δp = g R ρ Q (1 + (Q/(g Q_c))⁶)^(1/8) + ζ ρ/(2 A²) Q |Q| + g U ρ Σ y_i        g = exp(α (p - pa))
+    l/A d(ṁ)/dt = p_a - p_b - Δp        Δp = g R ρ Q (1 + (Q/(g Q_c))⁶)^(1/8) + ζ ρ/(2 A²) Q |Q| + g U ρ Σ y_i
 
+g is the growth of the viscosity with pressure and temperature (`nivel.kernels.hydraulics.viscosity`).
 The first part is that of `nivel.kernels.hydraulics.pipe`, the second one that of bends. The third one is the difference of laminar friction
 to that of a steady flow (Zielke 1968), with his weight as a sum of exponentials (Trikha 1975), those of Kagawa, Lee, Kitagawa and Takenaka
 1983:
@@ -14,11 +15,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.fluid import ATMOSPHERE, BARUS
 from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.pipe import loss, slope_of_loss
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column
 from nivel.kernels.hydraulics.smooth import magnitude_within
-from nivel.kernels.hydraulics.transfer import lose, transfer
+from nivel.kernels.hydraulics.transfer import lose_between, transfer
+from nivel.kernels.hydraulics.viscosity import thickening
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
@@ -36,19 +38,9 @@ WEIGHTS = np.array((1.0, 1.16725, 2.20064, 3.92861, 6.78788, 11.6761, 20.0612, 3
 
 
 @leaf
-def thickening(circuit, a, b):
-    """g: growth of the viscosity with the mean pressure."""
-    alpha = circuit.fluid[circuit.node[a, 0], BARUS]
-    return np.exp(alpha * (0.5 * (circuit.pressure[a] + circuit.pressure[b]) - ATMOSPHERE))
-
-
-@leaf
 def steady_loss(n, g, density, flow):
     """Δp [Pa] of a steady flow."""
-    ratio = flow / (n[CRITICAL] * g)
-    square = ratio * ratio
-    pipe = n[RESISTANCE] * g * density * flow * np.sqrt(np.sqrt(np.sqrt(1.0 + square * square * square)))
-    return pipe + n[BENDS] * density * flow * magnitude_within(flow, n[SMALL])
+    return loss(n, g, density, flow) + n[BENDS] * density * flow * magnitude_within(flow, n[SMALL])
 
 
 @called(Phase.FLOWS)
@@ -75,7 +67,8 @@ def apply(machine, number, t):
         stored = 0.5 * mass_flow * mass_flow / (n[SLENDER] * n[DENSITY])
         circuit.stored[0] += stored
         record.control.stored[0] += stored
-        lose(machine, transfer(machine, a, b, mass_flow) - mass_flow * driving / n[DENSITY])
+        power = transfer(machine, a, b, mass_flow) - mass_flow * driving / n[DENSITY]
+        lose_between(machine, a, b, mass_flow, power)
         record.outputs.value[index[OUTPUT]] = flow
     return OK
 
@@ -91,8 +84,7 @@ def add_slopes(machine, number, t):
         a, b = index[FROM], index[TO]
         density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
         flow = value[index[OUTPUT]]
-        sixth = (flow / (n[CRITICAL] * g)) ** 6
-        steady = n[RESISTANCE] * g * (1.0 + sixth) ** 0.125 * (1.0 + 0.75 * sixth / (1.0 + sixth))
+        steady = slope_of_loss(n, g, flow)
         steady += 2.0 * n[BENDS] * magnitude_within(flow, n[SMALL])
         own = tangent.unknown[index[STATE]]
         row = tangent.slopes[own]

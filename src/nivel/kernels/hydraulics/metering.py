@@ -17,7 +17,8 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import root_flow
-from nivel.kernels.hydraulics.transfer import lose, transfer
+from nivel.kernels.hydraulics.transfer import lose_between, transfer
+from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.function import table_value
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -90,8 +91,9 @@ def apply(machine, number, t):
             rise = rise_of_conductance(functions, index, n, real(u), real(difference))
             way = rise if real(difference) >= 0.0 else -rise
             conductance = conductance + way * (difference - real(difference))
-        flow = conductance * root_flow(difference, n[CORNER], secant) + n[LEAK] * difference
-        lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
+        flow = conductance * root_flow(difference, n[CORNER], secant) + n[LEAK] / thickness(circuit, a, b) * difference
+        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
         record.outputs.value[index[OUTPUT]] = flow
         if index[SPEED] != NONE:
             elements.state_rate[index[SPEED]] += n[FORCE] * flow * root_flow(difference, n[CORNER], 0)
@@ -111,7 +113,7 @@ def add_slopes(machine, number, t):
         through = density / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
         u = record.outputs.value[index[POSITION]]
         conductance, slope = conductance_at(functions, index, n, u, difference)
-        by_pressure = through * conductance + density * n[LEAK]
+        by_pressure = through * conductance + density * n[LEAK] / thickness(circuit, a, b)
         if by_pressure != 0.0:
             add_flow_by_pressure(circuit, a, b, a, by_pressure)
             add_flow_by_pressure(circuit, a, b, b, -by_pressure)

@@ -1,8 +1,9 @@
-"""Losses of round pipes, laminar and turbulent in one formula, and the inertia of the fluid in them.
+"""Losses of round pipes, laminar and turbulent in one formula.
 
-    Δp = R Q (1 + (Q/Q_c)⁶)^(1/8)        R = 128 ν ρ L/(π d⁴)
+    Δp = g R Q (1 + (Q/(g Q_c))⁶)^(1/8)        R = 128 ν ρ L/(π d⁴)
 
-which is Hagen and Poiseuille's law for Q ≪ Q_c and Blasius's, Δp ~ Q^(7/4), for Q ≫ Q_c; both meet at Reynolds' number 1187, Q_c.
+g is the growth of the viscosity with pressure and temperature (`nivel.kernels.hydraulics.viscosity`). The law is Hagen and Poiseuille's law for Q ≪ Q_c and Blasius's, Δp ~ Q^(7/4), for Q ≫ Q_c; both meet at Reynolds' number 1187,
+Q_c. Pipes with inertia are lines (`nivel.kernels.hydraulics.line`).
 """
 
 from __future__ import annotations
@@ -12,25 +13,33 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
-from nivel.kernels.hydraulics.transfer import lose, transfer
+from nivel.kernels.hydraulics.slopes import add_flow_by_pressure
+from nivel.kernels.hydraulics.transfer import lose_between, transfer
+from nivel.kernels.hydraulics.viscosity import thickening
 from nivel.kernels.record.hook import family
-from nivel.kernels.record.record import NONE, record_at
+from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
 
-# columns of `columns`; STATE: of the mass flow, or NONE. Output: flow [m³/s]
-OUTPUT, FROM, TO, STATE = 0, 1, 2, 3
-# columns of `number`: R over ρ [1/(m s²)·m³/s], Q_c [m³/s], area over length [m], density of the kinetic energy [kg/m³]
-RESISTANCE, CRITICAL, SLENDER, DENSITY = 0, 1, 2, 3
+# columns of `columns`. Output: flow [m³/s]
+OUTPUT, FROM, TO = 0, 1, 2
+# columns of `number`: R over ρ [1/(m s²)·m³/s], Q_c [m³/s]
+RESISTANCE, CRITICAL = 0, 1
 MOST = 50
 
 
 @leaf
-def loss(n, density, flow):
-    """Δp [Pa] of the volume flow."""
-    ratio = flow / n[CRITICAL]
+def loss(n, g, density, flow):
+    """Δp [Pa] of the volume flow; g is the growth of the viscosity."""
+    ratio = flow / (n[CRITICAL] * g)
     square = ratio * ratio
-    return n[RESISTANCE] * density * flow * np.sqrt(np.sqrt(np.sqrt(1.0 + square * square * square)))
+    return n[RESISTANCE] * g * density * flow * np.sqrt(np.sqrt(np.sqrt(1.0 + square * square * square)))
+
+
+@leaf
+def slope_of_loss(n, g, flow):
+    """∂Δp/∂Q over the density."""
+    sixth = (flow / (n[CRITICAL] * g)) ** 6
+    return n[RESISTANCE] * g * (1.0 + sixth) ** 0.125 * (1.0 + 0.75 * sixth / (1.0 + sixth))
 
 
 @leaf
@@ -51,54 +60,35 @@ def flow_ratio(y):
 @called(Phase.FLOWS)
 @family
 def apply(machine, number, t):
-    """Flows through pipes; with inertia they are states, L/A d(ṁ)/dt = p_a - p_b - Δp."""
+    """Flows through pipes without inertia."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         a, b = index[FROM], index[TO]
-        density = 0.5 * (circuit.density[a] + circuit.density[b])
+        density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
         difference = circuit.pressure[a] - circuit.pressure[b]
-        if index[STATE] == NONE:
-            scale = n[RESISTANCE] * density * n[CRITICAL]
-            found = flow_ratio(real(difference) / real(scale)) * real(n[CRITICAL])
-            resistance = loss(n, density, found + 0.0 * difference)
-            sixth = (found / real(n[CRITICAL])) ** 6
-            slope = real(n[RESISTANCE]) * real(density) * (1.0 + sixth) ** 0.125 * (1.0 + 0.75 * sixth / (1.0 + sixth))
-            flow = found + (difference - resistance) / slope
-            lose(machine, transfer(machine, a, b, density * flow))
-        else:
-            mass_flow = elements.state[index[STATE]]
-            flow = mass_flow / density
-            driving = difference - loss(n, density, flow)
-            elements.state_rate[index[STATE]] += n[SLENDER] * driving
-            stored = 0.5 * mass_flow * mass_flow / (n[SLENDER] * n[DENSITY])
-            circuit.stored[0] += stored
-            record.control.stored[0] += stored
-            lose(machine, transfer(machine, a, b, mass_flow) - mass_flow * driving / n[DENSITY])
+        critical = real(n[CRITICAL]) * real(g)
+        scale = real(n[RESISTANCE]) * real(g) * real(density) * critical
+        found = flow_ratio(real(difference) / scale) * critical
+        resistance = loss(n, g, density, found + 0.0 * difference)
+        flow = found + (difference - resistance) / (real(density) * slope_of_loss(n, real(g), found))
+        mass_flow = density * flow
+        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
         record.outputs.value[index[OUTPUT]] = flow
     return OK
 
 
 @leaf
 def add_slopes(machine, number):
-    """Slopes of flows through pipes, those with pressures as secants."""
+    """Slopes of flows through pipes, as secants."""
     record = record_at(machine)
     elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    tangent = circuit.tangent
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         a, b = index[FROM], index[TO]
-        density = 0.5 * (circuit.density[a] + circuit.density[b])
-        sixth = (value[index[OUTPUT]] / n[CRITICAL]) ** 6
-        secant = n[RESISTANCE] * density * (1.0 + sixth) ** 0.125
-        if index[STATE] == NONE:
-            add_flow_by_pressure(circuit, a, b, a, density / secant)
-            add_flow_by_pressure(circuit, a, b, b, -density / secant)
-        else:
-            own = tangent.unknown[index[STATE]]
-            row = tangent.slopes[own]
-            add_by_pressure(circuit, row, a, n[SLENDER])
-            add_by_pressure(circuit, row, b, -n[SLENDER])
-            row[own] -= n[SLENDER] * secant * (1.0 + 0.75 * sixth / (1.0 + sixth)) / density
-            add_flow_by_column(circuit, a, b, own, 1.0)
+        g = thickening(circuit, a, b)
+        sixth = (value[index[OUTPUT]] / (n[CRITICAL] * g)) ** 6
+        secant = n[RESISTANCE] * g * (1.0 + sixth) ** 0.125
+        add_flow_by_pressure(circuit, a, b, a, 1.0 / secant)
+        add_flow_by_pressure(circuit, a, b, b, -1.0 / secant)

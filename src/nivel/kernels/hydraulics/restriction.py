@@ -15,7 +15,8 @@ from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, root_flow, slope_of_step, step
 from nivel.kernels.hydraulics.spool import FIRST_FACTOR, FIRST_NODE, NODES, clipped, slope_of_poppet
-from nivel.kernels.hydraulics.transfer import lose, transfer
+from nivel.kernels.hydraulics.transfer import lose_between, transfer
+from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -63,8 +64,9 @@ def apply(machine, number, t):
         a, b = index[FROM], index[TO]
         difference = circuit.pressure[a] - circuit.pressure[b]
         opening = opening_of(machine, index, n, t)
-        flow = n[FLOW] * opening * root_flow(difference, n[CORNER], secant) + n[LEAK] * difference
-        lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
+        flow = n[FLOW] * opening * root_flow(difference, n[CORNER], secant) + n[LEAK] / thickness(circuit, a, b) * difference
+        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
         record.outputs.value[index[OUTPUT]] = flow
     return OK
 
@@ -94,7 +96,7 @@ def add_slopes(machine, number, t):
         difference = circuit.pressure[a] - circuit.pressure[b]
         density = 0.5 * (circuit.density[a] + circuit.density[b])
         through = n[FLOW] / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
-        conductance = density * (through * opening_of(machine, index, n, t) + n[LEAK])
+        conductance = density * (through * opening_of(machine, index, n, t) + n[LEAK] / thickness(circuit, a, b))
         if conductance != 0.0:
             add_flow_by_pressure(circuit, a, b, a, conductance)
             add_flow_by_pressure(circuit, a, b, b, -conductance)

@@ -21,7 +21,8 @@ from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, slope_of_step, step
 from nivel.kernels.hydraulics.spool import clipped
-from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose, transfer
+from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose_between, transfer
+from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -97,13 +98,13 @@ def turn(machine, number, t):
         taken = sign_within(omega * value[out + SETTING], SLOW)
         density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
         difference = circuit.pressure[b] - circuit.pressure[a]
-        leak = n[LEAK] * difference
+        leak = n[LEAK] / thickness(circuit, a, b) * difference
         flow = density * displaced - mean * leak
         torque = swept * difference + n[VISCOUS] * omega
         dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
         torque += dry * sign_within(omega, SLOW)
         power = torque * omega
-        lose(machine, power + transfer(machine, a, b, flow))
+        lose_between(machine, a, b, flow, power + transfer(machine, a, b, flow))
         if index[SPEED] == NONE:
             add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
             circuit.power[DELIVERED] -= power
@@ -172,8 +173,9 @@ def add_slopes(machine, number, t):
         mean = 0.5 * (circuit.density[a] + circuit.density[b])
         taken = sign_within(omega * value[setting], SLOW)
         density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
-        add_flow_by_pressure(circuit, a, b, a, mean * n[LEAK])
-        add_flow_by_pressure(circuit, a, b, b, -mean * n[LEAK])
+        leak = mean * n[LEAK] / thickness(circuit, a, b)
+        add_flow_by_pressure(circuit, a, b, a, leak)
+        add_flow_by_pressure(circuit, a, b, b, -leak)
         if tangent.source[setting, 0] != NONE:
             add_flow_by_column(circuit, a, b, tangent.source[setting, 0], density * full * omega)
         if index[SPEED] != NONE:

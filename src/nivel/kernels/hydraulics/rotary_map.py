@@ -33,7 +33,8 @@ from nivel.kernels.hydraulics.rotary import (
 )
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within
-from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose, transfer
+from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose_between, transfer
+from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
@@ -95,11 +96,11 @@ def lose_by_map(machine, number, t):
         size = magnitude_within(difference, SMALL)
         speed, setting = magnitude_within(omega, SLOW), magnitude_within(value[out + SETTING], 1e-6)
         conductance, share = coefficients_at(machine, index, speed, size, setting)
-        leak = conductance * difference
+        leak = conductance / thickness(circuit, a, b) * difference
         torque = share * n[DISPLACEMENT] * size * sign_within(omega, SLOW)
         power = torque * omega
         flow = 0.5 * (circuit.density[a] + circuit.density[b]) * leak
-        lose(machine, power + transfer(machine, b, a, flow))
+        lose_between(machine, b, a, flow, power + transfer(machine, b, a, flow))
         if index[SPEED] == NONE:
             add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
             circuit.power[DELIVERED] -= power
@@ -126,7 +127,7 @@ def add_slopes(machine, number, t):
         size = magnitude_within(difference, SMALL)
         speed, setting = magnitude_within(omega, SLOW), magnitude_within(value[index[OUTPUT] + SETTING], 1e-6)
         conductance, share = coefficients_at(machine, index, speed, size, setting)
-        slope = 0.5 * (circuit.density[a] + circuit.density[b]) * conductance
+        slope = 0.5 * (circuit.density[a] + circuit.density[b]) * conductance / thickness(circuit, a, b)
         add_flow_by_pressure(circuit, a, b, a, slope)
         add_flow_by_pressure(circuit, a, b, b, -slope)
         if index[SPEED] == NONE:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from nivel.kernels.hydraulics import load_signal, pipe, piston, restriction, rotary, spool
 from nivel.kernels.hydraulics.fluid import DENSITY
-from nivel.kernels.hydraulics.volume import GIVE, MASS, RATE, VALUE
+from nivel.kernels.hydraulics.volume import GIVE, MASS, RATE
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
@@ -33,7 +33,7 @@ def softness(circuit, node):
 @leaf
 def slope_by_mass(circuit, node):
     """∂p/∂m [Pa/kg] of a volume, for its mass and room last evaluated."""
-    return circuit.known[node, VALUE] / circuit.fluid[circuit.node[node, 0], DENSITY] * softness(circuit, node)
+    return softness(circuit, node) / circuit.density[node]
 
 
 @leaf

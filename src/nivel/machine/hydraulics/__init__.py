@@ -17,12 +17,13 @@ from nivel.machine.hydraulics.actuators import (
     TelescopicCylinder,
 )
 from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.cooler import Cooler
 from nivel.machine.hydraulics.directional import DirectionalValve
 from nivel.machine.hydraulics.flow_valves import FlowControl, FlowDivider, PriorityValve, ShuttleValve
 from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
 from nivel.machine.hydraulics.machines import Engine, FlowSource, HydraulicMotor, Pump
 from nivel.machine.hydraulics.maps import HoseExpansion
-from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
+from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Reservoir, Tank, Volume
 from nivel.machine.hydraulics.pneumatic_valves import QuickExhaust, SoftStart
 from nivel.machine.hydraulics.pressure_valves import (
     BrakeValve,
@@ -48,11 +49,13 @@ from nivel.machine.hydraulics.valves import (
 COMPONENTS: list[type[Component]] = [
     Volume,
     Tank,
+    Reservoir,
     Accumulator,
     LoadSensing,
     Orifice,
     Pipe,
     Line,
+    Cooler,
     CheckValve,
     ReliefValve,
     CounterbalanceValve,
@@ -118,6 +121,7 @@ __all__ = [
     "CheckValve",
     "Compensator",
     "Component",
+    "Cooler",
     "CounterbalanceValve",
     "CrossPortRelief",
     "Cushion",
@@ -146,6 +150,7 @@ __all__ = [
     "QuickExhaust",
     "ReducingValve",
     "ReliefValve",
+    "Reservoir",
     "RotaryActuator",
     "Section",
     "SequenceValve",

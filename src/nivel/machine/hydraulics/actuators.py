@@ -84,7 +84,7 @@ class Actuator(Component):
         default=None, description="as of a volume, of dead volumes with their hoses", usual=WALL_MODULUS
     )
     heat_conductance: Maybe[ThermalConductance] = Field(
-        default=None, description="of gases: of the walls of each chamber; default: none"
+        default=None, description="of the walls of each chamber, as of a volume"
     )
     start_A: Maybe[Pressure] = Field(
         default=None, description="pressure in A at the start; default: what carries the load", usual=PRESSURE

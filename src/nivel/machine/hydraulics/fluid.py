@@ -12,10 +12,12 @@ from pydantic_core import CoreSchema
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Exponent,
+    HeatCapacity,
     NotNegative,
     NotNegativeNumber,
     Pressure,
     Temperature,
+    ThermalExpansion,
     Truth,
     Viscosity,
 )
@@ -24,7 +26,9 @@ from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.hydraulics.grades import GRADES, Liquid
 from nivel.machine.hydraulics.usual import (
     BULK_MODULUS,
+    EXPANSION,
     GAS_DENSITY,
+    HEAT_CAPACITY,
     LIQUID_DENSITY,
     PRESSURE,
     TEMPERATURE,
@@ -57,7 +61,7 @@ class Fluid(Checked):
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
     grade: GradeName | None = Field(default=None, description="a fluid by name; values that are given override its own")
     temperature: Temperature = Field(
-        default=OF_CONSTANTS, description="at which a `grade` has its constants", usual=TEMPERATURE
+        default=OF_CONSTANTS, description="at which a `grade` has its constants, and that of the start", usual=TEMPERATURE
     )
     density: Maybe[Density] = Field(
         default=None, description="of the liquid at atmospheric pressure; default 870 kg/m³", usual=LIQUID_DENSITY
@@ -86,6 +90,19 @@ class Fluid(Checked):
         default=None, description="of lines: Barus's α in 1/Pa, with which the viscosity grows as exp(α p); default 0"
     )
 
+    isothermal: Truth = Field(
+        default=True, description="whether it keeps its `temperature`; false: that of every volume is a state, of a `grade`"
+    )
+    heat_capacity: Maybe[HeatCapacity] = Field(
+        default=None, description="of a liquid that is not isothermal; default: that of its grade", usual=HEAT_CAPACITY
+    )
+    expansion: Maybe[ThermalExpansion] = Field(
+        default=None, description="thermal one, of a liquid that is not isothermal; default: that of its grade", usual=EXPANSION
+    )
+    surroundings: Maybe[Temperature] = Field(
+        default=None, description="temperature around walls of a liquid that is not isothermal; default 293.15 K", usual=TEMPERATURE
+    )
+
     @property
     def liquid(self) -> Liquid:
         """What is given, then what the grade says, then the defaults."""
@@ -111,6 +128,13 @@ class Fluid(Checked):
         if self.grade is not None and not COLDEST <= self.temperature <= HOTTEST:
             asked = f"a temperature from {COLDEST:g} to {HOTTEST:g} K was expected, got {self.temperature:g} K"
             yield Problem(("temperature",), f"{asked}; 20 °C are 293.15 K")
+        if not self.isothermal and self.grade is None:
+            told = "a liquid whose temperature changes needs a `grade`, which has its viscosity over the temperature"
+            yield Problem(("isothermal",), f"{told}; write for example `grade: HLP 46`")
+        if self.isothermal:
+            for name in ("heat_capacity", "expansion", "surroundings"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "belongs to a liquid whose temperature changes; write `isothermal: false` too")
         if not (self.air == 0.0 or LEAST_AIR <= self.air <= MOST_AIR):
             asked = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume, or 0, was expected, got {self.air:g}"
             yield Problem(("air",), asked)

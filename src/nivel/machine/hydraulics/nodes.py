@@ -8,19 +8,20 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Exponent, Pressure, Share, Temperature, ThermalConductance, VolumeFlow
+from nivel.machine.core.coefficient import Exponent, Pressure, Share, Temperature, ThermalConductance, Truth, VolumeFlow
 from nivel.machine.core.coefficient import Volume as VolumeSize
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.hydraulics.maps import VolumeExpansion
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, TEMPERATURE, VOLUME, WALL_MODULUS
+from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, TANK_HEIGHT, TEMPERATURE, VOLUME, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.quantity import Duration, listed
+from nivel.machine.units.quantity import Duration, PositiveLength, listed
 
 ATMOSPHERE = 101325.0  # Pa
 ROOM = 293.15  # K
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
+VaryingTemperature = Annotated[OneFunction, varying("temperature")]
 
 
 class Volume(Component):
@@ -41,7 +42,8 @@ class Volume(Component):
         default=None, description="growth of the volume over the pressure, of a hose, in place of `wall_modulus`"
     )
     heat_conductance: Maybe[ThermalConductance] = Field(
-        default=None, description="of gases: heat through the walls over the difference of temperature; default: none"
+        default=None,
+        description="of gases, and of liquids that are not isothermal: heat through the walls over the difference of temperature; default: none",
     )
     start: Maybe[Pressure] = Field(
         default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
@@ -55,15 +57,18 @@ class Volume(Component):
 
 
 class Tank(Component):
-    """A node of given pressure: a tank, or a supply that holds its pressure whatever flows."""
+    """A node of given pressure: a tank, or a supply that holds its pressure whatever flows, and its temperature."""
 
     nodes: ClassVar[tuple[str, ...]] = ("",)
-    functions: ClassVar[tuple[str, ...]] = ("pressure",)
+    functions: ClassVar[tuple[str, ...]] = ("pressure", "temperature")
     early: ClassVar[tuple[str, ...]] = ("pressure",)
     gases: ClassVar[bool] = True
 
     type: Literal["tank"] = "tank"
     pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute", usual=PRESSURE)
+    temperature: Maybe[VaryingTemperature] = Field(
+        default=None, description="of a liquid that is not isothermal; default: that of the fluid", usual=TEMPERATURE
+    )
     fluid: Name | None = Field(default=None, description="default: the only one")
 
     def problems(self) -> Iterator[Problem]:
@@ -71,6 +76,47 @@ class Tank(Component):
         if isinstance(self.pressure, float | int) and self.pressure <= 0.0:
             told = f"pressures are absolute: one greater than zero was expected, got {self.pressure:g} Pa"
             yield Problem(("pressure",), f"{told}; the air has 1.01325 bar")
+
+
+class Reservoir(Component):
+    """A tank of liquid with a level, below air that is open to the atmosphere or closed in."""
+
+    nodes: ClassVar[tuple[str, ...]] = ("",)
+    early: ClassVar[tuple[str, ...]] = ("pressure", "level", "oil", "temperature")
+
+    type: Literal["reservoir"] = "reservoir"
+    volume: VolumeSize = Field(description="of liquid and air", usual=VOLUME)
+    oil: VolumeSize = Field(description="volume of the liquid at the start", usual=VOLUME)
+    height: Maybe[PositiveLength] = Field(
+        default=None, description="of the tank, whose walls are upright; default: that of a cube", usual=TANK_HEIGHT
+    )
+    closed: Truth = Field(default=False, description="whether its air is closed in; else it comes and goes")
+    start: Maybe[Pressure] = Field(
+        default=None, description="pressure of the air at the start, absolute; default: that of the atmosphere", usual=PRESSURE
+    )
+    gas_exponent: Maybe[Exponent] = Field(default=None, description="polytropic exponent of air that is closed in; default 1")
+    heat_conductance: Maybe[ThermalConductance] = Field(default=None, description="as of a volume")
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+    @property
+    def pressure(self) -> float:
+        """[Pa] of the air at the start."""
+        return self.start or ATMOSPHERE
+
+    @property
+    def area(self) -> float:
+        """[m²] of the surface of the liquid."""
+        return self.volume / (self.height or self.volume ** (1.0 / 3.0))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if not self.oil < self.volume:
+            told = f"less than the `volume` of {self.volume:g} m^3 was expected, got {self.oil:g} m^3"
+            yield Problem(("oil",), f"{told}; above the liquid is air")
+        if not self.closed:
+            for name in ("start", "gas_exponent"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "belongs to air that is closed in; write `closed: true` too")
 
 
 class Accumulator(Component):

@@ -24,6 +24,7 @@ START: Final = "hydraulics."
 ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "orifice": {"flow": ("A", "B")},
     "pipe": {"flow": ("A", "B")},
+    "cooler": {"flow": ("A", "B")},
     "accumulator": {"flow": ("A", "")},
     "check-valve": {"flow": ("A", "B")},
     "relief-valve": {"flow": ("P", "T")},

@@ -16,7 +16,7 @@ from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]
 ROOM = FIRST_POINT + 2 * MOST_POINTS  # columns of `Circuit.room`
-FLUID = 14  # columns of `Circuit.fluid`
+FLUID = 21  # columns of `Circuit.fluid`
 
 
 def filled_room(room: Sequence[float]) -> list[float]:
@@ -72,7 +72,7 @@ class Node:
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
     owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
-    walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
+    warmth : state of the temperature of a liquid, or NONE. walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
     """
 
     name: str
@@ -86,6 +86,7 @@ class Node:
     output: int
     gas: bool = False
     energy: int = NONE
+    warmth: int = NONE
     walls: float = 0.0
     quantity: str = "pressure"
 
@@ -102,7 +103,7 @@ class Node:
     @property
     def states(self) -> frozenset[int]:
         """Numbers of its states."""
-        return frozenset({self.state, self.energy} - {NONE})
+        return frozenset({self.state, self.energy, self.warmth} - {NONE})
 
 
 @dataclass
@@ -126,9 +127,9 @@ class CircuitTable:
         def work() -> Array:
             return np.zeros(count)
 
-        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy) for node in nodes]
+        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy, node.warmth) for node in nodes]
         return Circuit(
-            node=index_array(flowing, 3),
+            node=index_array(flowing, 4),
             fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), FLUID),
             room=np.array([filled_room(node.room) for node in nodes], dtype=float).reshape(count, ROOM),
             secant=np.zeros(1, dtype=np.uint32),
@@ -141,7 +142,7 @@ class CircuitTable:
             density=work(),
             enthalpy=work(),
             temperature=work(),
-            inflow=work(),
+            inflow=np.zeros(2 * count),
             power=np.zeros(4),
             stored=np.zeros(1),
             tangent=no_tangent(),

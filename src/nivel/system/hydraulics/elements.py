@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from typing import Final
 
-from nivel.kernels.hydraulics import gas, gas_flow, ledger, volume
+from nivel.kernels.hydraulics import gas, gas_flow, ledger, volume, warmth
+from nivel.kernels.hydraulics.fluid import START
 from nivel.kernels.hydraulics.phase import PHASES
 from nivel.kernels.record.hook import Family
-from nivel.machine.hydraulics import Component, Engine, Gas, LoadSensing, Tank
+from nivel.machine.hydraulics import Component, Engine, Fluid, Gas, LoadSensing, Tank
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics.components import COMPONENTS
-from nivel.system.hydraulics.nodes import add_fluids, add_nodes
+from nivel.system.hydraulics.nodes import add_fluids, add_nodes, is_warm
 from nivel.system.located import located
 from nivel.system.signals.state_facts import StateFact
 
 OF_NODES: Final = (ledger.begin, volume.apply, ledger.apply)  # of every circuit
+OF_WARMTH: Final = (warmth.apply, warmth.warm)  # of liquids whose temperature is a state, before the ledger
 OF_GASES: Final = (gas.apply, gas_flow.apply)
 LEDGER: Final = {
     "supplied": ("J", "energy that shafts and tanks gave to fluids"),
@@ -28,7 +30,7 @@ LEDGER: Final = {
 def families() -> list[Family]:
     """All kernels of circuits, in the order of an evaluation."""
     of_kinds = (family for kind in COMPONENTS.values() for family in kind.families)
-    return sorted(dict.fromkeys((*OF_NODES, *OF_GASES, *of_kinds)), key=PHASES.__getitem__)
+    return sorted(dict.fromkeys((*OF_WARMTH, *OF_NODES, *OF_GASES, *of_kinds)), key=PHASES.__getitem__)
 
 
 def sensed_and_acting() -> tuple[list[Family], list[Family]]:
@@ -44,6 +46,8 @@ def families_of(machine: MachineRecord) -> list[Family]:
     needed = {*OF_NODES, *(family for each in machine.hydraulics for family in COMPONENTS[each.type].families)}
     if any(isinstance(fluid, Gas) for fluid in machine.fluids):
         needed.update(OF_GASES)
+    if any(isinstance(fluid, Fluid) and not fluid.isothermal for fluid in machine.fluids):
+        needed.update(OF_WARMTH)
     return [family for family in families() if family in needed]
 
 
@@ -88,14 +92,23 @@ def _add_pressures(builder: SystemBuilder) -> None:
     builder.elements.add(ledger.begin, [])
     given = {each.name: each for each in builder.machine.hydraulics if isinstance(each, Tank)}
     for k, node in enumerate(builder.circuit.nodes.values()):
-        function = 0
+        function, temperature = 0, 0
         if node.kind == volume.GIVEN:
             with located(f"hydraulics.{node.owner}.pressure"), builder.noting():
                 function = builder.function(given[node.owner].pressure)
+            if is_warm(builder, node.fluid):
+                with located(f"hydraulics.{node.owner}.temperature"), builder.noting():
+                    known = given[node.owner].temperature
+                    temperature = builder.function(builder.circuit.fluids[node.fluid][START] if known is None else known)
         if node.gas:
             builder.elements.add(
                 gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls]
             )
+        elif is_warm(builder, node.fluid) and node.kind != volume.SIGNAL:
+            columns = [node.output, k, node.kind, node.state, function, temperature]
+            builder.elements.add(warmth.apply, columns)
+            if node.is_volume:
+                builder.elements.add(warmth.warm, columns, [node.walls])
         else:
             builder.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
 

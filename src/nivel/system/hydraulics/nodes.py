@@ -8,7 +8,7 @@ from typing import Any
 
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.hydraulics import volume
-from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.fluid import ATMOSPHERE, HEAT_CAPACITY, START
 from nivel.kernels.hydraulics.piston import STAGES, displace, guide, press
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Ends
@@ -22,6 +22,7 @@ from nivel.machine.hydraulics import (
     HydraulicCylinder,
     Line,
     LoadSensing,
+    Reservoir,
     RotaryActuator,
     Tank,
     TelescopicCylinder,
@@ -29,10 +30,12 @@ from nivel.machine.hydraulics import (
 )
 from nivel.machine.hydraulics.actuators import DEAD_SHARE, PistonFriction
 from nivel.machine.hydraulics.fluid import OIL, REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
+from nivel.machine.hydraulics.grades import GRADES
+from nivel.machine.hydraulics.nodes import ROOM
 from nivel.machine.uses.hydraulic_uses import makers
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.restitution import damping_of_restitution
-from nivel.system.hydraulics.circuit import Node
+from nivel.system.hydraulics.circuit import FLUID, Node
 from nivel.system.hydraulics.fluid_law import density_and_modulus
 from nivel.system.located import located
 from nivel.system.signals.state_facts import Coupled, StateFact
@@ -40,6 +43,8 @@ from nivel.system.signals.state_facts import Coupled, StateFact
 # pressure that the tolerance is a share of [Pa], and that masses start from until the circuit is at rest
 TYPICAL = 1e7
 TYPICAL_OF_GAS = 5e5
+# share of a closed reservoir that oil fills in any case; pressure by which the air of an open one gives way [Pa]
+LEAST_OIL, OPEN = 1e-3, 1e-3
 Swept = dict[str, float]  # what pistons leave open in each node at half their strokes [m³]
 NodeMaker = Callable[[SystemBuilder, Any, Swept], Iterator[Node]]
 NO_GAS = (0.0, 0.0, 0.0, 0.0)  # constants of gases, of a liquid
@@ -59,11 +64,21 @@ def fluid_constants(fluid: Fluid | Gas) -> tuple[float, ...]:
         density = ATMOSPHERE / (fluid.gas_constant * fluid.temperature)
         reference = REFERENCE_PRESSURE / (fluid.gas_constant * math.sqrt(REFERENCE_TEMPERATURE))
         of_gas = (fluid.gas_constant, fluid.heat_capacity_ratio, fluid.temperature, reference)
-        return (1.0, ATMOSPHERE, 0.0, 1.0, density, 0.0, *of_gas, 0.0, 0.0, 0.0, 0.0)
+        return (1.0, ATMOSPHERE, 0.0, 1.0, density, 0.0, *of_gas, *[0.0] * (FLUID - 10))
     liquid = fluid.liquid
     of_liquid = (fluid.air, liquid.bulk_modulus, liquid.bulk_modulus_slope, fluid.gas_exponent)
     released = (fluid.dissolved_air, fluid.saturation_pressure, fluid.least_pressure, liquid.pressure_viscosity)
-    return (*of_liquid, fluid.mixed_density, liquid.viscosity, *NO_GAS, *released)
+    return (*of_liquid, fluid.mixed_density, liquid.viscosity, *NO_GAS, *released, *_constants_of_warmth(fluid))
+
+
+def _constants_of_warmth(fluid: Fluid) -> tuple[float, ...]:
+    """HEAT_CAPACITY … AROUND of a liquid. Air that is in it has its temperature, and no heat capacity."""
+    start = fluid.temperature
+    if fluid.isothermal or fluid.grade is None:
+        return (0.0, 0.0, start, 0.0, 0.0, 1.0, start)
+    grade, liquid = GRADES[fluid.grade], fluid.liquid
+    walther = (*grade.walther, 1e-6 / grade.viscosity(start))
+    return (liquid.heat_capacity, liquid.expansion, start, *walther, fluid.surroundings or ROOM)
 
 
 def add_nodes(builder: SystemBuilder, makers: Mapping[str, NodeMaker]) -> None:
@@ -147,8 +162,20 @@ def tank_nodes(builder: SystemBuilder, component: Tank, _: Swept) -> Iterator[No
     """A node of given pressure."""
     fluid, name = _fluid(builder, component), component.name
     gas = _gas(builder, fluid) is not None
-    output = _pressure_output(builder, name, "pressure", gas)
+    output = _pressure_output(builder, name, "pressure", "temperature" if gas or is_warm(builder, fluid) else "")
     yield Node(name, volume.GIVEN, fluid, NONE, RIGID, 0.0, None, name, output, gas)
+
+
+def reservoir_nodes(builder: SystemBuilder, component: Reservoir, swept: Swept) -> Iterator[Node]:
+    """The liquid of a reservoir. Its room is the air: closed in, the gas of an accumulator that would be empty at `pressure`; that of an
+    open one gives way within OPEN of the pressure."""
+    air = component.volume - component.oil
+    if component.closed:
+        exponent, gas = component.gas_exponent or 1.0, (1.0 - LEAST_OIL) * component.volume
+        room = (component.volume - gas, 0.0, gas, component.pressure * (air / gas) ** exponent, exponent)
+    else:
+        room = (component.oil, component.volume / OPEN, *NO_ACCUMULATOR)
+    yield _volume(builder, component, component.name, "", room, component.pressure, swept)
 
 
 def signal_nodes(builder: SystemBuilder, component: LoadSensing, _: Swept) -> Iterator[Node]:
@@ -218,7 +245,9 @@ def _volume(
         scale=scale,
         relative=False,
     )
-    output = _pressure_output(builder, component.name, f"pressure{ending}", gas is not None)
+    warmer = isinstance(component, Reservoir) or gas is not None or is_warm(builder, fluid)
+    named = "oil_temperature" if isinstance(component, Accumulator) else f"temperature{ending}"
+    output = _pressure_output(builder, component.name, f"pressure{ending}", named if warmer else "")
     state, energy, walls = builder.own_state(fact), NONE, getattr(component, "heat_conductance", None) or 0.0
     if gas is not None and not gas.isothermal:
         inner = scale * gas.temperature * gas.gas_constant / (gas.heat_capacity_ratio - 1.0)
@@ -226,6 +255,7 @@ def _volume(
         energy = builder.own_state(
             StateFact(f"{component.name}.energy{ending}", "J", words, inner, inner, relative=False)
         )
+    warmth = _add_warmth(builder, component, name, ending) if is_warm(builder, fluid) else NONE
     return Node(
         name,
         volume.VOLUME,
@@ -238,19 +268,33 @@ def _volume(
         output,
         gas=gas is not None,
         energy=energy,
+        warmth=warmth,
         walls=walls,
         quantity=f"pressure{ending}",
     )
 
 
-def _pressure_output(builder: SystemBuilder, name: str, quantity: str, gas: bool = False) -> int:
-    """Index of the pressure of a node, and of a gas of its temperature behind it."""
+def _add_warmth(builder: SystemBuilder, component: Component, node: str, ending: str) -> int:
+    """The state of the temperature of a liquid."""
+    words = f"temperature of the fluid in {node}, expanded to atmospheric pressure without heat"
+    start = builder.circuit.fluids[_fluid(builder, component)][START]
+    fact = StateFact(f"{component.name}.temperature{ending}", "K", words, start, start, relative=False)
+    return builder.own_state(fact)
+
+
+def is_warm(builder: SystemBuilder, fluid: int) -> bool:
+    """Whether the temperature of a liquid of this number is a state of its volumes."""
+    return builder.circuit.fluids[fluid][HEAT_CAPACITY] > 0.0
+
+
+def _pressure_output(builder: SystemBuilder, name: str, quantity: str, temperature: str = "") -> int:
+    """Index of the pressure of a node, and of its temperature behind it where that has a name."""
     words = quantity.replace("_", " in ", 1)
     first = (f"hydraulics.{name}.{quantity}", "Pa", f"{words} of {name}, absolute")
-    if not gas:
+    if not temperature:
         return builder.outputs.add(first)
-    second = f"hydraulics.{name}.{quantity.replace('pressure', 'temperature')}"
-    return builder.outputs.add(first, (second, "K", f"{words.replace('pressure', 'temperature')} of {name}"))
+    said = f"{temperature.replace('_', ' ')} of {name}"
+    return builder.outputs.add(first, (f"hydraulics.{name}.{temperature}", "K", said))
 
 
 def _gas(builder: SystemBuilder, fluid: int) -> Gas | None:

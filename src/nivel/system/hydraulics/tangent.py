@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics import piston, pump_control, rotary, spool, spool_drive, volume
+from nivel.kernels.hydraulics import piston, pump_control, rotary, spool, spool_drive, volume, warmth
 from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
@@ -34,7 +34,8 @@ COORDINATES: dict[Family, int] = {piston.guide: piston.COORDINATE, rotary.turn: 
 
 def slopes_by_family() -> dict[Family, int | Family]:
     """What adds the slopes of each family with derivatives by hand."""
-    return {family: adding for kind in COMPONENTS.values() for family, adding in (kind.slopes or {}).items()}
+    of_kinds = {family: adding for kind in COMPONENTS.values() for family, adding in (kind.slopes or {}).items()}
+    return {**of_kinds, warmth.warm: warmth.add_slopes}
 
 
 def slope_hooks(record: Record) -> int:

@@ -8,7 +8,6 @@ from nivel.kernels.hydraulics import line, pipe, restriction
 from nivel.kernels.hydraulics.fluid import DENSITY, MODULUS, VISCOSITY
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.kernels.hydraulics.tangent import PIPE, RESTRICT
-from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Line, Orifice, Pipe
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
@@ -59,13 +58,14 @@ def add_pipe(builder: SystemBuilder, component: Pipe) -> None:
     area = 0.25 * math.pi * d**2
     first = builder.outputs.add((f"hydraulics.{component.name}.flow", "m^3/s", f"flow of {component.name}"))
     critical = CRITICAL_REYNOLDS * viscosity * area / d
-    state = NONE
-    if component.inertia:
-        name = f"{component.name}.mass_flow"
-        state = builder.own_state(StateFact(name, "kg/s", f"mass flow of {component.name}", 0.0, density * critical))
     resistance = 128.0 * viscosity * component.length / (math.pi * d**4)
-    columns = [first, builder.node(ends[0]), builder.node(ends[1]), state]
-    builder.elements.add(pipe.apply, columns, [resistance, critical, area / component.length, density])
+    columns = [first, builder.node(ends[0]), builder.node(ends[1])]
+    if not component.inertia:
+        builder.elements.add(pipe.apply, columns, [resistance, critical])
+        return
+    fact = StateFact(f"{component.name}.mass_flow", "kg/s", f"mass flow of {component.name}", 0.0, density * critical)
+    without_bends = [resistance, critical, area / component.length, density, 0.0, 0.0, 0.0, 1e-3 * critical]
+    builder.elements.add(line.apply, [*columns, builder.own_state(fact), 0, 0], without_bends)
 
 
 def add_line(builder: SystemBuilder, component: Line) -> None:
@@ -107,5 +107,11 @@ def _friction_terms(component: Line, fluid: tuple[float, ...]) -> int:
 KINDS = (
     ComponentKind(Line, add_line, (line.apply,), symbols.pipe, {line.apply: line.add_slopes}, line_nodes),
     ComponentKind(Orifice, add_orifice, (restriction.apply,), symbols.orifice, {restriction.apply: RESTRICT}),
-    ComponentKind(Pipe, add_pipe, (pipe.apply,), symbols.pipe, {pipe.apply: PIPE}),
+    ComponentKind(
+        Pipe,
+        add_pipe,
+        (pipe.apply, line.apply),
+        symbols.pipe,
+        {pipe.apply: PIPE, line.apply: line.add_slopes},
+    ),
 )

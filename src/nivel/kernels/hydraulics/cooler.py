@@ -37,7 +37,8 @@ def apply(machine, number, t):
         a, b, flow = index[FROM], index[TO], value[index[FLOW]]
         up, down = (a, b) if real(flow) >= 0.0 else (b, a)
         capacity = circuit.fluid[circuit.node[a, 0], HEAT_CAPACITY]
-        rate = capacity * magnitude_within(circuit.density[up] * flow, STILL)
+        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+        rate = capacity * magnitude_within(mass_flow, STILL)
         units = evaluate_function(machine, index[CONDUCTANCE], t) / rate
         heat = rate * (1.0 - np.exp(-units)) * (circuit.temperature[up] - evaluate_function(machine, index[COOLANT], t))
         if circuit.node[down, WARMTH] != NONE:

@@ -119,7 +119,7 @@ def pressure_in(f, n, mass, volume, guess):
         else:
             high = p
         following = p - excess / (mass * slope / f[DENSITY] - give)
-        if not low < following < high:
+        if following != p and not low < following < high:
             following = 0.5 * (low + high) if high < np.inf else 2.0 * p
         change, p = np.abs(following - p), following
         if change <= EXACT * p:

@@ -4,9 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from circuits import BAR, PA, between, circuit, history, steady
 from nivel.errors import ModelError
+from nivel.kernels.hydraulics.nitrogen import gas_state
+from nivel.system.hydraulics.nitrogen_gas import density_at
 from simulating import slide, solid
 
 STIFF = {"oil": {"air": 0, "bulk_modulus": "25 GPa", "bulk_modulus_slope": 0}}
@@ -22,14 +25,14 @@ STORE = {
 }
 
 
-def filling():
+def filling(**store):
     """2 L go into the gas within 0.05 s, at first at 100 bar, and then it rests."""
     flow = {"of": "time", "times": [0, 0.001, 0.049, 0.05], "values": [0, "-2e-3/0.049", "-2e-3/0.049", 0]}
     hydraulics = {
         "tank": {"type": "tank"},
         "line": {"type": "volume", "volume": "1 cm^3"},
         "source": {"type": "flow-source", "ports": {"A": "line", "B": "tank"}, "flow": flow},
-        "store": {**STORE, "ports": {"A": "line"}, "start": "100 bar"},
+        "store": {**STORE, "ports": {"A": "line"}, "start": "100 bar", **store},
     }
     return circuit(hydraulics, fluids=STIFF)
 
@@ -144,3 +147,113 @@ def test_the_mean_of_liquids_passes_a_quick_exhaust_too():
     size = 40e-3 / 60 / math.sqrt(7 * BAR)
     assert filling == pytest.approx(size * 10 * BAR * ((10 * BAR) ** 2 + (0.5 * BAR) ** 2) ** -0.25, rel=1e-9)
     assert leaving == 0.0
+
+
+# p [bar] at T [K] and ρ [kg/m³] of the reference equation of Span, Lemmon, Jacobsen, Wagner and Yokozeki (2000), as NIST and CoolProp 8.0
+# compute it
+NITROGEN = {
+    (273.15, 60): 47.9047,
+    (273.15, 120): 95.7433,
+    (273.15, 220): 182.0747,
+    (273.15, 300): 265.9531,
+    (293.15, 60): 51.8910,
+    (293.15, 120): 104.6269,
+    (293.15, 220): 201.5485,
+    (293.15, 300): 296.7200,
+    (323.15, 60): 57.8525,
+    (323.15, 120): 117.8887,
+    (323.15, 220): 230.5715,
+    (373.15, 60): 67.7500,
+    (373.15, 120): 139.8527,
+    (373.15, 220): 278.5035,
+}
+KILOMOLE = 28.0134  # kg/kmol
+
+
+@pytest.mark.parametrize(("T", "rho"), NITROGEN)
+def test_nitrogen_is_within_one_per_cent_of_the_reference_equation(T, rho):
+    p = gas_state.py_func(rho / KILOMOLE, T)[0]
+    assert p == pytest.approx(NITROGEN[T, rho] * BAR, rel=0.01)
+
+
+def test_entropy_energy_and_heat_of_nitrogen_belong_to_its_pressure():
+    """∂u/∂ρ = (p - T ∂p/∂T)/ρ², ∂s/∂ρ = -∂p/∂T/ρ², ∂s/∂T = c_v/T, ∂u/∂T = c_v."""
+    rho, T, d = 8.0, 310.0, 1e-5
+    state = gas_state.py_func
+    p, by_density, by_heat, _, heat, _ = state(rho, T)
+    with_density = [
+        (a - b) / (2 * d * rho) for a, b in zip(state(rho * (1 + d), T), state(rho * (1 - d), T), strict=True)
+    ]
+    with_heat = [(a - b) / (2 * d * T) for a, b in zip(state(rho, T * (1 + d)), state(rho, T * (1 - d)), strict=True)]
+    assert by_density == pytest.approx(with_density[0], rel=1e-8)
+    assert by_heat == pytest.approx(with_heat[0], rel=1e-8)
+    assert with_density[5] == pytest.approx((p - T * by_heat) / rho**2, rel=1e-6)
+    assert with_density[3] == pytest.approx(-by_heat / rho**2, rel=1e-7)
+    assert with_heat[3] == pytest.approx(heat / T, rel=1e-7)
+    assert with_heat[5] == pytest.approx(heat, rel=1e-7)
+
+
+@pytest.fixture(scope="module")
+def nitrogen():
+    return filling(gas="nitrogen").simulate(duration=3.0, integrator="radau", tolerance=1e-8, output_interval=0.05)
+
+
+def test_nitrogen_is_compressed_and_cools_as_its_equation_says(nitrogen):
+    """dT/dt = (T₀ - T)/τ - T ∂p/∂T dv/dt/c_v (Otis and Pourmovahed 1985), by SciPy; 2 L go in within 0.05 s."""
+    state = gas_state.py_func
+    first = density_at(80 * BAR, 300.0)  # in 10 L
+    volume = 10e-3 * first / density_at(100 * BAR, 300.0)
+
+    def flow(t):
+        return float(np.interp(t, [0, 0.001, 0.049, 0.05], [0, 2e-3 / 0.049, 2e-3 / 0.049, 0]))
+
+    def rates(t, y):
+        rho = 10e-3 * first / y[0]
+        _, _, by_heat, _, heat, _ = state(rho, y[1])
+        return [-flow(t), (300 - y[1]) / 4.0 + y[1] * by_heat / heat * flow(t) / (10e-3 * first)]
+
+    t = np.asarray(nitrogen.time)
+    found = solve_ivp(rates, (0, 3.0), [volume, 300.0], method="Radau", t_eval=t, rtol=1e-9, atol=1e-9, max_step=0.01).y
+    assert history(nitrogen, "hydraulics.store.temperature") == pytest.approx(found[1], abs=0.01 * np.ptp(found[1]))
+    p = np.array([state(10e-3 * first / v, T)[0] for v, T in found.T])
+    assert history(nitrogen, "hydraulics.store.pressure")[2:] == pytest.approx(p[2:], rel=3e-3)
+    late = t > 0.1
+    falling = np.log((history(nitrogen, "hydraulics.store.temperature")[late] - 300.0))
+    assert np.diff(falling) == pytest.approx(-0.05 / 4.0, rel=2e-2)
+
+
+def test_the_energy_of_nitrogen_is_balanced(nitrogen):
+    assert abs(history(nitrogen, "energy_error")[-1]) < 1e-5 * np.max(history(nitrogen, "dissipated_energy"))
+
+
+def test_default_steps_follow_nitrogen(nitrogen):
+    result = filling(gas="nitrogen").simulate(duration=3.0, step=1e-3, output_interval=0.05)
+    known = history(nitrogen, "hydraulics.store.temperature")
+    assert history(result, "hydraulics.store.temperature") == pytest.approx(known, abs=0.01 * np.ptp(known))
+
+
+def test_a_piston_between_oil_and_gas_rubs():
+    """Slowly filled and emptied, the line is F above and below the gas."""
+    flow = {"of": "time", "times": [0, 0.9, 1.1, 2], "values": ["-1 L/min", "-1 L/min", "1 L/min", "1 L/min"]}
+    hydraulics = {
+        "tank": {"type": "tank"},
+        "line": {"type": "volume", "volume": "50 cm^3"},
+        "source": {"type": "flow-source", "ports": {"A": "line", "B": "tank"}, "flow": flow},
+        "store": {**STORE, "ports": {"A": "line"}, "start": "100 bar", "piston_friction": "2 bar"},
+    }
+    result = circuit(hydraulics, fluids=STIFF).simulate(duration=2.0, step=1e-3, output_interval=0.1)
+    over = history(result, "hydraulics.line.pressure") - history(result, "hydraulics.store.pressure")
+    c, K = 0.5 * BAR, 500e-3 / 60 / math.sqrt(BAR)
+    # the drop that drives 1 L/min through the inlet, rounded at c, and half the width of the ramp, a tenth of F
+    creep = 500e-6 / 60
+    drop = (1e-3 / 60 - creep) / K * math.sqrt(c) + 0.05 * 2 * BAR
+    assert over[8] == pytest.approx(2 * BAR + drop, rel=2e-2)
+    assert over[-1] == pytest.approx(-2 * BAR - drop, rel=2e-2)
+
+
+@pytest.mark.parametrize(("change", "told"), [
+    ({"thermal_time": None}, "thermal_time: 20 s"), ({"gas_exponent": 1.4}, "own equation"), ({"precharge": "500 bar"}, "400 bar"),
+])  # fmt: skip
+def test_nitrogen_that_does_not_fit_is_refused(change, told):
+    with pytest.raises(ModelError, match=told):
+        filling(gas="nitrogen", **change)

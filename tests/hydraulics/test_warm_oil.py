@@ -46,14 +46,21 @@ def test_a_throttle_heats_oil_by_the_difference_of_pressure_over_density_and_hea
         "supply": {"type": "volume", "volume": "20 cm^3"},
         "back": {"type": "volume", "volume": "20 cm^3"},
         "pump": PUMP,
-        "throttle": {"type": "orifice", "ports": {"A": "supply", "B": "back"}, "flow": "30 L/min", "pressure_drop": "200 bar"},
+        "throttle": {
+            "type": "orifice",
+            "ports": {"A": "supply", "B": "back"},
+            "flow": "30 L/min",
+            "pressure_drop": "200 bar",
+        },
         "out": {**OUT, "ports": {"A": "back", "B": "tank"}},
     }
     result = circuit(hydraulics, fluids=WARM).simulate(duration=2.0, output_interval=0.5, **TIGHT)
     rise = history(result, "state.back.temperature")[-1] - START
     assert rise == pytest.approx((last(result, "supply.pressure") - PA) / (DENSITY * CAPACITY), rel=2e-4)
     omega, back = 1500 * 2 * math.pi / 60, last(result, "back.pressure")
-    forward = omega / math.sqrt(omega**2 + 1.0)  # share of what is taken in that has the density of the tank, as the docs round it
+    forward = omega / math.sqrt(
+        omega**2 + 1.0
+    )  # share of what is taken in that has the density of the tank, as the docs round it
     both = DENSITY, history(result, "state.supply.mass")[-1] / 20e-6
     taken = 0.5 * (both[0] + both[1]) + 0.5 * (both[0] - both[1]) * forward
     work = last(result, "pump.power") / (taken * last(result, "pump.flow"))
@@ -169,7 +176,14 @@ def test_the_level_of_a_reservoir_is_the_integral_of_flows(fluids):
 
 def test_air_that_is_closed_in_follows_its_polytrope():
     hydraulics = {
-        "tank": {"type": "reservoir", "volume": "8 L", "oil": "6 L", "closed": True, "start": "1.5 bar", "gas_exponent": 1.2},
+        "tank": {
+            "type": "reservoir",
+            "volume": "8 L",
+            "oil": "6 L",
+            "closed": True,
+            "start": "1.5 bar",
+            "gas_exponent": 1.2,
+        },
         "sink": {"type": "tank"},
         "source": {"type": "flow-source", "ports": {"A": "tank", "B": "sink"}, "flow": 1e-3},
     }
@@ -226,7 +240,13 @@ def test_what_belongs_to_warm_oil_is_refused_elsewhere(fluid, component, told):
 
 
 def test_a_cooler_of_isothermal_oil_is_refused():
-    cooler = {"type": "cooler", "ports": {"A": "a", "B": "b"}, "flow": 1e-3, "pressure_drop": 1e5, "heat_conductance": 10}
+    cooler = {
+        "type": "cooler",
+        "ports": {"A": "a", "B": "b"},
+        "flow": 1e-3,
+        "pressure_drop": 1e5,
+        "heat_conductance": 10,
+    }
     with pytest.raises(ModelError, match="temperature is a state"):
         circuit({"a": {"type": "tank"}, "b": {"type": "tank"}, "cooler": cooler})
 

@@ -6,6 +6,8 @@ The gas is compressed without heat, p V^γ = P V₀^γ; heat changes P, which is
 
 At rest T = T₀ and p V = p₀ V₀. P stands in place of the precharge among the constants of the volume
 (`nivel.kernels.hydraulics.volume`); how its pressure depends on P on dual numbers is a room that is zero in its real part.
+
+Nitrogen has θ, its temperature at the precharge's density on its adiabat, in place of P, and c_v dθ/θ = ds = c_v(ρ, T) (T₀/T - 1)/τ dt.
 """
 
 from __future__ import annotations
@@ -14,9 +16,22 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.nitrogen import gas_state, newton_step, on_adiabat
 from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.transfer import lose
-from nivel.kernels.hydraulics.volume import EXPONENT, GAS, OPEN, PRECHARGE, PRESSURE
+from nivel.kernels.hydraulics.slopes import add_flow_by_pressure
+from nivel.kernels.hydraulics.smooth import ramp, root_flow, step
+from nivel.kernels.hydraulics.transfer import lose, lose_between, transfer
+from nivel.kernels.hydraulics.volume import (
+    EXPONENT,
+    GAS,
+    LAST_DENSITY,
+    LAST_TEMPERATURE,
+    NITROGEN,
+    OPEN,
+    PRECHARGE,
+    PRESSURE,
+    THETA,
+)
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
@@ -26,6 +41,11 @@ OUTPUT, NODE, STATE = 0, 1, 2
 # columns of `number`: p₀ [Pa], τ [s], T₀ [K]
 FILLED, TIME, SURROUNDINGS = 0, 1, 2
 CHANGED = 1e-12
+# inlets of accumulators with pistons: columns of `columns`, then of `number`: K [m³/s/√Pa], corner c [Pa], friction F [Pa],
+# creep G [m³/s/Pa]
+FROM, TO = 1, 2
+FLOW, CORNER, STICK, CREEP = 0, 1, 2, 3
+ROUNDED = 0.1  # share of the friction within which it is rounded
 
 
 @leaf
@@ -74,4 +94,114 @@ def exchange_heat(machine, number, t):
         work = (np.exp(-over * np.log(left)) - 1.0) / over if over > 0.0 else -np.log(left)
         lose(machine, -room[GAS] * work * rate)
         record.outputs.value[index[OUTPUT]] = n[SURROUNDINGS] * warmth
+    return OK
+
+
+@leaf
+def gas_at(room, theta, pressure):
+    """(ρ, T) of nitrogen at a pressure, not below that of its precharge's density, for θ; exact on dual numbers."""
+    least, _, _, entropy, _, _ = gas_state(room[NITROGEN], theta)
+    if real(pressure) < real(least):
+        pressure = least
+    rho, T = on_adiabat(real(pressure), real(entropy), real(room[LAST_DENSITY]), real(room[LAST_TEMPERATURE]))
+    return newton_step(pressure, entropy, rho, T)
+
+
+@leaf
+def room_by_theta(room, theta, pressure):
+    """∂V_oil/∂θ [m³/K] at a real pressure."""
+    _, _, _, _, heat_at_rest, _ = gas_state(room[NITROGEN], theta)
+    rho, T = gas_at(room, theta, pressure)
+    _, by_density, by_heat, _, heat, _ = gas_state(rho, T)
+    falling = -by_heat / (by_density * heat / T + by_heat * by_heat / (rho * rho))  # of ρ with s
+    return room[GAS] * room[NITROGEN] / (rho * rho) * falling * heat_at_rest / theta
+
+
+@called(Phase.VOLUMES)
+@family
+def charge_nitrogen(machine, number, t):
+    """Put θ among the constants of each volume, and the pressure of its precharge's density."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index = elements.columns[k]
+        node = index[NODE]
+        room, known, own = circuit.room[node], circuit.known[node], elements.state[index[STATE]]
+        if room[THETA] != real(own):
+            room[THETA] = real(own)
+            room[PRECHARGE] = gas_state(real(room[NITROGEN]), real(own))[0]
+            known[OPEN] += CHANGED * (known[OPEN] + room[GAS])  # what is known holds for another θ
+        by_state = 0.0
+        if known[PRESSURE] > room[PRECHARGE]:
+            by_state = room_by_theta(room, real(own), known[PRESSURE])
+        circuit.volume[node] = by_state * (own - real(own))
+    return OK
+
+
+@called(Phase.FLOWS)
+@family
+def warm_nitrogen(machine, number, t):
+    """Rates of θ, and the heat that leaves the gas."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        room, own = circuit.room[index[NODE]], elements.state[index[STATE]]
+        rho, T = gas_at(room, own, circuit.pressure[index[NODE]])
+        _, _, _, _, heat, _ = gas_state(rho, T)
+        _, _, _, _, heat_at_rest, _ = gas_state(room[NITROGEN], own)
+        rate = heat * (n[SURROUNDINGS] / T - 1.0) / n[TIME]  # of s
+        elements.state_rate[index[STATE]] += rate * own / heat_at_rest
+        # the energy on the adiabat is counted from θ on
+        lose(machine, -room[GAS] * room[NITROGEN] * (T - own) * rate)
+        record.outputs.value[index[OUTPUT]] = T
+    return OK
+
+
+@called(Phase.FLOWS)
+@family
+def rub(machine, number, t):
+    """Inlets of accumulators with pistons: what is left of the difference of pressure beyond their friction drives the flow,
+
+    Q = K e (e² + c²)^(-1/4) + G Δp, e = R(Δp - F) - R(-Δp - F)
+
+    A piston that sticks creeps by G: without it a step would not see that it breaks loose.
+    """
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    secant = circuit.secant[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        left = beyond(difference, n[STICK])
+        flow = n[FLOW] * root_flow(left, n[CORNER], secant) + n[CREEP] * difference
+        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+        record.outputs.value[index[OUTPUT]] = flow
+    return OK
+
+
+@leaf
+def beyond(difference, friction):
+    """What of a difference of pressure is beyond the friction of a piston, with its sign."""
+    width = ROUNDED * friction
+    return ramp(difference - friction, width) - ramp(-difference - friction, width)
+
+
+@family
+def add_slopes_of_inlets(machine, number, t):
+    """Slopes of the flows through such inlets, as secants from F on."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        left = beyond(difference, n[STICK])
+        density = 0.5 * (circuit.density[a] + circuit.density[b])
+        opened = step((np.abs(difference) - n[STICK]) / (ROUNDED * n[STICK]))
+        slope = density * (n[FLOW] * opened / np.sqrt(np.sqrt(left * left + n[CORNER] * n[CORNER])) + n[CREEP])
+        add_flow_by_pressure(circuit, a, b, a, slope)
+        add_flow_by_pressure(circuit, a, b, b, -slope)
     return OK

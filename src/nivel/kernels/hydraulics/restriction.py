@@ -64,7 +64,10 @@ def apply(machine, number, t):
         a, b = index[FROM], index[TO]
         difference = circuit.pressure[a] - circuit.pressure[b]
         opening = opening_of(machine, index, n, t)
-        flow = n[FLOW] * opening * root_flow(difference, n[CORNER], secant) + n[LEAK] / thickness(circuit, a, b) * difference
+        flow = (
+            n[FLOW] * opening * root_flow(difference, n[CORNER], secant)
+            + n[LEAK] / thickness(circuit, a, b) * difference
+        )
         mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
         lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
         record.outputs.value[index[OUTPUT]] = flow

@@ -17,7 +17,9 @@ WARMTH = 3
 def warmth(circuit, node):
     """c θ [J/kg] of a liquid whose temperature is a state: what its enthalpy is but for the pressure."""
     f = circuit.fluid[circuit.node[node, 0]]
-    return f[HEAT_CAPACITY] * circuit.temperature[node] / (1.0 + f[EXPANSION] / f[HEAT_CAPACITY] * circuit.enthalpy[node])
+    return (
+        f[HEAT_CAPACITY] * circuit.temperature[node] / (1.0 + f[EXPANSION] / f[HEAT_CAPACITY] * circuit.enthalpy[node])
+    )
 
 
 @leaf

@@ -1,6 +1,6 @@
 """Viscosity of a liquid over that of its constants: by its temperature, where that is a state, and by its pressure.
 
-    ν + 0.7 mm²/s = 10^(10^(A - B lg T)) (Walther 1931)        ν ~ exp(α (p - pa)) (Barus 1893)
+ν + 0.7 mm²/s = 10^(10^(A - B lg T)) (Walther 1931)        ν ~ exp(α (p - pa)) (Barus 1893)
 """
 
 from __future__ import annotations

@@ -10,6 +10,8 @@ oil out of the dead volume V_d and then rests on its inlet; R is a ramp of the w
 
     V_oil = V₀ (R(y + w) - w/2), y = 1 - (p₀/p)^(1/n), w = min(2 %, V_d/V₀)        V_oil = V₀ y for p ≥ p₀
     ∫ p dV_oil = p₀ V₀ ((1 - y)^(1 - n) - 1)/(n - 1), or -p₀ V₀ ln(1 - y) for n = 1, from p₀ on
+
+Nitrogen follows an adiabat of its own equation there.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE, DENSITY, EXACT, MOST, specific_volume
+from nivel.kernels.hydraulics.nitrogen import gas_state, newton_step, on_adiabat
 from nivel.kernels.hydraulics.phase import Phase, called
 from nivel.kernels.hydraulics.smooth import ramp, step
 from nivel.kernels.record.function import evaluate_function
@@ -34,6 +37,9 @@ VOLUME, GIVEN, SIGNAL = 0, 1, 2
 FIXED, COMPLIANCE, GAS, PRECHARGE, EXPONENT = 0, 1, 2, 3, 4
 # and of a hose with a curve the number of its points, then MOST_POINTS pairs: pressure [Pa], room that it makes [m³] from pa on
 POINTS, FIRST_POINT, MOST_POINTS = 5, 6, 6
+# and of nitrogen (`nivel.kernels.hydraulics.nitrogen`) its density ρ₀ [kmol/m³] at the precharge, 0 of other gas; θ of its adiabat [K]; the
+# density and temperature last found
+NITROGEN, THETA, LAST_DENSITY, LAST_TEMPERATURE = 18, 19, 20, 21
 # columns of `Circuit.known`: mass [kg] and volume [m³] without V_e, pressure, v and its derivative, ρ₀ h, V_e and its derivative
 MASS, OPEN, PRESSURE, VALUE, RATE, ENERGY, EXTRA, GIVE = 0, 1, 2, 3, 4, 5, 6, 7
 # Gas comes to rest on its inlet within this share of its volume, or that of the dead volume where it is less.
@@ -65,6 +71,18 @@ def hose_room(n, p):
 
 
 @leaf
+def nitrogen_left(n, p):
+    """(V/V₀ of the gas, -d(V/V₀)/dp, u - u(ρ₀, θ) [J/kmol]) of nitrogen on its adiabat at the real pressure p."""
+    _, _, _, entropy, _, energy = gas_state(n[NITROGEN], n[THETA])
+    rho, T = on_adiabat(real(p), real(entropy), real(n[LAST_DENSITY]), real(n[LAST_TEMPERATURE]))
+    n[LAST_DENSITY], n[LAST_TEMPERATURE] = rho, T
+    rho, T = newton_step(p, entropy, rho, T)
+    _, by_density, by_heat, _, heat, pressed = gas_state(rho, T)
+    isentropic = by_density + by_heat * by_heat * T / (rho * rho * heat)
+    return n[NITROGEN] / rho, n[NITROGEN] / (rho * rho * isentropic), pressed - energy
+
+
+@leaf
 def room(n, p):
     """(V_e [m³], dV_e/dp) at the real pressure p."""
     volume, slope = n[COMPLIANCE] * (p - ATMOSPHERE), n[COMPLIANCE]
@@ -74,7 +92,11 @@ def room(n, p):
         slope += more
     if n[GAS] > 0.0:
         left, width = (n[PRECHARGE] / p) ** (1.0 / n[EXPONENT]), rest_width(n)
-        if p >= n[PRECHARGE]:
+        if p >= n[PRECHARGE] and n[NITROGEN] > 0.0:
+            left, falling, _ = nitrogen_left(n, p)
+            volume += n[GAS] * (1.0 - left)
+            slope += n[GAS] * falling
+        elif p >= n[PRECHARGE]:
             volume += n[GAS] * (1.0 - left)
             slope += n[GAS] * left / (n[EXPONENT] * p)
         else:
@@ -91,7 +113,10 @@ def energy_of_room(n, p):
         stored += hose_room(n, p)[2]
     if n[GAS] > 0.0:
         pressed = np.log(p / n[PRECHARGE]) / n[EXPONENT]  # -ln(1 - y)
-        if p >= n[PRECHARGE]:
+        if p >= n[PRECHARGE] and n[NITROGEN] > 0.0:
+            left, _, pressed = nitrogen_left(n, p)
+            stored += n[GAS] * (n[NITROGEN] * pressed + ATMOSPHERE * (left - 1.0))
+        elif p >= n[PRECHARGE]:
             over = n[EXPONENT] - 1.0
             work = np.expm1(over * pressed) / over if over != 0.0 else pressed
             stored += n[GAS] * (n[PRECHARGE] * work + ATMOSPHERE * np.expm1(-pressed))

@@ -25,6 +25,7 @@ from nivel.kernels.hydraulics.volume import VOLUME, find_pressure, give_pressure
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+
 # columns of `columns`: those of `nivel.kernels.hydraulics.volume`, and the function of a given temperature; outputs: pressure, temperature
 OUTPUT, NODE, KIND, STATE, FUNCTION, TEMPERATURE = 0, 1, 2, 3, 4, 5
 # column of `number`: H, heat through the walls [W/K]

@@ -61,7 +61,9 @@ class Fluid(Checked):
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
     grade: GradeName | None = Field(default=None, description="a fluid by name; values that are given override its own")
     temperature: Temperature = Field(
-        default=OF_CONSTANTS, description="at which a `grade` has its constants, and that of the start", usual=TEMPERATURE
+        default=OF_CONSTANTS,
+        description="at which a `grade` has its constants, and that of the start",
+        usual=TEMPERATURE,
     )
     density: Maybe[Density] = Field(
         default=None, description="of the liquid at atmospheric pressure; default 870 kg/m³", usual=LIQUID_DENSITY
@@ -91,16 +93,21 @@ class Fluid(Checked):
     )
 
     isothermal: Truth = Field(
-        default=True, description="whether it keeps its `temperature`; false: that of every volume is a state, of a `grade`"
+        default=True,
+        description="whether it keeps its `temperature`; false: that of every volume is a state, of a `grade`",
     )
     heat_capacity: Maybe[HeatCapacity] = Field(
         default=None, description="of a liquid that is not isothermal; default: that of its grade", usual=HEAT_CAPACITY
     )
     expansion: Maybe[ThermalExpansion] = Field(
-        default=None, description="thermal one, of a liquid that is not isothermal; default: that of its grade", usual=EXPANSION
+        default=None,
+        description="thermal one, of a liquid that is not isothermal; default: that of its grade",
+        usual=EXPANSION,
     )
     surroundings: Maybe[Temperature] = Field(
-        default=None, description="temperature around walls of a liquid that is not isothermal; default 293.15 K", usual=TEMPERATURE
+        default=None,
+        description="temperature around walls of a liquid that is not isothermal; default 293.15 K",
+        usual=TEMPERATURE,
     )
 
     @property
@@ -134,7 +141,9 @@ class Fluid(Checked):
         if self.isothermal:
             for name in ("heat_capacity", "expansion", "surroundings"):
                 if getattr(self, name) is not None:
-                    yield superfluous(name, "belongs to a liquid whose temperature changes; write `isothermal: false` too")
+                    yield superfluous(
+                        name, "belongs to a liquid whose temperature changes; write `isothermal: false` too"
+                    )
         if not (self.air == 0.0 or LEAST_AIR <= self.air <= MOST_AIR):
             asked = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume, or 0, was expected, got {self.air:g}"
             yield Problem(("air",), asked)

@@ -8,18 +8,37 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Exponent, Pressure, Share, Temperature, ThermalConductance, Truth, VolumeFlow
+from nivel.machine.core.coefficient import (
+    Exponent,
+    NotNegativePressure,
+    Pressure,
+    Share,
+    Temperature,
+    ThermalConductance,
+    Truth,
+    VolumeFlow,
+)
 from nivel.machine.core.coefficient import Volume as VolumeSize
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.hydraulics.maps import VolumeExpansion
-from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, LAG, PRESSURE, TANK_HEIGHT, TEMPERATURE, VOLUME, WALL_MODULUS
+from nivel.machine.hydraulics.usual import (
+    DIFFERENCE,
+    FLOW,
+    LAG,
+    PRESSURE,
+    TANK_HEIGHT,
+    TEMPERATURE,
+    VOLUME,
+    WALL_MODULUS,
+)
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, PositiveLength, listed
 
 ATMOSPHERE = 101325.0  # Pa
 ROOM = 293.15  # K
+LEAST_NITROGEN, MOST_NITROGEN, COLD, HOT = 1e5, 4e7, 233.0, 423.0  # Pa, K: of the precharge of nitrogen
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
 VaryingTemperature = Annotated[OneFunction, varying("temperature")]
 
@@ -43,7 +62,7 @@ class Volume(Component):
     )
     heat_conductance: Maybe[ThermalConductance] = Field(
         default=None,
-        description="of gases, and of liquids that are not isothermal: heat through the walls over the difference of temperature; default: none",
+        description="of gases, and of liquids that are not isothermal: heat through walls over the difference of temperature",
     )
     start: Maybe[Pressure] = Field(
         default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
@@ -92,9 +111,13 @@ class Reservoir(Component):
     )
     closed: Truth = Field(default=False, description="whether its air is closed in; else it comes and goes")
     start: Maybe[Pressure] = Field(
-        default=None, description="pressure of the air at the start, absolute; default: that of the atmosphere", usual=PRESSURE
+        default=None,
+        description="pressure of the air at the start, absolute; default: that of the atmosphere",
+        usual=PRESSURE,
     )
-    gas_exponent: Maybe[Exponent] = Field(default=None, description="polytropic exponent of air that is closed in; default 1")
+    gas_exponent: Maybe[Exponent] = Field(
+        default=None, description="polytropic exponent of air that is closed in; default 1"
+    )
     heat_conductance: Maybe[ThermalConductance] = Field(default=None, description="as of a volume")
     fluid: Name | None = Field(default=None, description="default: the only one")
 
@@ -140,6 +163,12 @@ class Accumulator(Component):
     temperature: Temperature = Field(
         default=ROOM, description="of the surroundings, with a `thermal_time`", usual=TEMPERATURE
     )
+    gas: Literal["ideal", "nitrogen"] = Field(
+        default="ideal", description="with a `thermal_time` also `nitrogen` by its own equation of state"
+    )
+    piston_friction: NotNegativePressure = Field(
+        default=0.0, description="difference of pressure that moves the piston between oil and gas", usual=DIFFERENCE
+    )
     dead_volume: Maybe[VolumeSize] = Field(
         default=None, description="of oil when it is empty; default 2 % of the volume"
     )
@@ -162,6 +191,17 @@ class Accumulator(Component):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        if self.gas == "nitrogen":
+            if self.thermal_time is None:
+                yield Problem(
+                    ("gas",),
+                    "nitrogen with its own equation of state needs a `thermal_time`, such as `thermal_time: 20 s`",
+                )
+            if self.gas_exponent is not None:
+                yield superfluous("gas_exponent", "belongs to an ideal gas; nitrogen has its own equation of state")
+            if not LEAST_NITROGEN <= self.precharge <= MOST_NITROGEN or not COLD <= self.temperature <= HOT:
+                told = "the equation of nitrogen holds from 1 to 400 bar of precharge and from 233 to 423 K"
+                yield Problem(("gas",), f"{told}, got {self.precharge:g} Pa at {self.temperature:g} K")
         if self.thermal_time is None and self.temperature != ROOM:
             yield superfluous("temperature", "belongs to a `thermal_time`, and none is given")
         if self.thermal_time is not None and self.exponent == 1.0:

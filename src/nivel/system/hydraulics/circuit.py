@@ -8,14 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics.volume import FIRST_POINT, MOST_POINTS, VOLUME
+from nivel.kernels.hydraulics.volume import LAST_TEMPERATURE, VOLUME
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit
 from nivel.system.signals.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]
-ROOM = FIRST_POINT + 2 * MOST_POINTS  # columns of `Circuit.room`
+ROOM = LAST_TEMPERATURE + 1  # columns of `Circuit.room`
 FLUID = 21  # columns of `Circuit.fluid`
 
 
@@ -72,7 +72,8 @@ class Node:
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
     owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
-    warmth : state of the temperature of a liquid, or NONE. walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
+    warmth : state of the temperature of a liquid, or NONE. walls : heat through its walls [W/K]. quantity : its pressure among the results
+    of its component.
     """
 
     name: str

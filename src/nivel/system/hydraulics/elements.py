@@ -99,7 +99,9 @@ def _add_pressures(builder: SystemBuilder) -> None:
             if is_warm(builder, node.fluid):
                 with located(f"hydraulics.{node.owner}.temperature"), builder.noting():
                     known = given[node.owner].temperature
-                    temperature = builder.function(builder.circuit.fluids[node.fluid][START] if known is None else known)
+                    temperature = builder.function(
+                        builder.circuit.fluids[node.fluid][START] if known is None else known
+                    )
         if node.gas:
             builder.elements.add(
                 gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls]

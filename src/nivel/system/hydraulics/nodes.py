@@ -37,6 +37,7 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.forces.restitution import damping_of_restitution
 from nivel.system.hydraulics.circuit import FLUID, Node
 from nivel.system.hydraulics.fluid_law import density_and_modulus
+from nivel.system.hydraulics.nitrogen_gas import nitrogen_room
 from nivel.system.located import located
 from nivel.system.signals.state_facts import Coupled, StateFact
 
@@ -147,7 +148,10 @@ def line_nodes(builder: SystemBuilder, component: Line, swept: Swept) -> Iterato
 def accumulator_nodes(builder: SystemBuilder, component: Accumulator, swept: Swept) -> Iterator[Node]:
     """The node behind the inlet of an accumulator."""
     dead = component.dead_volume or DEAD_SHARE * component.volume
-    room = (dead, 0.0, component.volume, first_charge(component), component.exponent)
+    if component.gas == "nitrogen":
+        room = nitrogen_room(dead, component.volume, component.precharge, component.temperature, component.start)
+    else:
+        room = (dead, 0.0, component.volume, first_charge(component), component.exponent)
     yield _volume(builder, component, component.name, "", room, component.start, swept)
 
 

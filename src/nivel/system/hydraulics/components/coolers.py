@@ -23,7 +23,5 @@ def add_cooler(builder: SystemBuilder, component: Cooler) -> None:
 
 
 KINDS = (
-    ComponentKind(
-        Cooler, add_cooler, (restriction.apply, cooler.apply), symbols.cooler, {restriction.apply: RESTRICT}
-    ),
+    ComponentKind(Cooler, add_cooler, (restriction.apply, cooler.apply), symbols.cooler, {restriction.apply: RESTRICT}),
 )

@@ -134,6 +134,50 @@ def machine_whose_commands_wait():
     return Machine.from_record(machine_with_circuits(command=0.4).record.replace(states=()))
 
 
+def machine_with_warm_oil():
+    """A block on a slide, pushed by a cylinder with warm oil out of a reservoir, with a cooler, a hose in segments, and nitrogen."""
+    return machine(
+        {
+            "bodies": {"block": solid(100.0, 2.0, position=[0.6, 0, 0], velocity=[0.2, 0, 0])},
+            "joints": {"rail": slide("ground", "block", point=[0.6, 0, 0])},
+            "fluids": {"oil": {"grade": "HLP 46", "isothermal": False}},
+            "hydraulics": {
+                "sump": {"type": "reservoir", "volume": "8 L", "oil": "6 L", "heat_conductance": 10},
+                "supply": {"type": "volume", "volume": "0.3 L", "start": "100 bar", "heat_conductance": 5},
+                "drain": {"type": "tank", "pressure": "1 bar", "temperature": "330 + 10*time"},
+                "back": {"type": "volume", "volume": "0.2 L"},
+                "store": {
+                    "type": "accumulator", "ports": {"A": "supply"}, "volume": "1 L", "precharge": "80 bar", "start": "98 bar",
+                    "gas": "nitrogen", "thermal_time": "1 s", "piston_friction": "0.5 bar", **RATED,
+                },
+                "pump": {
+                    "type": "pump", "ports": {"A": "sump", "B": "supply"}, "displacement": "28 cm^3/rev", "speed": "1500 rpm",
+                    "volumetric_efficiency": 0.95, "mechanical_efficiency": 0.9, "nominal_pressure": "200 bar",
+                    "nominal_speed": "1500 rpm",
+                },
+                "relief": {
+                    "type": "relief-valve", "ports": {"P": "supply", "T": "back"}, "opens_at": "150 bar", "opening_range": "20 bar",
+                    **RATED,
+                },
+                "line": {
+                    "type": "line", "ports": {"A": "supply", "B": "ram.A"}, "diameter": "10 mm", "length": 2, "segments": 2,
+                },
+                "throttle": {"type": "orifice", "ports": {"A": "supply", "B": "back"}, "leakage": 1e-12, "flow": "20 L/min",
+                             "pressure_drop": "90 bar"},
+                "cooler": {
+                    "type": "cooler", "ports": {"A": "back", "B": "sump"}, "heat_conductance": "50 + 0.1*sump.temperature", **RATED,
+                },
+                "pipe": {"type": "pipe", "ports": {"A": "ram.B", "B": "drain"}, "diameter": "8 mm", "length": 1},
+                "ram": {
+                    "type": "cylinder", "bodies": ["ground", "block"], "points": [[0, 0, 0], [0.6, 0, 0]], "piston": "50 mm",
+                    "rod": "30 mm", "stroke": 0.4, "retracted_length": 0.4, "start_A": "60 bar", "start_B": "30 bar",
+                    "seal_leakage": 1e-13, "heat_conductance": 3,
+                },
+            },
+        }
+    )  # fmt: skip
+
+
 GAS_RATED = {"sonic_conductance": "2 dm^3/(s*bar)"}
 
 

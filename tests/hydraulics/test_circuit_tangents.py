@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from circuits import history
-from hydraulic_zoo import machine_with_circuits, machine_with_gas
+from hydraulic_zoo import machine_with_circuits, machine_with_gas, machine_with_warm_oil
 
 
-@pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas])
+@pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas, machine_with_warm_oil])
 @pytest.mark.parametrize("coordinates", ["relative", "absolute"])
 def test_all_components_together_move_alike_by_all_methods(coordinates, zoo):
     """A tangent that lacks a dependence makes implicit methods fail or slow, and linearly implicit ones lose their order."""
@@ -24,7 +24,7 @@ def test_all_components_together_move_alike_by_all_methods(coordinates, zoo):
     assert items["hydraulics"].fraction < 1e-6
 
 
-@pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas])
+@pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas, machine_with_warm_oil])
 def test_the_extrapolated_method_is_of_order_two(zoo):
     built = zoo()
     exact = built.simulate(integrator="dopri5", tolerance=1e-9, duration=0.02, output_interval=1e-3)

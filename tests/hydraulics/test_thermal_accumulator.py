@@ -218,7 +218,7 @@ def test_nitrogen_is_compressed_and_cools_as_its_equation_says(nitrogen):
     p = np.array([state(10e-3 * first / v, T)[0] for v, T in found.T])
     assert history(nitrogen, "hydraulics.store.pressure")[2:] == pytest.approx(p[2:], rel=3e-3)
     late = t > 0.1
-    falling = np.log((history(nitrogen, "hydraulics.store.temperature")[late] - 300.0))
+    falling = np.log(history(nitrogen, "hydraulics.store.temperature")[late] - 300.0)
     assert np.diff(falling) == pytest.approx(-0.05 / 4.0, rel=2e-2)
 
 

@@ -482,6 +482,7 @@ def test_circuits(integrator):
     few = {"steps": 2, "step": 1e-7}
     short(hydraulic_zoo.machine_with_circuits().record, integrator, **few)
     short(hydraulic_zoo.machine_with_gas().record, integrator, **few)
+    short(hydraulic_zoo.machine_with_warm_oil().record, integrator, **few)
 
 
 @pytest.mark.parametrize("integrator", ["radau", "extrapolated-euler"])

@@ -20,7 +20,7 @@ ATMOSPHERE = 101325.0  # [Pa]
 AIR, MODULUS, SLOPE, EXPONENT, DENSITY, VISCOSITY = 0, 1, 2, 3, 4, 5
 # and behind the constants of gases: α_d, p_s [Pa], p_v [Pa], growth of the viscosity with the pressure (Barus) [1/Pa]
 DISSOLVED, SATURATION, VAPOUR, BARUS = 10, 11, 12, 13
-# and of liquids whose temperature is a state, see `nivel.kernels.hydraulics.warmth`: c [J/(kg K)], 0 for others; α [1/K], θ₀ [K], A and B of
+# and of liquids whose temperature is a state (`nivel.kernels.hydraulics.warmth`): c [J/(kg K)], 0 for others; α [1/K], θ₀ [K], A and B of
 # the viscosity, 1/ν(θ₀) [s/mm²], temperature around walls [K]
 HEAT_CAPACITY, EXPANSION, START, WALTHER_A, WALTHER_B, THINNESS, AROUND = 14, 15, 16, 17, 18, 19, 20
 STEEP = 20.0  # m: within a tenth of p_v the volume grows eightfold

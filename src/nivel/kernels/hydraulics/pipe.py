@@ -2,8 +2,9 @@
 
     Δp = g R Q (1 + (Q/(g Q_c))⁶)^(1/8)        R = 128 ν ρ L/(π d⁴)
 
-g is the growth of the viscosity with pressure and temperature (`nivel.kernels.hydraulics.viscosity`). The law is Hagen and Poiseuille's law for Q ≪ Q_c and Blasius's, Δp ~ Q^(7/4), for Q ≫ Q_c; both meet at Reynolds'
-number 1187, Q_c. Pipes with inertia are lines (`nivel.kernels.hydraulics.line`).
+g is the growth of the viscosity with pressure and temperature (`nivel.kernels.hydraulics.viscosity`). The law is Hagen and Poiseuille's for
+Q ≪ Q_c and Blasius's, Δp ~ Q^(7/4), for Q ≫ Q_c; both meet at Reynolds' number 1187, Q_c. Pipes with inertia are lines
+(`nivel.kernels.hydraulics.line`).
 """
 
 from __future__ import annotations

@@ -15,7 +15,6 @@ from nivel.system.hydraulics.nodes import accumulator_nodes, first_charge, reser
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow
 from nivel.system.signals.state_facts import Coupled, StateFact
 
-
 CREEP = 1e-3  # share of the rated flow by which a piston that sticks moves at the limit of its friction
 
 
@@ -28,7 +27,9 @@ def add_inlet(builder: SystemBuilder, component: Accumulator) -> None:
         first = builder.outputs.add((name, "m^3/s", f"flow of {component.name}"))
         columns = [first, builder.node(ends[0]), builder.node(ends[1])]
         friction = component.piston_friction
-        builder.elements.add(accumulator.rub, columns, [conductance, TRANSITION, friction, CREEP * component.flow / friction])
+        builder.elements.add(
+            accumulator.rub, columns, [conductance, TRANSITION, friction, CREEP * component.flow / friction]
+        )
     else:
         add_flow(builder, component.name, "flow", ends, [conductance, TRANSITION, 0.0])
     if component.thermal_time is not None:

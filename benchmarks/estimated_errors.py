@@ -23,9 +23,11 @@ def main() -> None:
         found = [*ratios((method,), STEPS).values(), *known_ratios((method,), STEPS).values()]
         every += found
         if found:
-            print(f"{method:20} {len(found):5} {min(found):8.3f} {np.median(found):8.3f} {max(found):8.3f}")
+            print(f"{method:20} {len(found):5} {min(found):8.3f} {np.median(found):8.3f} {max(found):8.3f}", flush=True)
     within = sum(1.0 / 3.0 <= ratio <= 3.0 for ratio in every)
-    print(f"{within} of {len(every)} pairs within a third and three times the true error")
+    above = sum(ratio >= 1.0 / 3.0 for ratio in every)
+    print(f"all: least {min(every):.3f}, median {np.median(every):.3f}")
+    print(f"{above} of {len(every)} pairs at least a third of the true error, {within} within a third and three times")
 
 
 if __name__ == "__main__":

@@ -113,4 +113,5 @@ def test_the_end_of_a_run_says_what_its_trust_report_would_be(tmp_path, monkeypa
     assert re.search(r"datagrams: received at 127\.0\.0\.1:[1-9]\d+\n", done.output)  # 0 is any free port
     assert "datagrams: 0 taken; dropped: 0 malformed" in done.output
     assert "the trust report of this run would be red:" in done.output
+    assert "not verified: the errors of its steps were not examined" in done.output
     assert "Energy: error " in done.output

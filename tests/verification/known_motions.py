@@ -31,13 +31,15 @@ EXACTLY = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14, "dense_output": Tru
 
 @dataclass(frozen=True)
 class Known:
-    """text : of the machine. quantity : of its result. exact(time) : what that is. step [s] : that follows it roughly."""
+    """text : of the machine. quantity : of its result. exact(time) : what that is. step [s] : that follows it roughly. beside : further
+    numbers of the result, speeds, signals, currents, pressures and states, and what they are."""
 
     name: str
     text: str
     quantity: str
     exact: Callable[[np.ndarray], np.ndarray]
     step: float
+    beside: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = ()
 
     def machine(self) -> MachineRecord:
         """The machine, with settings of its own."""
@@ -90,6 +92,10 @@ simulation: {{duration: 1}}
         "cart.position.x",
         lambda t: t**2 / 2 - tau * t + tau**2 * (1.0 - np.exp(-t / tau)),
         1e-2,
+        (
+            ("control.lag", lambda t: 1.0 - np.exp(-t / tau)),
+            ("cart.velocity.x", lambda t: t - tau * (1.0 - np.exp(-t / tau))),
+        ),
     )
 
 
@@ -115,7 +121,13 @@ simulation: {{duration: 1}}
         ]
     )
     states = linear(A, np.array([0.0, kp * wish / m, ki * wish, 0.0]), np.zeros(4))
-    return Known("continuous-pid", text, "cart.position.x", lambda t: states(t)[:, 0], 1e-2)
+
+    def signal(time):
+        x, _, integral, filtered = states(time).T
+        return kp * (wish - x) + integral + kd / filtering * (filtered - x)
+
+    beside = (("cart.velocity.x", lambda t: states(t)[:, 1]), ("control.hold", signal))
+    return Known("continuous-pid", text, "cart.position.x", lambda t: states(t)[:, 0], 1e-2, beside)
 
 
 def sampled_control():
@@ -140,14 +152,21 @@ simulation: {{duration: 1}}
         away = state[0] - u
         return np.array([u + away * c + state[1] / omega * s, -away * omega * s + state[1] * c])
 
-    def exact(time):
+    def sampled(time):
         samples = [np.array([0.2, 0.0])]
         for _ in range(int(time[-1] / period + 1e-9)):
             samples.append(after(samples[-1], period))
         number = np.minimum((time / period + 1e-9).astype(int), len(samples) - 1)
-        return np.array([after(samples[k], t - k * period)[0] for k, t in zip(number, time, strict=True)])
+        return [(samples[k], t - k * period) for k, t in zip(number, time, strict=True)]
 
-    return Known("sampled-control", text, "cart.position.x", exact, 1e-2)
+    def exact(time, which=0):
+        return np.array([after(state, since)[which] for state, since in sampled(time)])
+
+    def held(time):
+        return np.array([-k * state[0] - d * state[1] for state, _ in sampled(time)])
+
+    beside = (("cart.velocity.x", lambda t: exact(t, 1)), ("control.hold", held))
+    return Known("sampled-control", text, "cart.position.x", exact, 1e-2, beside)
 
 
 def drive():
@@ -164,7 +183,12 @@ simulation: {{duration: 1}}
 """
     A = np.array([[0.0, 1.0, 0.0], [0.0, -viscous / inertia, K / inertia], [0.0, -K / L, -R / L]])
     states = linear(A, np.array([0.0, 0.0, u / L]), np.zeros(3))
-    return Known("dc-motor", text, "axle.angle", lambda t: states(t)[:, 0], 5e-3)
+    beside = (
+        ("force.motor.speed", lambda t: states(t)[:, 1]),
+        ("force.motor.current", lambda t: states(t)[:, 2]),
+        ("force.motor.torque", lambda t: K * states(t)[:, 2]),
+    )
+    return Known("dc-motor", text, "axle.angle", lambda t: states(t)[:, 0], 5e-3, beside)
 
 
 def bouncing():
@@ -207,7 +231,8 @@ simulation: {{duration: 1}}
 """
     )
     solution = integrated(lambda _t, y: (y[1], -mu * GRAVITY * np.tanh(y[1] / transition)), (0.0, speed), 1.0)
-    return Known("coulomb-creep", text, "cart.position.x", lambda t: solution()(t)[0], 1e-2)
+    beside = (("cart.velocity.x", lambda t: solution()(t)[1]),)
+    return Known("coulomb-creep", text, "cart.position.x", lambda t: solution()(t)[0], 1e-2, beside)
 
 
 def stopping():
@@ -248,7 +273,8 @@ simulation: {{duration: 1}}
         return v, -k * x - GRAVITY * (sigma * z + damping * zdot), zdot
 
     solution = integrated(rates, (0.3, 0.0, 0.0), 1.0, max_step=1e-3)
-    return Known("lugre", text, "cart.position.x", lambda t: solution()(t)[0], 1e-3)
+    beside = (("cart.velocity.x", lambda t: solution()(t)[1]), ("force.sole.bristle", lambda t: solution()(t)[2]))
+    return Known("lugre", text, "cart.position.x", lambda t: solution()(t)[0], 1e-3, beside)
 
 
 def rope():
@@ -270,7 +296,8 @@ simulation: {{duration: 1}}
         return y[1], -GRAVITY + k / m * max(0.6 - y[0] - 2.0 * length, 0.0)
 
     solution = integrated(rates, (-0.9, speed), 1.0, max_step=1e-3)
-    return Known("rope", text, "cart.position.x", lambda t: solution()(t)[0], 1e-3)
+    beside = (("cart.velocity.x", lambda t: solution()(t)[1]),)
+    return Known("rope", text, "cart.position.x", lambda t: solution()(t)[0], 1e-3, beside)
 
 
 def winding_state():
@@ -285,7 +312,12 @@ simulation: {duration: 1}
     )
     A = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -20.0], [1.0, 0.0, -3.0]])
     states = linear(A, np.array([0.0, 5.0, 0.0]), np.array([0.0, 0.0, 0.4]))
-    return Known("state", text, "cart.position.x", lambda t: states(t)[:, 0], 1e-2)
+    beside = (
+        ("state.s", lambda t: states(t)[:, 2]),
+        ("cart.velocity.x", lambda t: states(t)[:, 1]),
+        ("cart.acceleration.x", lambda t: 5.0 - 20.0 * states(t)[:, 2]),
+    )
+    return Known("state", text, "cart.position.x", lambda t: states(t)[:, 0], 1e-2, beside)
 
 
 def oil_density(p, air=0.005, density=870.0, modulus=1.5e9, slope=10.0, exponent=1.4):
@@ -327,7 +359,16 @@ simulation: {{duration: 0.5}}
 
     start = (0.0, 0.0, oil_density(10e5) * (dead + area * 0.1))
     solution = integrated(rates, start, 0.5, rtol=1e-10, atol=1e-13)
-    return Known("cylinder", text, "cart.position.x", lambda t: solution()(t)[0], 1e-3)
+
+    def pressure(time):
+        x, _, mass = solution()(time)
+        return np.array([oil_pressure(each) for each in mass / (dead + area * (0.1 + x))])
+
+    beside = (
+        ("hydraulics.jack.pressure_A", pressure),
+        ("hydraulics.jack.speed", lambda t: solution()(t)[1]),
+    )
+    return Known("cylinder", text, "cart.position.x", lambda t: solution()(t)[0], 1e-3, beside)
 
 
 def blow_down(isothermal):
@@ -353,7 +394,8 @@ simulation: {{duration: 1}}
         return 8e5 * (1.0 + 0.5 * (ratio - 1.0) * rate * t) ** (-2.0 * ratio / (ratio - 1.0))
 
     name = "blow-down-isothermal" if isothermal else "blow-down-adiabatic"
-    return Known(name, text, "hydraulics.vessel.pressure", exact, 5e-2)
+    warm = (("hydraulics.vessel.temperature", lambda t: T * (exact(t) / 8e5) ** (1.0 - 1.0 / ratio)),)
+    return Known(name, text, "hydraulics.vessel.pressure", exact, 5e-2, () if isothermal else warm)
 
 
 def gas_spring():
@@ -377,7 +419,12 @@ simulation: {{duration: 0.5}}
         return y[1], (p - ATMOSPHERE) * area / m
 
     solution = integrated(rates, (0.0, 0.0), 0.5)
-    return Known("gas-spring", text, "cart.position.x", lambda t: solution()(t)[0], 1e-2)
+
+    def pressure(time):
+        return 1.3e5 * (begin / (dead + area * (reach + solution()(time)[0]))) ** 1.4
+
+    beside = (("hydraulics.jack.pressure_A", pressure), ("cart.velocity.x", lambda t: solution()(t)[1]))
+    return Known("gas-spring", text, "cart.position.x", lambda t: solution()(t)[0], 1e-2, beside)
 
 
 KNOWN = (

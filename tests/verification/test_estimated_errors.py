@@ -50,7 +50,7 @@ def known_ratios(methods, steps, kinds=KNOWN):
     out = {}
     for kind in kinds:
         for method, fineness in grid(methods, steps, kind.step, 1e-8):
-            add_ratio(out, kind, kind.machine(), method, fineness, kind.exact)
+            add_ratio(out, kind, kind.machine(), method, fineness, kind.exact, kind.beside)
     return out
 
 
@@ -64,17 +64,18 @@ def grid(methods, steps, step, tolerance):
                 yield method, {"step": step * factor}
 
 
-def add_ratio(out, kind, record, method, fineness, exact):
-    """Run verified, and keep the ratio."""
+def add_ratio(out, kind, record, method, fineness, exact, beside=()):
+    """Run verified, and keep the ratio, of each number."""
     try:
         result = Machine.from_record(record).simulate(integrator=method, **fineness, verify=True)
     except (ModelError, SolveError):
         return
-    true = exact(result.time)
-    error = np.max(np.abs(result.array(kind.quantity) - true))
-    if error > ROUND_OFF * np.ptp(true):
-        estimate = np.nanmax(result.estimated_error(kind.quantity))
-        out[f"{kind.name}, {method}, {next(iter(fineness.values())):.2g}"] = float(estimate / error)
+    for quantity, known in ((kind.quantity, exact), *beside):
+        true = known(result.time)
+        error = np.max(np.abs(result.array(quantity) - true))
+        if error > ROUND_OFF * np.ptp(true):
+            estimate = np.nanmax(result.estimated_error(quantity))
+            out[f"{kind.name} {quantity}, {method}, {next(iter(fineness.values())):.2g}"] = float(estimate / error)
 
 
 def judge(found, least):

@@ -60,6 +60,16 @@ def test_a_block_thrown_up_an_incline_stays_where_it_came_to_rest(integrator, co
     assert abs(r.array("force.f.magnitude")[-1]) == pytest.approx(3 * G * np.sin(SLOPE), rel=1e-6)
 
 
+@pytest.mark.parametrize(("integrator", "tau"), [("ab3", 2.5), ("ab4", 1 / 0.24), ("ab5", 1 / 0.128)])
+def test_methods_that_hold_little_take_as_long_to_stop_as_they_need(integrator, tau):
+    """exp(-t/τ) with τ of two steps grows with these methods. The way of the stop is off by a multiple of g τ²."""
+    r = nivel.load(FAULT).simulate(integrator=integrator, coordinates="relative", step=STEP, verify=False)
+    rises = 1.0 / (2 * G * (np.sin(SLOPE) + KINETIC * np.cos(SLOPE)))
+    place = r.array("s.displacement")
+    assert abs(place[-1] + rises) < G * (tau * STEP) ** 2
+    assert np.abs(place[8:] - place[-1]).max() < 1e-10
+
+
 def test_the_report_of_a_block_that_rests_is_green():
     trust = nivel.load(FAULT).simulate(verify=True).trust
     assert trust.verdict == "green"

@@ -209,9 +209,12 @@ def conclusion(session: Session) -> Iterator[str]:
         integrator = session.plan.settings.integrator
         yield f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}"
     light = session.light
-    if light.verdict != "green":
+    if light.verdict == "green":
+        yield "energy, joints, circuits and computing time: green"
+    else:
         yield f"the trust report of this run would be {light.verdict}:"
         yield from (f"  {each}" for each in light.reasons)
+    yield "not verified: the errors of its steps were not examined; `nivel replay` of a recording estimates them"
 
 
 def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:

@@ -139,8 +139,9 @@ export class Live {
   /** Whether the run can be trusted so far, and why not. */
   private judge(status: Status): void {
     this.light.dataset.verdict = status.light;
-    this.light.title = [`The trust report would be ${status.light} if the run ended now.`, ...status.reasons].join("\n");
-    this.light.setAttribute("aria-label", `trust: ${status.light}`);
+    const so = `Energy, joints, circuits and computing time are ${status.light} so far.`;
+    this.light.title = [so, "Not verified: the errors of the steps are not examined; nivel replay estimates them.", ...status.reasons].join("\n");
+    this.light.setAttribute("aria-label", `trust: ${status.light}, not verified`);
     const shown = status.text ? status.reasons.filter((each) => !each.includes(status.text)) : status.reasons;
     if (this.reasons.dataset.shown === shown.join("\n")) return;
     this.reasons.dataset.shown = shown.join("\n");

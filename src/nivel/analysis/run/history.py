@@ -59,8 +59,9 @@ from nivel.system.system import Array, System
 BUFFER_BYTES = 1_000_000
 EVENT_ROWS = 1000
 WINDOWS = 256
-# Stiction stops a joint within this many steps.
-STICK_STEPS = 2.0
+# Stiction stops a joint within this many steps, and within more where a method would not be stable: 1/τ times a step is this share of
+# what it holds.
+STICK_STEPS, STICK_SHARE = 2.0, 0.8
 # So many fixed steps are a time in which a machine moves by its own length, at least, whatever the duration of the run.
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
@@ -192,7 +193,8 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
     # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
     follows = settings.steps == 0 or facts.residual
-    record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if follows else STICK_STEPS * settings.step
+    stick = max(STICK_STEPS, 1.0 / (STICK_SHARE * facts.held)) * settings.step
+    record.control.stick[:] = stick, 0.0 if follows else stick
     if len(record.friction.columns):
         turns = record.friction.columns[:, columns.ROTATES] == 1
         record.friction.number[:, columns.REST] = (

@@ -79,6 +79,7 @@ def panels(result: Result) -> list[Panel]:
         _reactions(result, "joint_force", "Joint forces", "force", floors["N"]),
         _reactions(result, "joint_torque", "Joint torques", "torque", floors["N m"]),
         _violations(result),
+        _iterations(result),
     ]
     return [panel for panel in found if panel is not None and panel.groups]
 
@@ -226,6 +227,16 @@ def _violations(result: Result) -> Panel | None:
                 groups.append(Group(f"{word}{level}", unit, curves, limits))
     note = f"the {TOGETHER} worst joints are shown" if len(result.coordinates.get("joint", ())) > TOGETHER else ""
     return Panel("Constraint violations", tuple(groups), log=True, note=note) if groups else None
+
+
+def _iterations(result: Result) -> Panel | None:
+    """Iterations of implicit methods a step, between each frame and the one before (figure 23 of report 44)."""
+    found = result.iterations
+    if found is None:
+        return None
+    mean, most = found.at(result.time)
+    curves = (Curve("mean", mean, "0"), Curve("most", most, "1"))
+    return Panel("Iterations per step", (Group("", "1", curves),))
 
 
 def _which(count: int) -> str:

@@ -19,6 +19,8 @@ from nivel.results.frames.occurrence import Occurrence, from_json
 from nivel.results.frames.row_units import own_units
 from nivel.results.frames.stored import StoredContents, understood
 from nivel.results.frames.tabulated import Column, Rows, Tabulated
+from nivel.results.iterations import ATTRIBUTE as ITERATIONS
+from nivel.results.iterations import Iterations
 from nivel.results.pages import page_maker, report_of_remains
 from nivel.results.trust import Trust
 from nivel.system.layout import Variable
@@ -95,6 +97,12 @@ class Result(Tabulated):
     def timing(self) -> dict[str, Any]:
         """Steps, evaluations and seconds that the run took; empty while it goes on."""
         return self._json("timing")
+
+    @cached_property
+    def iterations(self) -> Iterations | None:
+        """How often implicit methods and the augmented Lagrangian iterated in their steps; None where nothing was iterated."""
+        with understood(self._contents, ITERATIONS):
+            return Iterations.from_json(str(self.attributes.get(ITERATIONS, "")))
 
     @cached_property
     def scene(self) -> dict[str, Any]:

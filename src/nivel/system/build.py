@@ -43,6 +43,7 @@ from nivel.kernels.signals.input import apply
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.kernels.signals.sampling import sample
 from nivel.kernels.signals.watch import MARK
+from nivel.kernels.solve.saddle import SETTLED
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression, expression_of
@@ -269,6 +270,8 @@ def _control(rows: int) -> Control:
         rank=np.array([rows, 0, 0], dtype=np.uint32),
         iterations=np.array([1, 0, 0], dtype=np.uint32),
         stabilise=np.zeros(4),
+        feedback=np.ones((rows, 2)),
+        settled=np.array([SETTLED]),
         energy=np.zeros(3),
         power=np.zeros(2),
         stored=np.zeros(1),

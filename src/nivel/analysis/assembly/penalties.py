@@ -13,11 +13,13 @@ import numpy as np
 
 from nivel.analysis.assembly.effective_mass import mobility
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.row_settings import of_rows
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings.run import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts
-from nivel.system.system import Array
+from nivel.system.system import Array, System
 
+PLACE = "simulation.penalty"
 # Ω times the step, without an Ω of the user: violations die out within some ten steps, and explicit methods stay stable
 FEEDBACK = 0.1
 # mobility 1/S_kk of a row, as a share of the largest, below which it counts as this share
@@ -40,28 +42,46 @@ def penalise(
     # what nothing can move still needs a penalty; where this is all rows, they move nothing less than the whole machine
     largest = np.max(mobile / units, initial=0.0) or 1.0 / (record.bodies.mass.sum() * size**2)
     least = IMMOBILE * units * largest
-    if penalty.alpha and np.any(penalty.alpha * mobile[mobile > least] < 1.0):
-        raise ModelError(_too_soft(motion, penalty.alpha, np.where(mobile > least, mobile, np.inf)))
-    mobile = np.maximum(mobile, least)
-    saddle.shift[:] = 1.0 / penalty.alpha if penalty.alpha else mobile / (penalty.factor or facts.factor)
+    alpha, factor = _stiffness(motion.system, penalty, facts)
+    held = np.where((alpha > 0.0) & (mobile > least), alpha * mobile, np.inf)
+    if np.any(held < 1.0):
+        raise ModelError(_too_soft(motion, alpha, mobile, int(np.argmin(held))))
+    saddle.shift[:] = np.where(alpha > 0.0, 1.0 / np.where(alpha > 0.0, alpha, 1.0), np.maximum(mobile, least) / factor)
     record.control.rank[0] = rows
     record.control.iterations[0] = penalty.iterations if facts.iterated else 1
+    record.control.settled[0] = penalty.tolerance**2
     return penalised
 
 
-def _too_soft(motion: MotionEquations, alpha: float, mobile: Array) -> Fault:
-    k = int(np.argmin(mobile))
+def _stiffness(system: System, penalty: Penalty, facts: FormulationFacts) -> tuple[Array, Array]:
+    """α of each row of S, 0 where it has none of its own, and the factor that it has then."""
+    rows = system.record.saddle.row
+    alpha = np.full(len(rows), penalty.alpha or 0.0)
+    factor = np.full(len(rows), penalty.factor or facts.factor)
+    own = of_rows(system, penalty.rows, PLACE)
+    for k, row in enumerate(rows.tolist()):
+        if row in own and (own[row].alpha is not None or own[row].factor is not None):
+            alpha[k], factor[k] = own[row].alpha or 0.0, own[row].factor or factor[k]
+    return alpha, factor
+
+
+def _too_soft(motion: MotionEquations, alpha: Array, mobile: Array, k: int) -> Fault:
     row = motion.system.rows[motion.system.record.saddle.row[k]]
     message = (
-        f"α = {alpha:.3g} does not hold {row}, which moves a mass of {1.0 / mobile[k]:.3g}: α has to be many times that, 1e4 or more; "
+        f"α = {alpha[k]:.3g} does not hold {row}, which moves a mass of {1.0 / mobile[k]:.3g}: α has to be many times that, 1e4 or more; "
         f"`factor` in place of `alpha` takes that share for every row"
     )
     return Fault("", 0, 0, "simulation.penalty.alpha", message)
 
 
-def feedback(penalty: Penalty, step: float, corrected: bool) -> tuple[float, float]:
-    """(2 Ω μ, Ω²) for runs with this step [s]; without an Ω of the user none where states are `corrected` after every step."""
-    omega = penalty.omega
-    if omega is None:
-        omega = 0.0 if corrected else FEEDBACK / step
-    return 2.0 * omega * penalty.mu, omega**2
+def feedback(system: System, penalty: Penalty, step: float, corrected: bool) -> Array:
+    """(K, 2) 2 Ω μ and Ω² of all rows for runs with this step [s]; without an Ω of the user none where states are `corrected` after every
+    step."""
+    usual = penalty.omega
+    if usual is None:
+        usual = 0.0 if corrected else FEEDBACK / step
+    out = np.tile([2.0 * usual * penalty.mu, usual**2], (len(system.rows), 1))
+    for row, own in of_rows(system, penalty.rows, PLACE).items():
+        omega = usual if own.omega is None else own.omega
+        out[row] = 2.0 * omega * (penalty.mu if own.mu is None else own.mu), omega**2
+    return out

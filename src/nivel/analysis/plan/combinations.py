@@ -58,7 +58,7 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
         return faults + _refuse_beside_whole_steps(settings, coordinates)
     if (
         settings.stabilisation == "baumgarte"
-        and settings.baumgarte is None
+        and not _gives_coefficients(settings)
         and facts.first_order
         and not facts.chooses_steps
     ):
@@ -141,7 +141,7 @@ def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
     if not chooses(settings.integrator, settings.step_control):
         return faults
     reason = f"which depend on the step, and `integrator: {settings.integrator}` chooses its steps"
-    if settings.stabilisation == "baumgarte" and settings.baumgarte is None:
+    if settings.stabilisation == "baumgarte" and not _gives_coefficients(settings):
         message = (
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {reason}: take direct, or own coefficients "
             f"`baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
@@ -155,6 +155,11 @@ def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
         )
         faults.append(_fault("penalty", message))
     return faults
+
+
+def _gives_coefficients(settings: SimulationSettings) -> bool:
+    """Whether the settings have coefficients of Baumgarte's feedback of their own, for all rows."""
+    return settings.baumgarte is not None and settings.baumgarte.is_whole
 
 
 def _fault(field: str, message: str) -> Fault:

@@ -72,6 +72,8 @@ def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
         return f"the run starts {settings.start}; it is for `start: equilibrium`"
     if name == "cut" and settings.cut and coordinates != "relative":
         return f"all joints stay constraints in {coordinates} coordinates; it is for `coordinates: relative`"
+    if name == "independent" and settings.independent and coordinates != "independent":
+        return f"all velocities are unknowns in {coordinates} coordinates; it is for `coordinates: independent`"
     return ""
 
 

@@ -68,12 +68,14 @@ class RunSettings:
             out["tolerance"], out["largest_step"] = self.tolerance, self.largest_step
         for name in ("corrector", "penalty"):
             if (given := getattr(self, name)) is not None:
-                out[name] = given.model_dump(exclude_none=True)
+                out[name] = {key: value for key, value in given.model_dump(exclude_none=True).items() if value != {}}
         if self.constants:
             names = ("alpha_m", "alpha_f", "beta", "gamma", "delta_m", "delta_f", "theta")
             out["constants"] = dict(zip(names, self.constants, strict=True))
-        if self.baumgarte is not None:
-            out["baumgarte"] = {"alpha": self.baumgarte[0], "beta": self.baumgarte[1]}
+        if self.asked.baumgarte is not None:
+            out["baumgarte"] = self.asked.baumgarte.model_dump(exclude_defaults=True)
+        if self.coordinates == "independent" and self.asked.independent:
+            out["independent"] = self.asked.independent
         return out
 
 
@@ -133,7 +135,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         largest_step=settings.largest_step or settings.duration,
         corrector=_corrector(settings.corrector, facts) if facts.kind == "corrector" else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
-        baumgarte=None if own is None else (own.alpha, own.beta),
+        baumgarte=None if own is None or own.alpha is None or own.beta is None else (own.alpha, own.beta),
         constants=_constants(settings),
     )
 

@@ -22,6 +22,7 @@ from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, 
 from nivel.analysis.assembly.modal_rows import modal_rows
 from nivel.analysis.assembly.penalties import penalise
 from nivel.analysis.assembly.redundancy import Redundancy, analyse
+from nivel.analysis.assembly.row_settings import refuse_unknown_rows
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.curves.jumping import jumping_functions
 from nivel.analysis.curves.step_limits import allowed_steps
@@ -41,6 +42,7 @@ from nivel.kernels.record.record import Record
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
+from nivel.system.elimination.partition import refuse_dependent
 from nivel.system.hydraulics.tangent import with_circuit_tangent
 from nivel.system.system import Array, System
 
@@ -155,7 +157,11 @@ def prepare(
     system, y = arranged(motion.system, assembly.y, rest, rank, methods)
     if len(system.record.saddle.dense):
         _leave_out_repeated(system, motion, assembly.y, methods)
+    refuse_unknown_rows(system, machine.simulation, penalised=methods.penalised)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
+    if wanted := machine.simulation.independent if methods.coordinates == "independent" else ():
+        prepared.evaluate(0.0, y)
+        refuse_dependent(prepared.system.record.partition, wanted, system.bodies)
     if integrator.needs == "circuits":
         prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:

@@ -14,6 +14,7 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback
+from nivel.analysis.assembly.row_settings import of_rows
 from nivel.analysis.failures.crawling import Crawl
 from nivel.analysis.failures.divergence import GROWN, UNBOUND
 from nivel.analysis.failures.fastest import fastest_beyond, held_step
@@ -197,10 +198,18 @@ def _kept_ends(prepared: Prepared, settings: RunSettings) -> int:
 
 def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
-    stabilise = system.record.control.stabilise
-    stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
+    control, own = system.record.control, settings.asked.baumgarte
+    control.stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
+    rows = np.tile(control.stabilise[:2], (len(system.rows), 1))
     if settings.penalty is not None:
-        stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
+        rows = feedback(system, settings.penalty, settings.step, stabilisation.CORRECTS)
+    elif settings.stabilisation == "baumgarte" and own is not None:
+        for row, each in of_rows(system, own.rows, "simulation.baumgarte").items():
+            rows[row] = stabilisation.coefficients(settings.step, each.alpha, each.beta)[:2]
+    same = not len(rows) or bool((rows == rows[0]).all())
+    if len(rows):
+        control.stabilise[:2] = rows[0] if same else 1.0
+    control.feedback[:] = 1.0 if same else rows
 
 
 def march_in_chunks(

@@ -33,6 +33,7 @@ from nivel.integrate.loop.run import (
     NEWTON,
     OPEN_LIMIT,
     ORDER,
+    PACES,
     PARTS,
     SHOWN,
     STEP,
@@ -140,7 +141,7 @@ def _step_ratio(sampled: Sampled, step: float) -> Fraction:
 
 def _pace(prepared: Prepared, settings: RunSettings) -> Array:
     """Nothing done yet, and steps as long as the settings and the functions of time allow."""
-    pace = np.zeros((5, PARTS))
+    pace = np.zeros((PACES, PARTS))
     pace[LEAST] = np.inf
     pace[ALLOWED] = settings.largest_step
     if prepared.allowed is not None:

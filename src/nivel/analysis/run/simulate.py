@@ -22,10 +22,13 @@ from nivel.analysis.trust.other_elements import with_elements
 from nivel.analysis.trust.report import assess
 from nivel.analysis.trust.subject import run_of
 from nivel.errors import SolveError
+from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED
 from nivel.integrate.loop.sink import Header
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.estimate import estimate_errors
 from nivel.results.frames.occurrence import to_json
+from nivel.results.iterations import ATTRIBUTE as ITERATIONS
+from nivel.results.iterations import iterations_in_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -140,6 +143,10 @@ def close_run(
         "stopped_by": finished.stopped_by,
         "timing": json.dumps({**finished.timing, **timing}),
     }
+    if finished.pace is not None:
+        steps, total, most = finished.pace[[STEPPED, ITERATED, MOST_ITERATED]]
+        if iterated := iterations_in_json(steps, total, most, plan.settings.duration):
+            attributes[ITERATIONS] = iterated
     if judge:
         attributes["trust"] = assess(run).to_json()
     if estimate is not None and run.elements is not None and run.elements.errors is not None:

@@ -1,4 +1,5 @@
-"""The pace of a run: how long its steps are at which time, how far and how fast bodies move in them, and how long they may be."""
+"""The pace of a run: how long its steps are at which time, how far and how fast bodies move in them, how often their equations are
+iterated, and how long they may be."""
 
 from __future__ import annotations
 
@@ -6,16 +7,21 @@ import numpy as np
 
 from nivel.integrate.loop.run import (
     ALLOWED,
+    COUNTED,
     DONE_STEPS,
     END,
     FROM,
+    ITERATED,
+    ITERATIONS,
     LARGEST,
     LEAST,
+    MOST_ITERATED,
     MOVING,
     PARTS,
     REACHED,
     SHORT,
     START,
+    STEPPED,
     TAKEN,
     TIME,
     TURNED,
@@ -65,6 +71,12 @@ def note_step(machine, run, speed):
         run.pace[TAKEN, k] = max(run.pace[TAKEN, k], h)
         run.pace[LEAST, k] = min(run.pace[LEAST, k], h)
         run.pace[TURNED, k] = max(run.pace[TURNED, k], turn)
+    done = run.counter[ITERATIONS] + np.int64(record_at(machine).control.iterations[1])
+    k, iterations = part_at(run, run.clock[REACHED]), float(done - run.counter[COUNTED])
+    run.counter[COUNTED] = done
+    run.pace[STEPPED, k] += 1.0
+    run.pace[ITERATED, k] += iterations
+    run.pace[MOST_ITERATED, k] = max(run.pace[MOST_ITERATED, k], iterations)
 
 
 @leaf

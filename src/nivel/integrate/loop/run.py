@@ -19,8 +19,8 @@ DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED
 ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
     8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
 )  # fmt: skip
-POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED, FACTORISATIONS, CORNER = 18, 19, 20, 21, 22, 23, 24
-COUNTS = 25
+POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED, FACTORISATIONS, CORNER, COUNTED = 18, 19, 20, 21, 22, 23, 24, 25
+COUNTS = 26
 # rows of Run.event_values
 BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # those of switches
@@ -31,8 +31,8 @@ VALUE_ROWS = 13
 # most rows of Run.dense
 DENSE_ROWS = 13
 # rows of Run.pace, and parts of the duration
-ALLOWED, TAKEN, LEAST, TURNED, MOVING = 0, 1, 2, 3, 4
-PARTS = 1024
+ALLOWED, TAKEN, LEAST, TURNED, MOVING, STEPPED, ITERATED, MOST_ITERATED = 0, 1, 2, 3, 4, 5, 6, 7
+PACES, PARTS = 8, 1024
 # columns of Run.windows
 FROM, UNTIL, SHORT = 0, 1, 2
 
@@ -56,7 +56,7 @@ class Run(NamedTuple):
     # whether frames and events inside the last step have to be handed out, number of the event that ended the run (from 1), events in
     # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts and
     # switches change sides,
-    # matrices of Newton's iteration found, number of the next corner
+    # matrices of Newton's iteration found, number of the next corner, iterations of all steps noted in `pace`
     counter: I1
     y: F1  # (ny,) state
     rate: F1  # (ny,) ẏ at the accepted state
@@ -84,9 +84,10 @@ class Run(NamedTuple):
     samples: I1  # (sampled states,) taken so far of those with a period
     # [s] ascending: explicit methods that choose their steps end one there; implicit ones know corners themselves
     corners: F1
-    # (5, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
+    # (PACES, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
     # TAKEN and the shortest, LEAST [s], the largest angle that a body TURNED by in a step [rad], the largest kinetic energy of all
-    # bodies MOVING at some steps [J]
+    # bodies MOVING at some steps [J]; of the steps that ended there, their number, STEPPED, the iterations of all of them and the most
+    # of one
     pace: F2
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
     # (capacity,) [s] times at which steps ended, step n in place n modulo the capacity; none where nobody asks for them

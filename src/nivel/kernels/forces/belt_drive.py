@@ -3,7 +3,8 @@
 With the way e of one rim against the other, the slip x and z = e - x, y = k z + d ż, the strands pull with T₁ = max(0, T₀ + y) and
 T₂ = max(0, T₀ - y), of which the effort T₁ - T₂ is left. z and y/k stay between LOW and HIGH: at an end the belt slips. x is that of the
 last accepted state, and z what is left of e - x between the ends (the return mapping of plasticity: exact where e turns back at no time
-within a step). Of Euler and Eytelwein, T₁ = m T₂ with m = exp(μ φ), the end is k z = T₀ (m - 1)/(m + 1).
+within a step; where steps are chosen one ends there). Of Euler and Eytelwein, T₁ = m T₂ with m = exp(μ φ), the end is
+k z = T₀ (m - 1)/(m + 1).
 """
 
 from __future__ import annotations
@@ -22,6 +23,10 @@ from nivel.native.function import leaf
 OUTPUT, COORDINATE, TENSIONS = 0, 1, 2
 # columns of `number`
 STIFFNESS, DAMPING, PRETENSION, LOW, HIGH = 0, 1, 2, 3, 4
+# Places in the memory: the slip, and what is watched where steps are chosen: whether the upper and the lower end is reached, and whether
+# each strand pulls.
+SLIP, AT_HIGH, AT_LOW, PULLS, PULLS_BACK = 0, 1, 2, 3, 4
+KEPT = 5
 # z within this share of an end is there, or nearer than this [m or rad]
 AT_END, AT_ZERO = 1e-9, 1e-15
 
@@ -30,6 +35,13 @@ AT_END, AT_ZERO = 1e-9, 1e-15
 def near(end):
     """How far from an end it counts as reached."""
     return AT_END * np.abs(end) + AT_ZERO
+
+
+@leaf
+def watch(elements, k, place, value):
+    """Note that `value` is watched, and on which side it is."""
+    elements.depth[k, place] = value
+    elements.proposal[k, place] = 1.0 if real(value) > 0.0 else 0.0
 
 
 @family
@@ -41,18 +53,24 @@ def apply(machine, number, t):
         n, q, out = elements.number[k], elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
         way, rate = coordinates.value[q], coordinates.rate[q]
         stiffness, pretension = n[STIFFNESS], n[PRETENSION]
-        strained = way - elements.memory[k, 0]
+        strained = way - elements.memory[k, SLIP]
         z, stretching, slipping = strained, rate, 0.0 * rate
+        lag = n[DAMPING] / stiffness * rate
+        beyond, below = strained + lag - n[HIGH], n[LOW] - strained - lag
         # what has slipped stands at the end itself, where the rate says whether it goes on
         if n[HIGH] < np.inf and real(strained) > n[HIGH] - (near(n[HIGH]) if real(rate) > 0.0 else 0.0):
-            z, stretching, slipping = n[HIGH] + 0.0 * rate, 0.0 * rate, rate
+            z, stretching, slipping, beyond = n[HIGH] + 0.0 * rate, 0.0 * rate, rate, rate
         elif n[LOW] > -np.inf and real(strained) < n[LOW] + (near(n[LOW]) if real(rate) < 0.0 else 0.0):
-            z, stretching, slipping = n[LOW] + 0.0 * rate, 0.0 * rate, rate
-        elements.proposal[k, 0] = way - z
+            z, stretching, slipping, below = n[LOW] + 0.0 * rate, 0.0 * rate, rate, -rate
+        elements.proposal[k, SLIP] = way - z
+        watch(elements, k, AT_HIGH, beyond)
+        watch(elements, k, AT_LOW, below)
         y = stiffness * z + n[DAMPING] * stretching
         y = minimum(maximum(y, stiffness * n[LOW]), stiffness * n[HIGH])
         pull, back = maximum(pretension + y, 0.0), maximum(pretension - y, 0.0)
         first, second = maximum(pretension + stiffness * z, 0.0), maximum(pretension - stiffness * z, 0.0)
+        watch(elements, k, PULLS, pretension + y)
+        watch(elements, k, PULLS_BACK, pretension - y)
         effort = pull - back
         control.stored[0] += 0.5 * (first * first + second * second) / stiffness
         control.power[1] += effort * rate - (first - second) * stretching

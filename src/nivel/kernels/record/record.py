@@ -410,6 +410,9 @@ class Control(NamedTuple):
     # (3,) most iterations of the augmented Lagrangian (1: none), those of all evaluations so far, evaluations since it last converged
     iterations: U1
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
+    feedback: F2  # (K, 2) 2α and β² of each row, as multiples of those in `stabilise`
+    # (1,) the augmented Lagrangian ends where what its last change does, squared, is below this share of what all forces do
+    settled: F1
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: W1  # (2,) work of external forces and dissipation per second
     stored: W1  # (1,) [J] elastic energy of the forces

@@ -132,12 +132,12 @@ def write_rows(machine, first):
         value[first + i] = rate[i]
     at = first + states
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
+    own = record.control.feedback
     for k in range(residual.row.shape[0]):
         row = residual.row[k]
         value[at + k], value[at + rows + k] = constraints.C[row], constraints.Cdot[row]
-        value[at + 2 * rows + k] = (
-            twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
-        )
+        fed_back = twice_alpha * own[row, 0] * constraints.Cdot[row] + beta_squared * own[row, 1] * constraints.C[row]
+        value[at + 2 * rows + k] = fed_back - constraints.gamma[row]
     at += 2 * rows
     for p in range(residual.part.shape[0]):
         J, u, x = (

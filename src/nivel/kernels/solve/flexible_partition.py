@@ -38,7 +38,7 @@ def fill_flexible_rows(machine):
         part, v = record.constraints.J[saddle.block[at, 1]], 6 * np.int64(own.body[f])
         for i in range(3):
             entries[place[v + i]] += unit[v + i] * part[i]
-            entries[place[v + 3 + i]] += W[3 + i]
+            entries[place[v + 3 + i]] += unit[v + 3 + i] * W[3 + i]
         first, n = modes_of(own, f)
         for j in range(n):
             v = modes + first + j
@@ -58,7 +58,7 @@ def weigh_flexible_row(machine, entries):
         f0, f1, f2 = entries[place[v]] / unit[v], entries[place[v + 1]] / unit[v], entries[place[v + 2]] / unit[v]
         for i in range(3):
             x[i] = A[0, i] * f0 + A[1, i] * f1 + A[2, i] * f2
-            x[3 + i] = entries[place[v + 3 + i]]
+            x[3 + i] = entries[place[v + 3 + i]] / unit[v + 3 + i]
         for j in range(n):
             power = entries[place[modes + first + j]] / unit[modes + first + j]
             square += power * power

@@ -13,7 +13,7 @@ from nivel.kernels.algebra.dense import IMMOBILE, solve_pivoted
 from nivel.kernels.algebra.sparse import DEPENDENT, factorise
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
-from nivel.kernels.solve.saddle import LEFT_OUT, PIVOTED, RANK, factorise_by_pivots, iterate_rows
+from nivel.kernels.solve.saddle import LEFT_OUT, PIVOTED, RANK, SETTLED, factorise_by_pivots, iterate_rows
 from nivel.native.function import leaf, stage
 
 # ε: round-off over it is left of what moves nothing
@@ -82,7 +82,7 @@ def found_by_iteration(record):
     if found:
         most, so_far = iterations[0], iterations[1]
         iterations[0] = MOST_ITERATIONS
-        found = iterate_rows(saddle, iterations, 0.0) == OK
+        found = iterate_rows(saddle, iterations, 0.0, SETTLED) == OK
         iterations[0], iterations[1] = most, so_far
     for k in range(saddle.order.shape[0]):
         row = saddle.order[k]

@@ -2,8 +2,9 @@
 
 C_q is measured in units of the machine's length and its rows have unit length, so that entries can be compared. A partition is
 chosen by Gaussian elimination with pivots from anywhere in C_q: their columns are the dependent velocities, their rows those that
-determine them. It is kept while elimination within it goes well. The rank comes from the analysis of the assembled machine, so no
-tolerance decides it anew; rows beyond it follow from the chosen ones.
+determine them. Velocities that somebody wants to be independent have small units, so that pivots are found among the others
+(`nivel.system.elimination.partition`). A partition is kept while elimination within it goes well. The rank comes from the analysis of
+the assembled machine, so no tolerance decides it anew; rows beyond it follow from the chosen ones.
 """
 
 from __future__ import annotations
@@ -50,7 +51,8 @@ def fill_rows(machine):
         n2 = J[part, 5] + u[0] * f1 - u[1] * f0
         for i in range(3):
             entries[place[6 * b + i]] += unit[6 * b + i] * J[part, i]
-            entries[place[6 * b + 3 + i]] += A[0, i] * n0 + A[1, i] * n1 + A[2, i] * n2
+            turning = A[0, i] * n0 + A[1, i] * n1 + A[2, i] * n2
+            entries[place[6 * b + 3 + i]] += unit[6 * b + 3 + i] * turning
     for k in range(rows):
         square = 0.0
         for j in range(n):
@@ -74,7 +76,8 @@ def weigh_rows(machine):
                 continue
             f0, f1, f2 = E[k, place[6 * b]], E[k, place[6 * b + 1]], E[k, place[6 * b + 2]]
             n0, n1, n2 = E[k, place[6 * b + 3]], E[k, place[6 * b + 4]], E[k, place[6 * b + 5]]
-            f0, f1, f2 = f0 / unit[6 * b], f1 / unit[6 * b], f2 / unit[6 * b]
+            f0, f1, f2 = f0 / unit[6 * b], f1 / unit[6 * b + 1], f2 / unit[6 * b + 2]
+            n0, n1, n2 = n0 / unit[6 * b + 3], n1 / unit[6 * b + 4], n2 / unit[6 * b + 5]
             A, K, c = bodies.A[b], bodies.whitener_b[b], bodies.c[b]
             # moment about the centre of mass, body axes: n̄ - Aᵀ (c × f)
             x0, x1, x2 = c[1] * f2 - c[2] * f1, c[2] * f0 - c[0] * f2, c[0] * f1 - c[1] * f0

@@ -21,7 +21,8 @@ RANK, LEFT_OUT, PIVOTED = 0, 1, 2
 # With pivots below this share of their diagonal, rows that are independent elsewhere are as good as dependent: others may be better.
 POOR = 1e-7
 CONTRADICTORY = 1e-3
-# The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do.
+# The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do, unless
+# somebody wants another one.
 SETTLED = 1e-24
 # Its last iterate is good enough where the iterations to come, as a geometric series, would do less than this share, squared.
 GOOD_ENOUGH = 1e-12
@@ -86,15 +87,15 @@ def solve_rows(machine, forces):
     if record.control.iterations[0] <= 1:
         solve(saddle)
         return OK
-    return iterate_rows(saddle, record.control.iterations, forces)
+    return iterate_rows(saddle, record.control.iterations, forces, record.control.settled[0])
 
 
 @stage
-def iterate_rows(saddle, most, forces):
+def iterate_rows(saddle, most, forces, settled):
     """Augmented Lagrangian: (S + 1/α) xₖ₊₁ = b + xₖ/α, eq. 120 after elimination of the accelerations, until x is that of S x = b.
 
     In changes d of x: (S + 1/α) dₖ₊₁ = dₖ/α. What d does is the acceleration energy dᵀ S d = Σ (dₖ - dₖ₊₁) dₖ₊₁/α, which multipliers
-    of dependent rows, never settled, have no part in. Returns a status.
+    of dependent rows, never settled, have no part in. It ends below the share `settled` of `forces`. Returns a status.
     """
     b, x, before = saddle.b, saddle.target, saddle.before
     for k in range(b.shape[0]):
@@ -114,12 +115,12 @@ def iterate_rows(saddle, most, forces):
         for k in range(b.shape[0]):
             x[k] += b[k]
             done += saddle.shift[k] * real((before[k] - b[k]) * b[k])
-        if done <= SETTLED * forces:
+        if done <= settled * forces:
             break
     for k in range(b.shape[0]):
         b[k] = x[k]
     left = 1.0 - min((done / last) ** 0.5, SLOWEST) if last > done > 0.0 else 1.0 - SLOWEST
-    return OK if done <= max(SETTLED, GOOD_ENOUGH * left * left) * forces else MULTIPLIERS_NOT_FOUND
+    return OK if done <= max(settled, GOOD_ENOUGH * left * left) * forces else MULTIPLIERS_NOT_FOUND
 
 
 @stage
@@ -128,10 +129,11 @@ def multipliers(machine, width):
     record = record_at(machine)
     saddle, constraints = record.saddle, record.constraints
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
-    b = saddle.b
+    b, own = saddle.b, record.control.feedback
     for k in range(b.shape[0]):
         row = saddle.row[k]
-        b[k] = twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
+        fed_back = twice_alpha * own[row, 0] * constraints.Cdot[row] + beta_squared * own[row, 1] * constraints.C[row]
+        b[k] = fed_back - constraints.gamma[row]
     for k in range(saddle.blocks[0]):
         row, body = saddle.block[k, 0], saddle.block[k, 3]
         total = b[row]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from typing import Annotated, Literal
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
 
-from pydantic import field_validator
+from pydantic import ValidationInfo, field_validator
 
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.record import Record
-from nivel.machine.given import Field, ManyNames, Maybe, OneRecord
+from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord
 from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 from nivel.methods import (
@@ -27,18 +27,46 @@ from nivel.methods import (
 Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
 
 
-class Baumgarte(Record):
-    """Feedback of constraint violations: C̈ + 2 α Ċ + β² C = 0."""
+class RowFeedback(Record):
+    """Feedback of the violations of some rows of constraints: C̈ + 2 α Ċ + β² C = 0."""
 
     alpha: Rate
     beta: Rate
+
+
+class Baumgarte(Record):
+    """Feedback of constraint violations: C̈ + 2 α Ċ + β² C = 0.
+
+    Without `alpha` and `beta` they follow from the step. `rows` gives joints, couplings, drivers or single rows their own.
+    """
+
+    alpha: Maybe[Rate] = Field(default=None)
+    beta: Maybe[Rate] = Field(default=None)
+    rows: Given[dict[str, RowFeedback], Mapping[str, RowFeedback], Mapping[str, Any]] = Field(
+        default={}, description="joint, or row: its own `alpha` and `beta`"
+    )
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it gives the coefficients of all rows."""
+        return self.alpha is not None and self.beta is not None
+
+
+class RowPenalty(Record):
+    """Penalty of some rows of constraints; what is not given is that of all rows."""
+
+    factor: Annotated[Real, Field(ge=1.0, le=1e14)] | None = None
+    alpha: Annotated[Real, Field(gt=0.0)] | None = None
+    omega: Maybe[Rate] = Field(default=None)
+    mu: Annotated[Real, Field(ge=0.0)] | None = None
 
 
 class Penalty(Record):
     """Penalty and augmented Lagrangian: λ = α (C̈ + 2 Ω μ Ċ + Ω² C).
 
     `alpha` is one number for all rows, in SI units; without it every row gets `factor` times the mass that it moves. Without `omega`,
-    Ω = 0.1/step, or 0 where the stabilisation corrects states anyway.
+    Ω = 0.1/step, or 0 where the stabilisation corrects states anyway. `rows` gives joints, couplings, drivers or single rows their own.
+    The iteration of augmented-lagrangian ends where what it still changes is below `tolerance`, as a share of what the forces do.
     """
 
     factor: Annotated[Real, Field(ge=1.0, le=1e14)] | None = None
@@ -46,6 +74,10 @@ class Penalty(Record):
     omega: Maybe[Rate] = Field(default=None)
     mu: Annotated[Real, Field(ge=0.0)] = 1.0
     iterations: Annotated[Whole, Field(ge=1, le=1000)] = 30
+    tolerance: Tolerance = 1e-12
+    rows: Given[dict[str, RowPenalty], Mapping[str, RowPenalty], Mapping[str, Any]] = Field(
+        default={}, description="joint, or row: its own `factor` or `alpha`, `omega` and `mu`"
+    )
 
 
 class Corrector(Record):
@@ -115,6 +147,12 @@ class SimulationSettings(Checked):
         option="--cut JOINTS",
         absent="chosen automatically",
     )
+    independent: ManyNames[str] = Field(
+        default=(),
+        description="velocities that independent coordinates keep as unknowns, e.g. crank.about_z",
+        option="--independent NAMES",
+        absent="chosen automatically",
+    )
     stabilisation: Stabilisation = Field(default="direct", description="constraint stabilisation")
     start: Start = Field(default="as-given", description="initial state: as assembled, or the equilibrium at rest")
     free: ManyNames[CoordinateReference] = Field(
@@ -142,13 +180,14 @@ class SimulationSettings(Checked):
         absent="from the step",
     )
 
-    @field_validator("cut")
+    @field_validator("cut", "independent")
     @classmethod
-    def _named_once(cls, cut: tuple[str, ...]) -> tuple[str, ...]:
-        twice = [name for name, count in Counter(cut).items() if count > 1]
+    def _named_once(cls, names: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
+        twice = [name for name, count in Counter(names).items() if count > 1]
         if twice:
-            raise fault(f"{', '.join(f'`{name}`' for name in twice)} stands here more than once; name each joint once")
-        return cut
+            what = "joint" if info.field_name == "cut" else "velocity"
+            raise fault(f"{', '.join(f'`{name}`' for name in twice)} stands here more than once; name each {what} once")
+        return names
 
     def problems(self) -> Iterator[Problem]:
         """Each is about several settings, which its message names; the place is that of all of them."""
@@ -162,6 +201,13 @@ class SimulationSettings(Checked):
             messages.append(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
             messages.append(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
-        if self.penalty.factor is not None and self.penalty.alpha is not None:
-            messages.append("`penalty` takes `factor` or `alpha`, not both")
+        own = self.baumgarte
+        if own is not None and (own.alpha is None) != (own.beta is None):
+            messages.append("`baumgarte` takes `alpha` and `beta`, both or none")
+        for name, each in (
+            ("penalty", self.penalty),
+            *((f"penalty.rows.{row}", of) for row, of in self.penalty.rows.items()),
+        ):
+            if each.factor is not None and each.alpha is not None:
+                messages.append(f"`{name}` takes `factor` or `alpha`, not both")
         yield from (Problem((), message) for message in messages)

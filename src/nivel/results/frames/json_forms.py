@@ -86,6 +86,7 @@ FORMS: Final[dict[str, Any]] = {
         **{f"{key}?": Either((None, str)) for key in ("integrator", "formulation", "coordinates", "stabilisation")},
     },
     "timing": {"*": float},
+    "iterations": {"length": float, "part": [int], "steps": [int], "total": [int], "most": [int]},
     "buckling": [{"time": float, "moves": str}],
     "flexible_bodies": [{"name": str, "file": str, "modes": [int], "fingerprint": str}],
     "assembly": {

@@ -34,7 +34,7 @@ JSON_TEXTS: Final = (
         "constraint_units",
         "coordinate_units",
     ),
-    *("critical_points", "buckling", "estimated_errors", "flexible_bodies"),
+    *("critical_points", "buckling", "estimated_errors", "flexible_bodies", "iterations"),
 )
 # A file holds at least this share of the bytes that its frames take: no compression of times gets below.
 LEAST_SHARE = 1e-4

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import Partition
 from nivel.kernels.solve.partition import GROWTH, GROWTH_OF_FORMULAS
 from nivel.system.tables import Array
+from nivel.words.wording import unknown_word
 
 NO_MODES = np.zeros(0)
+# Velocities that are wanted as independent ones are measured in this share of their units: pivots, whose columns are the dependent ones,
+# are found among the others unless these are this much smaller.
+RELUCTANCE = 0.01
+DIRECTIONS = ("x", "y", "z", "about_x", "about_y", "about_z")
 
 
 def no_partition() -> Partition:
@@ -16,15 +24,54 @@ def no_partition() -> Partition:
     return partition(0, 0, 0, 1.0)
 
 
-def partition(bodies: int, rows: int, rank: int, size: float, modal: Array = NO_MODES) -> Partition:
+def velocities_named(names: Sequence[str], bodies: Sequence[str]) -> list[int]:
+    """Numbers of the velocities `BODY.x` … `BODY.about_z`: of the origin along global axes, angular about axes of the body.
+
+    Raises ModelError with every name that says no velocity.
+    """
+    known = {f"{body}.{way}": 6 * b + i for b, body in enumerate(bodies) for i, way in enumerate(DIRECTIONS)}
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise ModelError([Fault("", 0, 0, "simulation.independent", _no_velocity(name, bodies)) for name in unknown])
+    return [known[name] for name in names]
+
+
+def _no_velocity(name: str, bodies: Sequence[str]) -> str:
+    body, _, way = name.rpartition(".")
+    if body in bodies:
+        return f"`{name}`: {unknown_word(way, DIRECTIONS, 'velocity')}"
+    return f"`{name}` names no velocity of a body: {unknown_word(body or name, bodies, 'body')}; write e.g. `{bodies[0]}.about_z`"
+
+
+def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[str]) -> None:
+    """Refuse `wanted` velocities that cannot all be independent in the state last evaluated."""
+    free = len(chosen.B)
+    if len(wanted) > free:
+        message = f"{len(wanted)} velocities are named, and the machine has {free} {'degree' if free == 1 else 'degrees'} of freedom"
+        raise ModelError(Fault("", 0, 0, "simulation.independent", message))
+    independent = set(chosen.column[len(chosen.column) - free :].tolist())
+    lost = [name for name, k in zip(wanted, velocities_named(wanted, bodies), strict=True) if k not in independent]
+    if lost:
+        message = (
+            f"{', '.join(f'`{name}`' for name in lost)} follows from the constraints{' and the others' if len(wanted) > 1 else ''} at "
+            f"the start, so it cannot be independent: name another velocity"
+        )
+        raise ModelError(Fault("", 0, 0, "simulation.independent", message))
+
+
+def partition(
+    bodies: int, rows: int, rank: int, size: float, modal: Array = NO_MODES, wanted: Sequence[int] = ()
+) -> Partition:
     """For six velocities (Ṙ, ω̄) a body, `rank` independent ones of `rows` rows and a machine of the length `size` [m]; none chosen yet.
 
-    modal : (m,) what modal velocities behind them are measured in [kg^½ m].
+    modal : (m,) what modal velocities behind them are measured in [kg^½ m]. wanted : velocities to be independent where they can.
     """
     n = 6 * bodies + len(modal)
     free = n - rank
+    unit = np.concatenate([np.tile([size, size, size, 1.0, 1.0, 1.0], bodies), modal])
+    unit[list(wanted)] *= RELUCTANCE
     return Partition(
-        unit=np.concatenate([np.tile([size, size, size, 1.0, 1.0, 1.0], bodies), modal]),
+        unit=unit,
         column=np.arange(n, dtype=np.uint32),
         row=np.arange(rows, dtype=np.uint32),
         choices=np.zeros(1, dtype=np.uint32),

@@ -6,6 +6,7 @@ import math
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.elements import friction
+from nivel.kernels.forces.belt_drive import AT_HIGH, AT_LOW, KEPT, PULLS, PULLS_BACK
 from nivel.kernels.forces.belt_drive import apply as belt_drive
 from nivel.kernels.forces.shaft import apply as shaft
 from nivel.kernels.record.record import NONE
@@ -63,7 +64,9 @@ def add_freewheel(builder: SystemBuilder, force: Freewheel) -> None:
     way = ("run", _units(angle), "way that it ran ahead")
     first = force_outputs(builder, force.name, *efforts, rate, way)
     low = -math.inf if force.capacity is None else -force.capacity / force.stiffness
-    builder.elements.add(belt_drive, [first, coordinate, 0], [force.stiffness, force.damping, 0.0, low, 0.0], 1)
+    watched = (AT_HIGH,) if force.capacity is None else (AT_HIGH, AT_LOW)
+    numbers = [force.stiffness, force.damping, 0.0, low, 0.0]
+    builder.elements.add(belt_drive, [first, coordinate, 0], numbers, KEPT, watched)
 
 
 def add_shaft(builder: SystemBuilder, force: Shaft) -> None:
@@ -97,13 +100,14 @@ def add_belt_drive(builder: SystemBuilder, force: BeltDrive) -> None:
         ("first_tension", "N", "tension of the strand that the first pulley pulls as it turns up"),
         ("second_tension", "N", "tension of the other strand"),
     )
-    end = math.inf
+    end, watched = math.inf, (PULLS, PULLS_BACK)
     if force.friction is not None:
         m = math.exp(force.friction * force.wrap)
         end = force.pretension * (m - 1.0) / (m + 1.0) / force.stiffness
+        watched = AT_HIGH, AT_LOW
     pretension = force.pretension - force.stiffness * force.slack
     numbers = [force.stiffness, force.damping, pretension, -end, end]
-    builder.elements.add(belt_drive, [first, coordinate, 1], numbers, 1)
+    builder.elements.add(belt_drive, [first, coordinate, 1], numbers, KEPT, watched)
 
 
 def add_transmission_loss(builder: SystemBuilder, force: TransmissionLoss) -> None:

@@ -8,13 +8,9 @@ import numpy as np
 
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
-from nivel.system.elimination.partition import partition
+from nivel.system.elimination.partition import RELUCTANCE, partition, velocities_named
 from nivel.system.states import floating
 from nivel.system.system import Array, System
-
-# Modal velocities are measured in this share of what moves a body by the length of the machine: then pivots are found among the others
-# unless these are this much smaller.
-RELUCTANCE = 0.01
 
 
 def arrange(
@@ -26,9 +22,10 @@ def arrange(
     """
     system, start = floating.arrange(machine, absolute, y, rank, settings)
     record = system.record
-    # modes of unit modal mass move their body by about p/√m
+    # modes of unit modal mass move their body by about p/√m; they too are independent where they can
     mass = np.repeat(
         record.bodies.mass[record.flexible.body], np.diff(record.flexible.mode.astype(int), axis=1).ravel()
     )
-    arrays = partition(system.body_count, len(system.rows), rank, system.size, RELUCTANCE * system.size * np.sqrt(mass))
+    modal, wanted = RELUCTANCE * system.size * np.sqrt(mass), velocities_named(settings.independent, system.bodies)
+    arrays = partition(system.body_count, len(system.rows), rank, system.size, modal, wanted)
     return replace(system, record=record._replace(partition=arrays)), start

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
-from nivel.system.elimination.partition import partition
+from nivel.system.elimination.partition import partition, velocities_named
 from nivel.system.system import Array, System
 
 
@@ -14,7 +14,8 @@ def arrange(
     machine: MachineRecord, absolute: System, y: Array, rank: int, settings: SimulationSettings
 ) -> tuple[System, Array]:
     """The same numbers with the arrays of a partition; the equations choose it at the first state that they are given."""
-    del machine, settings
+    del machine
     system = absolute.known_rank(rank)
-    arrays = partition(system.body_count, len(system.rows), rank, system.size)
+    wanted = velocities_named(settings.independent, system.bodies)
+    arrays = partition(system.body_count, len(system.rows), rank, system.size, wanted=wanted)
     return replace(system, record=system.record._replace(partition=arrays)), y.copy()

@@ -233,6 +233,34 @@ def test_chain_with_slack_pulls_one_strand():
     assert result.array("force.chain.second_tension") == pytest.approx(0.0, abs=0.0)
 
 
+def slipped(time, force, stiffness, damping, end, inertia, step=2e-5):
+    """Slip of a belt between a free rim and one that stands, by the return mapping in small steps."""
+    way, rate, slip, out, t = 0.0, 0.0, 0.0, [], 0.0
+    for wanted in time:
+        while t < wanted - 0.5 * step:
+            strain = way - slip
+            pull = min(max(stiffness * strain + damping * rate, -end), end)
+            rate += step * (force(t + 0.5 * step) - 2.0 * pull) / inertia
+            way += step * rate
+            slip = way - min(max(way - slip, -end / stiffness), end / stiffness)
+            t += step
+        out.append(slip)
+    return np.array(out)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_steps_end_where_a_belt_begins_and_ceases_to_slip(tolerance):
+    """A belt that is drawn to and fro slips at each turn, by the same with any tolerance."""
+    belt = {"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [0.1, 0.2], "stiffness": 2e4, "damping": 4,
+            "pretension": 100, "friction": 0.3, "wrap": 2.5}  # fmt: skip
+    forces = {"belt": belt, "m": {"type": "motor", "coordinate": "p", "effort": "12*sin(20*time)"}}
+    result = simulate(shafts(forces, inertias=(0.02, 1e9)), integrator="dopri5", tolerance=tolerance, duration=0.8, output_interval=0.05)
+    m = math.exp(0.3 * 2.5)
+    wanted = slipped(result.time, lambda t: 12.0 * math.sin(20.0 * t) / 0.1, 2e4, 4.0, 100.0 * (m - 1) / (m + 1), 0.02 / 0.1**2)
+    assert np.ptp(wanted) > 0.03
+    np.testing.assert_allclose(result.array("force.belt.slip"), wanted, atol=5e-3 * np.ptp(wanted))
+
+
 HELD = {
     "clutch": {"type": "clutch", "coordinate": "p", "against": "q", "ratio": 0.6,
                "capacity": "2 + sin(s.displacement) + base.vx*s.displacement_rate", "static_ratio": 1.3, "stribeck_rate": 0.5},
@@ -289,6 +317,13 @@ def test_what_holds_has_no_equilibrium_and_no_derivative(analysis):
     held = machine(shafts({"c": {"type": "clutch", "coordinate": "p", "against": "q", "capacity": 3}}))
     with pytest.raises(ModelError, match=r"forces\.c: a clutch (holds at rest|has no derivative)"):
         getattr(held, analysis)()
+
+
+def test_a_second_loss_of_a_coupling_is_refused():
+    loss = {"type": "transmission-loss", "coupling": "g", "coordinate": "p", "efficiency": 0.9}
+    gear = {"g": {"type": "gear", "joints": ["p", "q"], "ratio": 3}}
+    with pytest.raises(ModelError, match=r"`one` is the loss of `g` already.*`efficiency: 0\.72`"):
+        simulate(shafts({"one": loss, "two": {**loss, "efficiency": 0.8}}, couplings=gear), duration=0.01)
 
 
 @pytest.mark.parametrize(

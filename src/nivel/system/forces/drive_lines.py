@@ -117,6 +117,7 @@ def add_transmission_loss(builder: SystemBuilder, force: TransmissionLoss) -> No
         known = ", ".join(builder.transmissions) or "none"
         message = f"there is no coupling or screw joint `{force.coupling}`; there are {known}"
         raise ModelError(Fault("", 0, 0, f"forces.{force.name}.coupling", message))
+    _refuse_another_loss(builder, force)
     row, factors = builder.transmissions[force.coupling]
     if coordinate not in factors:
         names = [name for name, index in builder.joint_coordinates.items() if index in factors]
@@ -133,6 +134,18 @@ def add_transmission_loss(builder: SystemBuilder, force: TransmissionLoss) -> No
     index = [coordinate, friction.STICTION, NONE, int(angle), NONE, first, *[NONE] * 5, row, NONE]
     numbers = [forward, forward, 0.0, 1.0, *[0.0] * 3, 1.0, *[0.0] * 5, backward, factors[coordinate]]
     builder.add_friction(force.name, index, numbers)
+
+
+def _refuse_another_loss(builder: SystemBuilder, force: TransmissionLoss) -> None:
+    """The effort of a coupling loads one loss: of two, each would be loaded by what the other takes away."""
+    losses = [each for each in builder.machine.forces if isinstance(each, TransmissionLoss)]
+    first = next(each for each in losses if each.coupling == force.coupling)
+    if first is not force:
+        message = (
+            f"`{first.name}` is the loss of `{force.coupling}` already; leave this one out, and give `{first.name}` the efficiency of both: "
+            f"`efficiency: {first.efficiency * force.efficiency:g}`"
+        )
+        raise ModelError(Fault("", 0, 0, f"forces.{force.name}.coupling", message))
 
 
 KINDS = (

@@ -254,9 +254,17 @@ def test_steps_end_where_a_belt_begins_and_ceases_to_slip(tolerance):
     belt = {"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [0.1, 0.2], "stiffness": 2e4, "damping": 4,
             "pretension": 100, "friction": 0.3, "wrap": 2.5}  # fmt: skip
     forces = {"belt": belt, "m": {"type": "motor", "coordinate": "p", "effort": "12*sin(20*time)"}}
-    result = simulate(shafts(forces, inertias=(0.02, 1e9)), integrator="dopri5", tolerance=tolerance, duration=0.8, output_interval=0.05)
+    result = simulate(
+        shafts(forces, inertias=(0.02, 1e9)),
+        integrator="dopri5",
+        tolerance=tolerance,
+        duration=0.8,
+        output_interval=0.05,
+    )
     m = math.exp(0.3 * 2.5)
-    wanted = slipped(result.time, lambda t: 12.0 * math.sin(20.0 * t) / 0.1, 2e4, 4.0, 100.0 * (m - 1) / (m + 1), 0.02 / 0.1**2)
+    wanted = slipped(
+        result.time, lambda t: 12.0 * math.sin(20.0 * t) / 0.1, 2e4, 4.0, 100.0 * (m - 1) / (m + 1), 0.02 / 0.1**2
+    )
     assert np.ptp(wanted) > 0.03
     np.testing.assert_allclose(result.array("force.belt.slip"), wanted, atol=5e-3 * np.ptp(wanted))
 

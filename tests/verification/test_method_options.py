@@ -90,17 +90,29 @@ def test_each_row_has_its_own_penalty(formulation, rng):
     of_joint = np.array([row.startswith(f"{joint}.") for row in system.rows])
     alpha[of_joint], omega[of_joint] = 3e8, 4.0
     alpha[1], omega[1], mu[1] = 5e8, 6.0, 0.5
-    np.testing.assert_allclose(lam, alpha * (over + 2 * omega * mu * Cdot + omega**2 * C), rtol=1e-5, atol=1e-6 * np.abs(lam).max())
+    np.testing.assert_allclose(
+        lam, alpha * (over + 2 * omega * mu * Cdot + omega**2 * C), rtol=1e-5, atol=1e-6 * np.abs(lam).max()
+    )
 
 
 def test_own_numbers_hold_a_joint_together_where_the_others_drift():
     """The row with the greater β stays nearer to closed, with explicit and implicit methods alike."""
-    settings = {"duration": 4.0, "step": 2e-3, "output_interval": 0.05, "coordinates": "absolute", "stabilisation": "baumgarte"}
+    settings = {
+        "duration": 4.0,
+        "step": 2e-3,
+        "output_interval": 0.05,
+        "coordinates": "absolute",
+        "stabilisation": "baumgarte",
+    }
     base = run(machines.slider_crank(), baumgarte={"alpha": 1, "beta": 1}, **settings)
     system = base.prepared.motion.system
     worst = int(np.argmax(np.abs(base.constraint_violation).max(axis=0)))
     joint = system.rows[worst].split(".")[0]
-    held = run(machines.slider_crank(), baumgarte={"alpha": 1, "beta": 1, "rows": {joint: {"alpha": 40, "beta": 40}}}, **settings)
+    held = run(
+        machines.slider_crank(),
+        baumgarte={"alpha": 1, "beta": 1, "rows": {joint: {"alpha": 40, "beta": 40}}},
+        **settings,
+    )
     assert np.abs(held.constraint_violation[:, worst]).max() < 0.1 * np.abs(base.constraint_violation[:, worst]).max()
 
 
@@ -150,7 +162,9 @@ def test_velocities_that_the_user_chooses_are_the_unknowns():
 
 def test_a_dead_point_of_a_chosen_velocity_is_passed_by_another():
     """Where the rod hangs down its speed along y is zero whatever its angular velocity is: the partition is chosen anew."""
-    found = pendulum(coordinates="independent", independent=["rod.y"], duration=2.0, step=1e-4, output_interval=0.01).simulate(verify=False)
+    found = pendulum(
+        coordinates="independent", independent=["rod.y"], duration=2.0, step=1e-4, output_interval=0.01
+    ).simulate(verify=False)
     assert found.timing["partitions"] >= 1
     y = found.array("position")[:, 0, 1]
     assert y.min() == pytest.approx(-0.5, abs=1e-3)

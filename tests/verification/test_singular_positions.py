@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.errors import SolveError
+from nivel.errors import ModelError, SolveError
 from simulating import machine, simulate
 
 START = 0.5
@@ -101,10 +101,35 @@ def test_flat_position_in_a_frame_between_chosen_steps_is_named_and_other_frames
     np.testing.assert_allclose(passed.array("right.angle"), -0.5 * passed.time, atol=1e-9)
 
 
-def test_start_in_the_flat_position_is_refused_with_the_row_that_is_lost():
-    machine = parallelogram(1.0)
-    for joint in machine["joints"].values():
-        joint.pop("start_rates", None)
-    machine["joints"]["left"]["start"] = {"angle": -START}
-    with pytest.raises(Exception, match="starts in a singular position"):
-        simulate(machine, duration=0.1, step=1e-3)
+def folded(kind="spherical"):
+    """The parallelogram as it is drawn flat, without any motion."""
+    sections = parallelogram(0.0)
+    del sections["joints"]["left"]["start_rates"]
+    sections["joints"]["near"] = {**sections["joints"]["near"], "type": kind}
+    if kind == "revolute":
+        sections["joints"]["near"]["axis"] = [0, 0, 1]
+        sections["joints"]["far"]["type"] = kind
+    sections["joints"]["left"]["start"] = {"angle": -START}
+    return sections
+
+
+@pytest.mark.parametrize("kind", ["spherical", "revolute"])
+def test_start_in_the_flat_position_is_refused_with_both_assemblies(kind):
+    """The parallelogram turns both bars alike; folded across, tan ½ψ = -⅓ tan ½φ for bars of 1 m that stand 2 m apart. Also where three
+    rows of a loop of revolutes repeat others everywhere."""
+    with pytest.raises(ModelError, match="starts in a singular position.*Two assemblies meet there") as caught:
+        simulate(folded(kind), duration=0.1, step=1e-3)
+    told = str(caught.value)
+    assert "left.angle by +1°" in told or "right.angle by +1°" in told
+    assert "angle by -0.333°" in told or "angle by -3°" in told
+
+
+@pytest.mark.parametrize("ratio", [1.0, -1.0 / 3.0])
+def test_bodies_a_little_aside_say_which_assembly_is_meant(ratio):
+    sections, small = parallelogram(1.0), 0.02
+    tip, far = [np.cos(small), np.sin(small), 0.0], [2 + np.cos(ratio * small), np.sin(ratio * small), 0.0]
+    for name, ends in {"crank": ([0, 0, 0], tip), "coupler": (tip, far), "rocker": ([2, 0, 0], far)}.items():
+        sections["bodies"][name]["shape"] |= {"from": ends[0], "to": ends[1]}
+    sections["joints"]["near"]["point"], sections["joints"]["far"]["point"] = tip, far
+    result = simulate(sections, duration=0.01, step=1e-3)
+    assert result.array("right.angle.rate")[-1] / result.array("left.angle.rate")[-1] == pytest.approx(ratio, rel=0.05)

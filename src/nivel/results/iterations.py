@@ -42,7 +42,7 @@ class Iterations:
         return cls(part * length, (part + 1.0) * length, steps, total, most)
 
     def at(self, time: Array) -> tuple[Array, Array]:
-        """(mean, most) a step since the time before, for ascending times (m,) [s]; where no step ended since then, that of the last ones."""
+        """(mean, most) a step since the time before, for ascending times (m,) [s]; where no step ended since then, of the last ones."""
         last = np.searchsorted(self.begin, time, side="right")
         mean, most = np.full(len(time), np.nan), np.full(len(time), np.nan)
         first = 0

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.assemble import Assembly, assemble
+from nivel.analysis.assembly.branches import both_assemblies
 from nivel.analysis.assembly.circuit_start import circuit_start
 from nivel.analysis.assembly.effective_mass import bound_pivots
 from nivel.analysis.assembly.equations import MotionEquations, equations
@@ -216,7 +217,9 @@ def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array)
     redundancy = analyse(motion, 0.0, y, modal_rows(machine, motion.system)) if machine.is_flexible else rigid
     if redundancy.singular_rows:
         rows = ", ".join(redundancy.singular_rows)
-        message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
+        both = "" if machine.is_flexible or machine.beams else both_assemblies(machine, y)
+        aside = both or "start it a little aside"
+        message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby. {aside}"
         raise ModelError(Fault("", 0, 0, "machine", message))
     known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
     return redundancy, MotionEquations(known, motion.kernels)

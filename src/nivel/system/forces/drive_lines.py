@@ -142,8 +142,8 @@ def _refuse_another_loss(builder: SystemBuilder, force: TransmissionLoss) -> Non
     first = next(each for each in losses if each.coupling == force.coupling)
     if first is not force:
         message = (
-            f"`{first.name}` is the loss of `{force.coupling}` already; leave this one out, and give `{first.name}` the efficiency of both: "
-            f"`efficiency: {first.efficiency * force.efficiency:g}`"
+            f"`{first.name}` is the loss of `{force.coupling}` already; leave this one out, and give `{first.name}` the efficiency of "
+            f"both: `efficiency: {first.efficiency * force.efficiency:g}`"
         )
         raise ModelError(Fault("", 0, 0, f"forces.{force.name}.coupling", message))
 

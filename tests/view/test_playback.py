@@ -115,6 +115,25 @@ def test_a_spring_pulls_both_ways_along_its_line():
     assert record["source"] == "applied"
 
 
+def test_a_contact_pushes_where_it_touches_at_each_moment():
+    """A ball that rolls at v: its arrows stand under its centre, not at a point of the ball."""
+    ball = Body(name="ball", mass=1.0, inertia=(0.004,) * 3, position=(0, 0, 0.1), velocity=(1, 0, 0),
+                angular_velocity=(0, 10, 0), shape={"type": "sphere", "radius": 0.1})  # fmt: skip
+    floor = nivel.Contact(
+        name="floor", body="ball", plane={"body": "ground", "axis": (0, 0, 1)}, stiffness=1e5, exponent=1, restitution=0.5
+    )
+    rolling = nivel.Machine("ball", bodies=[ball], forces=[floor], gravity=(0, 0, -9.81))
+    result = rolling.simulate(duration=0.5, integrator="radau")
+    stage, _, frames, *_ = opened(result)
+    (record,) = [each for each in stage["arrows"] if each["owner"] == "floor"]
+    place = vectors(stage, frames)[:, record["place"]]
+    touching = result.array("force.floor.normal_force") > 0.0
+    centre = result.array("ball.position")
+    np.testing.assert_allclose(place[touching, :2], centre[touching, :2], atol=1e-6)
+    np.testing.assert_allclose(place[touching, 2], 0.0, atol=1e-4)
+    assert np.ptp(place[touching, 0]) == pytest.approx(0.5, rel=1e-2)
+
+
 def test_loads_motors_and_drivers_have_their_sign_from_their_power():
     push = PointForce(name="push", body="arm", vector=("3*sin(20*time)", 0, 0))
     twist = Torque(name="twist", body="arm", vector=(0, 0, 1.5))

@@ -28,7 +28,7 @@ BETWEEN: Final = ("spring-damper", "pair-force")
 
 @dataclass(frozen=True)
 class Traced:
-    """An arrow and its vectors (n, 3), global axes [N or N m]."""
+    """An arrow and its vectors (n, 3), global axes [N or N m]; places (n, 3) [m] where it stands, where that is no point of the body."""
 
     owner: str
     source: Any
@@ -36,6 +36,7 @@ class Traced:
     body: int
     point: Triple
     vectors: Array
+    places: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,7 @@ def _forces(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
 
 
 def _contact(force: Force, moments: Moments, read: Read) -> Iterator[Traced]:
-    """What the bodies of a contact exert on each other, each at the point of it where it is touched in the mean."""
+    """What the bodies of a contact exert on each other, where they touch at each moment."""
     found = [_vector(f"force.{force.name}.{name}", read) for name in ("normal_{}", "friction_{}", "{}")]
     normal_force = read(f"force.{force.name}.normal_force")
     if normal_force is None or any(each is None for each in found):
@@ -116,9 +117,8 @@ def _contact(force: Force, moments: Moments, read: Read) -> Iterator[Traced]:
         return
     for body, sign in zip(force.bodies, (1.0, -1.0), strict=True):
         if body >= 0:
-            yield Traced(
-                force.name, "applied", "force", body, _mean_point(moments, body, place, normal_force), sign * push
-            )
+            mean = _mean_point(moments, body, place, normal_force)
+            yield Traced(force.name, "applied", "force", body, mean, sign * push, place)
 
 
 def _vector(name: str, read: Read) -> Array | None:
@@ -215,11 +215,19 @@ def _unit(vectors: Array) -> Array:
 
 
 def described(traced: list[Traced], first: int) -> list[Arrow]:
-    """Records of arrows whose vectors stand from place `first` on."""
-    return [
-        Arrow(each.owner, each.source, each.kind, each.body, each.point, first + k, *_sizes(each.vectors))
-        for k, each in enumerate(traced)
-    ]
+    """Records of arrows whose vectors stand from place `first` on, and behind them those of `places_of`."""
+    out, at = [], first + len(traced)
+    for k, each in enumerate(traced):
+        place = -1 if each.places is None else at
+        at += each.places is not None
+        sizes = _sizes(each.vectors)
+        out.append(Arrow(each.owner, each.source, each.kind, each.body, each.point, first + k, *sizes, place))
+    return out
+
+
+def places_of(traced: list[Traced]) -> list[Array]:
+    """(n, 3) [m] the places of those arrows that stand at no point of their bodies."""
+    return [each.places for each in traced if each.places is not None]
 
 
 def _sizes(vectors: Array) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.results.result import Result
 from nivel.view import frames as frame_plan
-from nivel.view.arrows import Moments, arrows, described
+from nivel.view.arrows import Moments, arrows, described, places_of
 from nivel.view.columns import columns
 from nivel.view.couplings import couplings
 from nivel.view.extent import extent
@@ -169,13 +169,14 @@ NO_VECTORS: Final = Vectors(np.zeros((0, 0, 3)), [], [])
 
 
 def _vectors(players: Cast, result: Result, frames: slice, moments: Moments) -> Vectors:
-    """Arrows first, then a gap and a turn for each joint."""
+    """Arrows first, then where they stand, then a gap and a turn for each joint."""
     traced = arrows(players, moments, lambda name: _read(result, name, frames))
-    parts = [np.zeros((len(moments.position), 0, 3)), *(each.vectors[:, None] for each in traced)]
+    vectors = [*(each.vectors for each in traced), *places_of(traced)]
+    parts = [np.zeros((len(moments.position), 0, 3)), *(each[:, None] for each in vectors)]
     joints, violation = players.joints, _read(result, "constraint_violation", frames)
     if violation is not None:
         parts.append(violation_vectors(joints, result.coordinates["constraint"], violation, moments))
-        joints = [replace(joint, violation=len(traced) + 2 * k) for k, joint in enumerate(joints)]
+        joints = [replace(joint, violation=len(vectors) + 2 * k) for k, joint in enumerate(joints)]
     return Vectors(np.concatenate(parts, axis=1), described(traced, 0), joints)
 
 

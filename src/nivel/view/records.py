@@ -295,7 +295,8 @@ class Sections:
 
 @dataclass(frozen=True)
 class Arrow:
-    """A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame.
+    """A vector of the frames drawn as an arrow at a point of a body. vector : its number among the vectors of the frame. place : number of
+    another one that is the point of space where it stands at each moment, in place of `point`; -1 where there is none.
 
     source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest
     length in the whole motion, and the root of its mean square.
@@ -309,6 +310,7 @@ class Arrow:
     vector: int
     largest: float
     typical: float
+    place: int = -1
 
 
 @dataclass(frozen=True)

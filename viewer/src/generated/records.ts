@@ -174,7 +174,7 @@ export interface Sections {
   beams: Felt[];
 }
 
-/** A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest length in the whole motion, and the root of its mean square. */
+/** A vector of the frames drawn as an arrow at a point of a body. vector : its number among the vectors of the frame. place : number of another one that is the point of space where it stands at each moment, in place of `point`; -1 where there is none. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest length in the whole motion, and the root of its mean square. */
 export interface Arrow {
   owner: string;
   source: "reaction" | "applied";
@@ -184,6 +184,7 @@ export interface Arrow {
   vector: number;
   largest: number;
   typical: number;
+  place: number;
 }
 
 /** A named point of a body, to be traced; x_axis, axis : of its frame, x and z, in the body's. */

@@ -104,7 +104,8 @@ export class Arrows {
       return false;
     }
     const along = VECTOR.divideScalar(value);
-    this.actor.place(record.body, record.point, FOOT);
+    if (record.place >= 0) this.actor.vector(record.place, FOOT);
+    else this.actor.place(record.body, record.point, FOOT);
     TURN.setFromUnitVectors(UP, along);
     const head = Math.min(HEAD * size, 0.5 * length);
     const wide = head / (HEAD * size);

@@ -116,7 +116,8 @@ def folded(kind="spherical"):
 @pytest.mark.parametrize("kind", ["spherical", "revolute"])
 def test_start_in_the_flat_position_is_refused_with_both_assemblies(kind):
     """The parallelogram turns both bars alike. Folded across, of 4 = |(2 + cos ψ - cos φ, sin ψ - sin φ)|² for bars of 1 m that stand 2 m
-    apart, (φ - ψ)(3 φ + ψ) = 0 is left near the flat position. So it is where three rows of a loop of revolutes repeat others everywhere."""
+    apart, (φ - ψ)(3 φ + ψ) = 0 is left near the flat position; also where three rows of a loop of revolutes repeat others everywhere.
+    """
     with pytest.raises(ModelError, match=r"starts in a singular position.*Two assemblies meet there") as caught:
         simulate(folded(kind), duration=0.1, step=1e-3)
     told = str(caught.value)

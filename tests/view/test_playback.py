@@ -120,7 +120,12 @@ def test_a_contact_pushes_where_it_touches_at_each_moment():
     ball = Body(name="ball", mass=1.0, inertia=(0.004,) * 3, position=(0, 0, 0.1), velocity=(1, 0, 0),
                 angular_velocity=(0, 10, 0), shape={"type": "sphere", "radius": 0.1})  # fmt: skip
     floor = nivel.Contact(
-        name="floor", body="ball", plane={"body": "ground", "axis": (0, 0, 1)}, stiffness=1e5, exponent=1, restitution=0.5
+        name="floor",
+        body="ball",
+        plane={"body": "ground", "axis": (0, 0, 1)},
+        stiffness=1e5,
+        exponent=1,
+        restitution=0.5,
     )
     rolling = nivel.Machine("ball", bodies=[ball], forces=[floor], gravity=(0, 0, -9.81))
     result = rolling.simulate(duration=0.5, integrator="radau")

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.assembly.closing import close_positions
+from nivel.analysis.assembly.closing import Index, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, equations, moved
 from nivel.analysis.assembly.redundancy import DEPENDENT, scaled_jacobian
 from nivel.machine.machine_record import MachineRecord
@@ -51,7 +51,7 @@ def both_assemblies(machine: MachineRecord, y: Array) -> str:
         return ""
 
     def told(changes: Array) -> str:
-        return ", ".join(f"{names[k]} by {_change(changes[k], units[k], units[leading])}" for k in shown)
+        return ", ".join(f"{names[k]} by {_change(float(changes[k]), units[k], units[leading])}" for k in shown)
 
     step = "1°" if units[leading] == "rad" else "1 mm"
     return (
@@ -66,7 +66,7 @@ def _change(share: float, unit: str, leading: str) -> str:
     return f"{np.degrees(own):+.3g}°" if unit == "rad" else f"{1e3 * own:+.3g} mm"
 
 
-def _motions(motion: MotionEquations, y: Array, coordinates: Array) -> list[_Motion]:
+def _motions(motion: MotionEquations, y: Array, coordinates: Index) -> list[_Motion]:
     """The motions that are possible from y, where there are two free motions at first order."""
     motion.evaluate(0.0, y)
     system, values = motion.system, motion.system.record.coordinates.value

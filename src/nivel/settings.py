@@ -176,7 +176,7 @@ class LineariseSettingsDict(TypedDict, total=False):
     """Settings of a linear model."""
 
     about: Annotated[float | str | None, "--about STATE", "State to linearise about: start, equilibrium, rotation (steady, strained by it), or a time up to which the machine is simulated, e.g. '2 s'; default: the start of the machine."]
-    inputs: Annotated[Sequence[str] | str | None, "--inputs NAMES", "Inputs, e.g. hinge.angle; default: motors and drivers."]
-    outputs: Annotated[Sequence[str] | str | None, "--outputs NAMES", "Outputs; default: sensors, or all joint coordinates."]
+    inputs: Annotated[Sequence[str] | str | None, "--inputs NAMES", "Inputs, e.g. hinge.angle; default: motors, drivers, commands of circuits."]
+    outputs: Annotated[Sequence[str] | str | None, "--outputs NAMES", "Outputs; default: sensors, or joint coordinates and pressures."]
     coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
     verify: Annotated[bool | None, "--no-verify", "No vibrations with other elements of beams, to estimate their error."]

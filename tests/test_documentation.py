@@ -37,10 +37,10 @@ from nivel.machine.beams import section as sections
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import GeneralSection
 from nivel.machine.bodies.inertia import Inertia
-from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere, Tube
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.core.orientation import SEQUENCES, Orientation
 from nivel.machine.core.record import field_words
-from nivel.machine.forces import FORCES
+from nivel.machine.forces import FORCES, HeightField
 from nivel.machine.laws.python_law import KEYS as LAW_KEYS
 from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
 from nivel.machine.settings.run import Baumgarte
@@ -193,7 +193,9 @@ def test_every_key_of_a_force_has_its_row_with_its_default(force):
         ("Shapes", Capsule),
         ("Shapes", Extrusion),
         ("Shapes", Mesh),
+        ("Shapes", Ellipsoid),
         ("Contact", Material),
+        ("Ground with heights", HeightField),
         *(("Sections of beams", record) for record in BEAM_SECTIONS),
         ("Beams", sections.Material),
         ("Inputs", Keys),

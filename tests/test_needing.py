@@ -66,7 +66,10 @@ def test_all_that_tests_import_is_in_the_extra_for_tests():
 def test_everything_is_in_the_extra_for_development():
     further = {"asammdf", "fmpy", "mcap", "mcap-ros2-support", "pyarrow"}
     own = set().union(
-        *(installed_by(extra) for extra in ("test", "docs", "film", "robots", "gym", "mqtt", "opcua", "search"))
+        *(
+            installed_by(extra)
+            for extra in ("test", "docs", "film", "robots", "gym", "mqtt", "opcua", "search", "shapes")
+        )
     )
     assert set(installed_by("dev")) == own | further
     assert {"mkdocs", "ipykernel", "pillow"}.isdisjoint(installed_by("test"))

@@ -22,6 +22,7 @@ LIBRARIES: Final = {
     "asammdf": Library("asammdf", "measured"),
     "asyncua": Library("asyncua", "opcua"),
     "cma": Library("pycma", "search"),
+    "coacd": Library("coacd", "shapes"),
     "control": Library("python-control", "control"),
     "gymnasium": Library("gymnasium", "gym"),
     "distributed": Library("Dask", "studies"),

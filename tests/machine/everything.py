@@ -390,6 +390,7 @@ EVERYTHING = {
             "friction_transition_speed": "1 mm/s",
             "surface_velocity": ["0.1*time", "1 mm/s", 0],
             "surface_spin": "2 rpm",
+            "heights": {"size": ["4 m", 2], "function": "0.1*x^2", "points": [5, 3]},
         },
         {
             "name": "helper",

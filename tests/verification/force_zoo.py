@@ -108,6 +108,7 @@ OTHERS = {
 }
 
 
+HILLS = {"size": [6, 6], "function": "0.25 + 0.1*sin(2*x) + 0.07*cos(3*y)", "points": [13, 15]}
 EGG = {"type": "ellipsoid", "semi_axes": [0.4, 0.3, 0.25]}
 
 
@@ -199,6 +200,9 @@ CASES = {
     "box and ellipsoid, stick": round_pair(OTHERS["box"], EGG, [-0.45, -0.2, 0.15], STICKING),
     "ellipsoid and capsule": round_pair(EGG, OTHERS["capsule"], [-0.55, -0.25, 0.15]),
     "ellipsoids": round_pair(EGG, {"type": "ellipsoid", "semi_axes": [0.3, 0.45, 0.35]}, [-0.55, -0.25, 0.15]),
+    "sphere on heights": Case({**ON_FLOOR, "heights": HILLS}, ON, True, shape("c", "sphere", radius=0.3)),
+    "box on heights, sticks": Case({**ON_FLOOR_STICKING, "heights": HILLS}, ON, True, shape("c", "box", size=[0.6, 0.5, 0.4])),
+    "cylinder on heights": Case({**ON_FLOOR, "heights": HILLS}, ON, True, shape("c", "cylinder", radius=0.3, length=0.5)),
     "hulls": Case({"type": "contact", "foundation_modulus": 3e4, "damping": 0.6, "friction": 0.3,
                    "friction_model": "coulomb", "friction_transition_speed": 0.8,
                    "bodies": ["c", "block"]}, ("c", "block", [-0.38, -0.25, 0.1]), True,

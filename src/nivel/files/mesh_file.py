@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.collada_file import ColladaError, collada_surface
+from nivel.files.convex_parts import convex_parts
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources, beside, read_bytes
 from nivel.files.step_file import KINDS as STEP_KINDS
@@ -115,9 +116,15 @@ def _shapes(tree: Tree) -> Iterator[tuple[Path, Any]]:
 
 
 def read_mesh(file: str | FilePath, **given: Any) -> Mesh:
-    """The mesh in a file, for machines written in Python; `given` : `unit`, `position`, `orientation`. Raises ModelError."""
+    """The mesh in a file, for machines written in Python; `given` : `unit`, `position`, `orientation`, `convex_parts`.
+
+    Raises ModelError.
+    """
     try:
-        return Mesh(file=str(file), surface=surface_text(*parse(read_bytes(file), str(file))), **given)
+        surface = surface_text(*parse(read_bytes(file), str(file)))
+        if given.get("convex_parts", 1) > 1:
+            given["parts"] = convex_parts(surface, given["convex_parts"])
+        return Mesh(file=str(file), surface=surface, **given)
     except NotReadError as problem:
         raise ModelError(f"{file}: {problem}") from None
 

@@ -25,8 +25,8 @@ from nivel.machine import (
     frame_from_axes,
     placement,
 )
-from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface
-from nivel.machine.bodies.surface import surface_text
+from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface, part_corners
+from nivel.machine.bodies.surface import surface_arrays, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.joints.joint import JOINT_WORDS
 
@@ -138,7 +138,12 @@ def _placed_mesh(mesh: Mesh, placing: Placement) -> Mesh:
         return mesh
     vertices, triangles = mesh_surface(mesh)
     surface = surface_text(vertices * placing.reflection, triangles[:, ::-1])
-    return Mesh(file=mesh.file, surface=surface, colour=mesh.colour)
+    parts = None
+    if mesh.parts is not None:
+        corners = [part_corners(mesh, k + 1) * placing.reflection for k in range(len(mesh.parts))]
+        faces = [surface_arrays(each)[1][:, ::-1] for each in mesh.parts]
+        parts = tuple(surface_text(*each) for each in zip(corners, faces, strict=True))
+    return Mesh(file=mesh.file, surface=surface, colour=mesh.colour, convex_parts=mesh.convex_parts, parts=parts)
 
 
 def _mirrored_inertia(inertia: Inertia, placing: Placement) -> Inertia:

@@ -149,6 +149,8 @@ def _three_axis_spring(force: ThreeAxisSpring, scene: Scene) -> Changes:
 
 
 def _contact(force: Contact, scene: Scene) -> Changes:
+    if force.heights is not None and scene.placement.mirrored:
+        raise NotRepresentableError("ground with `heights` cannot be mirrored; write the mirrored heights out")
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 

@@ -17,7 +17,9 @@ from pydantic_core import ErrorDetails
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
 from nivel.files.body_files import place_body_files
+from nivel.files.convex_parts import divide_meshes
 from nivel.files.csv_tables import read_csv_tables
+from nivel.files.height_file import read_heights
 from nivel.files.include import include
 from nivel.files.known import Known
 from nivel.files.mass_file import read_mass_properties
@@ -121,6 +123,8 @@ def _tree_of(
         given_parameters(tree, *user)
     add_rotors(tree)
     read_meshes(tree, sources)
+    divide_meshes(tree)
+    read_heights(tree, sources)
     read_python_laws(tree, sources)
     read_unit_blocks(tree, sources)
     read_csv_tables(tree, sources)

@@ -54,6 +54,7 @@ from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
+from nivel.system.forces.height_fields import ground_surface
 from nivel.system.forces.ropes import first_wheel, way_as_placed
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import slot_frame
@@ -101,6 +102,11 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     ]
     sweeps = [_sweep(beam) for beam in machine.beams]
     around = [_shape(each) for each in machine.surroundings]
+    for name, ground in _grounds(machine):
+        if name == "ground":
+            around.append(ground)
+        else:
+            next(each for each in bodies if each["name"] == name).setdefault("looks", []).append(ground)
     return {
         "bodies": bodies,
         "ground_points": held["ground"],
@@ -108,6 +114,25 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
         "forces": list(_forces(machine)),
         "markers": markers,
     } | {name: drawn for name, drawn in (("sweeps", sweeps), ("surroundings", around)) if drawn}
+
+
+def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Ground whose height varies, as a mesh, and the body that it belongs to; the same ground of several contacts once."""
+    contacts = [each for each in machine.forces if isinstance(each, Contact) and each.heights is not None]
+    if not contacts:
+        return
+    drawn: set[tuple[str, str]] = set()
+    builder = SystemBuilder(machine)
+    names = [*(body.name for body in machine.bodies), "ground"]
+    for force in contacts:
+        if force.heights is not None and force.plane is not None:
+            m, markers = builder.end(force.plane), builder.markers
+            vertices, triangles = ground_surface(force.heights)
+            surface = surface_text(vertices @ markers.frame[m].T + markers.position[m], triangles)
+            name = names[markers.body[m]]
+            if (name, surface) not in drawn:
+                drawn.add((name, surface))
+                yield name, {"type": "mesh", "centre": [0.0, 0.0, 0.0], "surface": surface}
 
 
 def _gyration(body: Body, system: System, k: int) -> float:

@@ -21,9 +21,10 @@ from nivel.machine.core.orientation import Orientation
 from nivel.machine.core.record import Record
 from nivel.machine.core.usual import SOLID
 from nivel.machine.given import Field, ManyCorners, Maybe, OneRecord, ThreeNumbers, TwoNumbers
-from nivel.machine.units.quantity import Length, Position, PositiveLength, fault, listed
+from nivel.machine.units.quantity import Length, Position, PositiveLength, Whole, fault, listed
 
 Along = Literal["x", "y", "z"]
+MOST_PARTS: Final = 64  # convex parts of a mesh
 _NEAR: Final = 1e-9  # [m] two end points closer than this have no direction
 
 _FROM = Field(
@@ -198,7 +199,14 @@ class Mesh(_Coloured):
     orientation: Maybe[OneRecord[Orientation]] = Field(
         default=None, description="of the file's axes in the body frame; default not turned"
     )
+    convex_parts: Whole = Field(
+        default=1,
+        ge=1,
+        le=MOST_PARTS,
+        description="at most so many convex parts touch other bodies, in place of the hull",
+    )
     surface: str | None = Field(default=None, description="the triangles, filled when the file is read")
+    parts: tuple[str, ...] | None = Field(default=None, description="the convex parts, filled when the file is read")
 
     @model_validator(mode="after")
     def _readable(self) -> Mesh:
@@ -206,14 +214,17 @@ class Mesh(_Coloured):
             raise fault("a mesh needs the name of a `file`")
         if self.surface is None:
             raise fault(f"the file `{self.file}` was not read; in Python use nivel.files.read_mesh")
+        if self.convex_parts > 1 and not self.parts:
+            raise fault("`convex_parts` are found when a file is read; in Python use nivel.files.read_mesh")
         try:
-            surface_arrays(self.surface)
+            for each in (self.surface, *(self.parts or ())):
+                surface_arrays(each)
         except ValueError:
             raise fault("`surface` holds no triangles; leave it out, it is filled when `file` is read") from None
         return self
 
     def __repr_args__(self) -> Any:
-        return [(name, value) for name, value in super().__repr_args__() if name != "surface"]
+        return [(name, value) for name, value in super().__repr_args__() if name not in ("surface", "parts")]
 
 
 class Sphere(_Coloured):

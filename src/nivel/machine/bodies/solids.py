@@ -139,6 +139,13 @@ def mesh_surface(mesh: Mesh) -> tuple[Array, Triangles]:
     return _in_body(mesh, vertices), triangles
 
 
+def part_corners(mesh: Mesh, part: int) -> Array:
+    """(n, 3) [m] corners of a convex part, counted from 1, in the body frame. Raises ValueError where the mesh has no such part."""
+    if mesh.parts is None or not 1 <= part <= len(mesh.parts):
+        raise ValueError(f"the mesh has {len(mesh.parts or ())} convex parts, and {part} was asked for")
+    return _in_body(mesh, surface_arrays(mesh.parts[part - 1])[0])
+
+
 def why_not_solid(mesh: Mesh) -> str:
     """Why a mesh encloses no certain volume, or an empty text."""
     vertices, triangles = _welded(mesh.surface or "")

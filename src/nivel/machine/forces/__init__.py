@@ -20,6 +20,7 @@ from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.freewheel import Freewheel
 from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.hand import Hand
+from nivel.machine.forces.height_field import HeightField
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
 from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
@@ -105,6 +106,7 @@ __all__ = [
     "Friction",
     "GlobalPoint",
     "Hand",
+    "HeightField",
     "JointSpringDamper",
     "Material",
     "Motor",

@@ -22,10 +22,11 @@ from nivel.machine.core.coefficient import (
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Record
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.given import Field, Maybe, TwoNames, TwoRecords
+from nivel.machine.forces.height_field import HeightField
+from nivel.machine.given import Field, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
 from nivel.machine.power_stiffness import PowerStiffness
-from nivel.machine.units.quantity import listed
+from nivel.machine.units.quantity import Whole, listed
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
@@ -64,9 +65,16 @@ class Contact(ForceElement):
     plane: Maybe[MarkerPlace] = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"
     )
+    heights: Maybe[OneRecord[HeightField]] = Field(
+        default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
+    )
     bodies: Maybe[TwoNames[BodyName]] = Field(
         default=None,
         description="two bodies with a shape, in place of `body` and `plane`",
+    )
+    parts: Maybe[TwoNumbers[Whole]] = Field(
+        default=None,
+        description="numbers of the convex parts of both `bodies`, from 1; filled where a mesh has `convex_parts`",
     )
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
     stiffness: Maybe[PowerStiffness] = Field(default=None, description="force by depth ** exponent")
@@ -187,11 +195,13 @@ class Contact(ForceElement):
 
     def _problems_of_partners(self) -> Iterator[Problem]:
         if self.bodies is not None:
-            for name in ("body", "plane"):
+            for name in ("body", "plane", "heights"):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "must not be given with `bodies`, which touch each other")
             if self.bodies[0] == self.bodies[1]:
                 yield Problem(("bodies",), f"two different bodies are needed, got `{self.bodies[0]}` twice")
+        elif self.parts is not None:
+            yield superfluous("parts", "belongs to two `bodies`")
         elif self.body is None or self.plane is None:
             yield Problem((), "a contact needs a `body` and a `plane`, or two `bodies`")
         for place, body in (

@@ -159,6 +159,11 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
     if isinstance(body, str) and index.body_of(plane) == body:
         yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
     shape = index.bodies.get(body, "") if isinstance(body, str) else ""
+    if entry(contact, "heights") is not None and shape == "ellipsoid":
+        yield (
+            (*place, "heights"),
+            f"the shape of `{body}` is `{shape}`, which touches flat planes alone: leave out `heights`",
+        )
     if entry(contact, "materials") is not None and shape in SHAPES_ON_PLANE and shape != "sphere":
         message = f"`materials` give the stiffness of spheres (Hertz); the shape of `{body}` is `{shape}`: give its `stiffness`"
         yield (*place, "materials"), message

@@ -10,7 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces import bushing, contact, ellipsoid_contact, hull_contact, round_contact, surface_distance
+from nivel.kernels.forces import (
+    bushing,
+    contact,
+    ellipsoid_contact,
+    height_contact,
+    hull_contact,
+    round_contact,
+    surface_distance,
+)
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.body import Body
@@ -25,7 +33,8 @@ from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.ellipsoids import numbers_of_ellipsoids, numbers_over_plane
 from nivel.system.forces.frictions import add_patch
-from nivel.system.forces.hulls import hull_of, row_of
+from nivel.system.forces.height_fields import numbers_of_heights
+from nivel.system.forces.hulls import hull_of, part_of, row_of
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
@@ -80,10 +89,10 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
             curvature = sum(1.0 / radius for radius in size)
         elif any(isinstance(body.shape, Ellipsoid) for body in bodies):
             kind, size, curvature, family = contact.ROUND, [], 0.0, ellipsoid_contact.apply
-            more = numbers_of_ellipsoids(bodies, sum(_ball(body) for body in bodies))
+            more = numbers_of_ellipsoids(force, bodies, sum(_ball(body) for body in bodies))
         else:
             kind, size, curvature, family = contact.ROUND, [], 0.0, round_contact.apply
-            more, several = _round_numbers(bodies)
+            more, several = _round_numbers(force, bodies)
     else:
         assert force.body is not None  # the record was checked
         assert force.plane is not None
@@ -108,9 +117,17 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     numbers += more
     points = 2 if several else POINTS.get(kind, 1)
+    corners: list[float] = []
     if kind == contact.HULL:
-        corners = _corners(builder.machine.body_named[str(force.body)])
-        numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
+        touching = builder.machine.body_named[str(force.body)]
+        corners = (_corners(touching) if force.heights is None else _corners_of_parts(touching)).ravel().tolist()
+        points = len(corners) // 3
+    if force.heights is not None:
+        ground = numbers_of_heights(force.heights)
+        ball = size[0] if kind in (contact.SPHERE, contact.CAPSULE) else 0.0
+        numbers += [float(kind), float(len(ground)), ball, *ground]
+        kind, family = contact.ROUND, height_contact.apply
+    numbers += corners
     patch = [NONE, 0, 0]
     if force.sticks:
         patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
@@ -147,7 +164,7 @@ def hertzian(materials: Sequence[Material], curvature: float) -> float:
 def _add_hulls(builder: SystemBuilder, force: Contact, first: int) -> None:
     assert force.bodies is not None  # the record was checked
     bodies = [builder.machine.body_named[name] for name in force.bodies]
-    hulls = hull_of(bodies[0]), hull_of(bodies[1])
+    hulls = hull_of(bodies[0], part_of(force, bodies, 0)), hull_of(bodies[1], part_of(force, bodies, 1))
     markers = [builder.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
     patch = add_patch(builder, force, (markers[0], markers[1]), first, True) if force.sticks else [NONE, 0, 0]
     frame = builder.frame(bodies[1].name) if force.surface_velocity is not None else NONE
@@ -237,7 +254,15 @@ def _corners(body: Body) -> NDArray[np.float64]:
     return corners
 
 
-def _round_numbers(bodies: Sequence[Body]) -> tuple[list[float], bool]:
+def _corners_of_parts(body: Body) -> NDArray[np.float64]:
+    """The same of all convex parts, each once: on ground that is not flat others than those of the hull may touch."""
+    if not isinstance(body.shape, Mesh) or body.shape.parts is None:
+        return _corners(body)
+    parts = [hull_of(body, part + 1) for part in range(len(body.shape.parts))]
+    return np.unique(np.concatenate([each.corners + each.middle for each in parts]).round(9), axis=0)
+
+
+def _round_numbers(force: Contact, bodies: Sequence[Body]) -> tuple[list[float], bool]:
     """Numbers of `nivel.kernels.forces.round_contact` for two bodies of which one is a sphere or a capsule, and whether it lies on two
     points."""
     # a sphere before a capsule: it has one point
@@ -247,14 +272,14 @@ def _round_numbers(bodies: Sequence[Body]) -> tuple[list[float], bool]:
     own, other = bodies[first].shape, bodies[1 - first]
     assert isinstance(own, Sphere | Capsule)  # the record was checked
     half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
-    core, (kind, numbers) = 0.0, _distance_numbers(other)
+    core, (kind, numbers) = 0.0, _distance_numbers(other, part_of(force, bodies, 1 - first))
     if isinstance(other.shape, Capsule):
         core = other.shape.radius
     ball = own.radius + half + _ball(other)
     return [float(first), own.radius, half, core, ball, float(kind), *numbers], half > 0.0
 
 
-def _distance_numbers(body: Body) -> tuple[int, list[float]]:
+def _distance_numbers(body: Body, part: int | None) -> tuple[int, list[float]]:
     """Kind and numbers of a shape for `nivel.kernels.forces.surface_distance`, in the axes of its marker."""
     match body.shape:
         case Box():
@@ -264,7 +289,7 @@ def _distance_numbers(body: Body) -> tuple[int, list[float]]:
         case Capsule():
             return surface_distance.SEGMENT, [0.5 * length(body.shape)]
         case Extrusion() | Mesh():
-            hull = hull_of(body)
+            hull = hull_of(body, part)
             corners, faces = hull.corners + hull.middle, hull.faces.copy()
             faces[:, 3] += faces[:, :3] @ hull.middle
             ends = corners[hull.edges].reshape(-1, 6)
@@ -287,5 +312,9 @@ def _shape_marker(builder: SystemBuilder, body: Body) -> int:
 
 KINDS = (
     ForceKind(Bushing, add_bushing, (bushing.apply,)),
-    ForceKind(Contact, add_contact, (contact.apply, hull_contact.apply, round_contact.apply, ellipsoid_contact.apply)),
+    ForceKind(
+        Contact,
+        add_contact,
+        (contact.apply, hull_contact.apply, round_contact.apply, ellipsoid_contact.apply, height_contact.apply),
+    ),
 )

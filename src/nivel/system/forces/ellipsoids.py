@@ -12,7 +12,8 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.core.placement import frame_from_axes
-from nivel.system.forces.hulls import hull_of
+from nivel.machine.forces import Contact
+from nivel.system.forces.hulls import hull_of, part_of
 
 
 def numbers_over_plane(ellipsoid: Ellipsoid) -> list[float]:
@@ -20,7 +21,7 @@ def numbers_over_plane(ellipsoid: Ellipsoid) -> list[float]:
     return [0.0, *ellipsoid.semi_axes, inf, float(POLYTOPE), 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
 
 
-def numbers_of_ellipsoids(bodies: Sequence[Body], ball: float) -> list[float]:
+def numbers_of_ellipsoids(force: Contact, bodies: Sequence[Body], ball: float) -> list[float]:
     """The same of two bodies, of which one is an ellipsoid. ball [m] : sum of the radii of balls around both."""
     first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Ellipsoid))
     own, other = bodies[first].shape, bodies[1 - first]
@@ -35,13 +36,13 @@ def numbers_of_ellipsoids(bodies: Sequence[Body], ball: float) -> list[float]:
             ends = [0.0, 0.0, -0.5 * length(other.shape), 0.0, 0.0, 0.5 * length(other.shape)]
             core, numbers = other.shape.radius, [2.0, 0.0, 1.0, *ends, *ends]
         case Box() | Cylinder() | Extrusion() | Mesh():
-            numbers = _polytope(other)
+            numbers = _polytope(other, part_of(force, bodies, 1 - first))
     return [float(first), *own.semi_axes, ball, float(kind), core, *numbers]
 
 
-def _polytope(body: Body) -> list[float]:
+def _polytope(body: Body, part: int | None) -> list[float]:
     """Counts of corners, faces and edges, then these, in the axes of the body's marker."""
-    hull = hull_of(body)
+    hull = hull_of(body, part)
     # a box and a cylinder have their marker in the middle, a cylinder z along it
     is_centred = isinstance(body.shape, Box | Cylinder)
     shift = np.zeros(3) if is_centred else hull.middle

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.forces.hull_pair import NUMBERS
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
-from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
+from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
 from nivel.machine.forces import Contact
 
 Array = NDArray[np.float64]
@@ -38,11 +39,14 @@ class Hull:
         return float(np.linalg.norm(self.corners, axis=1).max())
 
 
-def hull_of(body: Body) -> Hull:
-    """The convex hull of a box, a cylinder, an extrusion or a mesh. Raises ModelError for a flat one, or one of too many faces."""
+def hull_of(body: Body, part: int | None = None) -> Hull:
+    """The convex hull of a box, a cylinder, an extrusion or a mesh, or of a convex part of a mesh, counted from 1.
+
+    Raises ModelError for a flat one, or one of too many faces.
+    """
     from scipy.spatial import ConvexHull, QhullError
 
-    points = _points(body)
+    points = _points(body, part)
     try:
         found = ConvexHull(points)
     except QhullError:
@@ -62,8 +66,28 @@ def hull_of(body: Body) -> Hull:
     return Hull(middle, corners, faces, _edges(corners, faces))
 
 
-def _points(body: Body) -> Array:
+def part_of(force: Contact, bodies: Sequence[Body], k: int) -> int | None:
+    """The convex part with which body k of a contact touches, counted from 1; None where its whole hull does. Raises ModelError."""
+    shape = bodies[k].shape
+    if not isinstance(shape, Mesh) or shape.parts is None:
+        return None
+    if force.parts is None:
+        message = (
+            f"`{bodies[k].name}` has `convex_parts`, and only contacts in the file of the body know how many: write the contact there, or "
+            f"give the contact the numbers of the `parts` of both bodies"
+        )
+        raise ModelError(Fault("", 0, 0, f"forces.{force.name}", message))
+    part = int(force.parts[k])
+    if not 1 <= part <= len(shape.parts):
+        message = f"`{bodies[k].name}` has {len(shape.parts)} convex parts, counted from 1, and {part} was asked for"
+        raise ModelError(Fault("", 0, 0, f"forces.{force.name}.parts", message))
+    return part
+
+
+def _points(body: Body, part: int | None) -> Array:
     match body.shape:
+        case Mesh() as mesh if part is not None:
+            return part_corners(mesh, part)
         case Box() as box:
             signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
             return np.array(box.centre or (0.0, 0.0, 0.0)) + 0.5 * signs * np.array(box_size(box))

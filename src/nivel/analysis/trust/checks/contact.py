@@ -16,7 +16,7 @@ from nivel.machine.forces import Contact
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, number
-from nivel.system.forces.hulls import hull_of
+from nivel.system.forces.hulls import hull_of, part_of
 
 Array = NDArray[np.float64]
 # Overlaps above this share of the distance at which they touch are no touch in passing; speeds of frames differ by less where nothing
@@ -114,7 +114,8 @@ def hulls_of(machine: MachineRecord) -> list[HullPair]:
     out, bodies = [], {each.name: each for each in machine.bodies}
     for force in machine.forces:
         if isinstance(force, Contact) and force.bodies is not None and force.foundation_modulus is not None:
-            first, second = (hull_of(bodies[name]) for name in force.bodies)
+            pair = [bodies[name] for name in force.bodies]
+            first, second = (hull_of(pair[k], part_of(force, pair, k)) for k in range(2))
             middles, corners = (first.middle, second.middle), (first.corners, second.corners)
             out.append(HullPair(force.name, force.bodies, middles, corners, (first.faces, second.faces)))
     return out

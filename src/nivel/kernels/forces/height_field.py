@@ -1,0 +1,116 @@
+"""Ground z = h(x, y) through heights on a grid: the surface, and the place on it that is nearest to a point.
+
+Between the heights h is a cubic in x and in y by convolution (Keys 1981): its slopes are continuous, and it is exact for parabolas. Beyond
+the grid the heights of its border go on.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.native.function import leaf, part
+
+# numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes; then the heights,
+# row by row along x, with one more on each side
+ALONG, ACROSS, WIDTH, LENGTH, HIGHEST, HEIGHTS = 0, 1, 2, 3, 4, 5
+# Steps of Newton's method, and halvings of one that does not come nearer; a step below this share of a mesh is none.
+STEPS, HALVINGS, SETTLED = 40, 12, 1e-13
+
+
+@leaf
+def weights(f):
+    """Of the four heights around a place between the second and the third, at the share f: values, slopes and second derivatives."""
+    return (
+        (-0.5 * f + f * f - 0.5 * f * f * f, -0.5 + 2.0 * f - 1.5 * f * f, 2.0 - 3.0 * f),
+        (1.0 - 2.5 * f * f + 1.5 * f * f * f, -5.0 * f + 4.5 * f * f, -5.0 + 9.0 * f),
+        (0.5 * f + 2.0 * f * f - 1.5 * f * f * f, 0.5 + 4.0 * f - 4.5 * f * f, 4.0 - 9.0 * f),
+        (-0.5 * f * f + 0.5 * f * f * f, -f + 1.5 * f * f, -1.0 + 3.0 * f),
+    )
+
+
+@leaf
+def place_in(u, count):
+    """(number of the mesh, share within it, 1 inside the grid) of the place u along a side; 0 beyond it, where nothing changes with u."""
+    if real(u) <= 0.0:
+        return 0, 0.0 * u, 0.0
+    if real(u) >= count - 1.0:
+        return count - 2, 0.0 * u + 1.0, 0.0
+    k = np.int64(real(u))
+    return k, u - k, 1.0
+
+
+@part
+def surface(n, x, y):
+    """(h, ∂h/∂x, ∂h/∂y, ∂²h/∂x², ∂²h/∂x∂y, ∂²h/∂y²)."""
+    along, across = np.int64(real(n[ALONG])), np.int64(real(n[ACROSS]))
+    p, q = (along - 1.0) / n[WIDTH], (across - 1.0) / n[LENGTH]
+    i, f, is_along = place_in((x / n[WIDTH] + 0.5) * (along - 1.0), along)
+    j, g, is_across = place_in((y / n[LENGTH] + 0.5) * (across - 1.0), across)
+    a, b = weights(f), weights(g)
+    h = 0.0 * x + 0.0 * y
+    hx, hy, hxx, hxy, hyy = h, h, h, h, h
+    for m in range(4):
+        first = HEIGHTS + (j + m) * (along + 2) + i
+        value = a[0][0] * n[first] + a[1][0] * n[first + 1] + a[2][0] * n[first + 2] + a[3][0] * n[first + 3]
+        slope = a[0][1] * n[first] + a[1][1] * n[first + 1] + a[2][1] * n[first + 2] + a[3][1] * n[first + 3]
+        bend = a[0][2] * n[first] + a[1][2] * n[first + 1] + a[2][2] * n[first + 2] + a[3][2] * n[first + 3]
+        h += b[m][0] * value
+        hx += b[m][0] * slope
+        hxx += b[m][0] * bend
+        hy += b[m][1] * value
+        hxy += b[m][1] * slope
+        hyy += b[m][2] * value
+    p, q = p * is_along, q * is_across
+    return h, p * hx, q * hy, p * p * hxx, p * q * hxy, q * q * hyy
+
+
+@leaf
+def squared_distance(n, x, y, c):
+    """Of the place above (x, y) from the point c."""
+    d0, d1, d2 = x - c[0], y - c[1], surface(n, x, y)[0] - c[2]
+    return d0 * d0 + d1 * d1 + d2 * d2
+
+
+@leaf
+def step_to(n, x, y, c, bends):
+    """The change of (x, y) by Newton's method for the least distance from c, without the surface's bend where `bends` is 0."""
+    h, hx, hy, hxx, hxy, hyy = surface(n, x, y)
+    d = h - c[2]
+    g0, g1, e = x - c[0] + d * hx, y - c[1] + d * hy, bends * d
+    A, B, C = 1.0 + hx * hx + e * hxx, hx * hy + e * hxy, 1.0 + hy * hy + e * hyy
+    k = A * C - B * B
+    return (B * g1 - C * g0) / k, (B * g0 - A * g1) / k, real(k) > 0.0 and real(A) > 0.0
+
+
+@part
+def from_heights(n, c):
+    """(distance, normal, place) of a point c from the ground, in its axes; negative below it. The place is that of a nearest one which the
+    search from the place below c finds."""
+    c0 = real(c[0]), real(c[1]), real(c[2])
+    x, y = c0[0], c0[1]
+    mesh = real(n[WIDTH]) / real(n[ALONG])
+    bends = 1.0
+    for _ in range(STEPS):
+        u, v, is_least = step_to(n, x, y, c0, 1.0)
+        bends = 1.0
+        if not is_least:
+            bends = 0.0
+            u, v, _ = step_to(n, x, y, c0, 0.0)
+        u, v = real(u), real(v)
+        if u * u + v * v <= (SETTLED * mesh) ** 2:
+            break
+        before = real(squared_distance(n, x, y, c0))
+        for _ in range(HALVINGS):
+            if real(squared_distance(n, x + u, y + v, c0)) <= before:
+                break
+            u, v = 0.5 * u, 0.5 * v
+        x, y = x + u, y + v
+    # one step more carries the slopes
+    o = 0.0 * c[0]
+    du, dv, _ = step_to(n, x + o, y + o, c, bends)
+    s, t = x + du, y + dv
+    h, hx, hy, _, _, _ = surface(n, s, t)
+    size = np.sqrt(1.0 + hx * hx + hy * hy)
+    n0, n1, n2 = -hx / size, -hy / size, 1.0 / size
+    return (c[0] - s) * n0 + (c[1] - t) * n1 + (c[2] - h) * n2, n0, n1, n2, s, t, h

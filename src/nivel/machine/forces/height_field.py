@@ -1,0 +1,117 @@
+"""Heights of ground that is not flat, on a grid over a plane."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Annotated, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, ValidationInfo
+
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
+from nivel.machine.units.arithmetic import evaluate, render
+from nivel.machine.units.quantity import (
+    Length,
+    PositiveLength,
+    Whole,
+    bound_tree,
+    expression_fault,
+    fault,
+    listed,
+    parameters_of,
+    reported,
+    shown,
+)
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError
+
+FEWEST, MOST = 3, 1_000_000  # heights along a side, and in all
+POINTS: Final = (101, 101)
+PLACE: Final = ("x", "y")
+
+
+def _of_place(value: Any, info: ValidationInfo) -> str | None:
+    """An expression of x and y, with parameters put in."""
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise fault(f"an expression of `x` and `y` was expected, as in `0.1*x^2`, got {shown(value)}")
+    try:
+        return render(bound_tree(str(value), parameters_of(info), PLACE))
+    except ExpressionError as problem:
+        raise expression_fault(problem, value, parameters_of(info)) from None
+    except FaultyParameterError:
+        raise reported() from None
+
+
+class HeightField(Checked):
+    """Heights over a rectangle of a plane, whose marker is in its middle: `values`, numbers of a `file`, or a `function` of x and y.
+
+    The first row of `values` and of a CSV file is at the least y, the top row of a picture at the greatest. Each row goes along x.
+    """
+
+    size: TwoNumbers[PositiveLength] = Field(
+        description="lengths of the rectangle along the x and y axes of the plane's marker"
+    )
+    values: Maybe[ManyRows[Annotated[tuple[Length, ...], BeforeValidator(listed)]]] = Field(
+        default=None, description="rows of heights along z, from the least y on; along each row x grows"
+    )
+    file: str | None = Field(
+        default=None, description="CSV file of rows of heights, or PNG picture in grey, relative to the machine file"
+    )
+    unit: PositiveLength = Field(
+        default=1.0, description="length of one unit of the `file`; of a picture the height of white above black"
+    )
+    function: Annotated[str | None, BeforeValidator(_of_place)] = Field(
+        default=None, description="height [m] as an expression of `x` and `y` [m]"
+    )
+    points: TwoNumbers[Whole] = Field(
+        default=POINTS, description="of a `function`: numbers of heights along x and along y"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        if self.function is not None:
+            yield from self._problems_of_function()
+            return
+        if self.values is None:
+            if self.file is None:
+                yield Problem((), "`values`, a `file` or a `function` must be given: `function: 0.1*x^2`")
+            else:
+                yield Problem(("file",), f"the file `{self.file}` was not read; in Python give `values`")
+            return
+        if len({len(row) for row in self.values}) > 1:
+            yield Problem(("values",), "all rows need as many heights")
+        elif min(len(self.values), len(self.values[0])) < FEWEST:
+            yield Problem(("values",), f"at least {FEWEST} rows of {FEWEST} heights are needed")
+        elif len(self.values) * len(self.values[0]) > MOST:
+            yield Problem(("values",), f"there are more than {MOST} heights")
+
+    def _problems_of_function(self) -> Iterator[Problem]:
+        for name in ("values", "file"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "stands in place of `function`; give one of them")
+        if min(self.points) < FEWEST or self.points[0] * self.points[1] > MOST:
+            yield Problem(("points",), f"at least {FEWEST} are needed along each side, and at most {MOST} in all")
+            return
+        try:
+            self.heights  # noqa: B018 : whether the function has a value everywhere
+        except ExpressionError as problem:
+            yield Problem(("function",), f"`{self.function}` has no value everywhere on the rectangle: {problem}")
+
+    @property
+    def heights(self) -> NDArray[np.float64]:
+        """(rows along y, heights along x) [m]. Raises ExpressionError where a function has no value."""
+        if self.function is None:
+            return np.array(self.values, dtype=float)
+        return _values_of(self.function, self.size, (int(self.points[0]), int(self.points[1])))
+
+
+@lru_cache(maxsize=16)
+def _values_of(function: str, size: tuple[float, float], points: tuple[int, int]) -> NDArray[np.float64]:
+    tree = bound_tree(function, {}, PLACE)
+    x, y = (np.linspace(-0.5, 0.5, n) * side for n, side in zip(points, size, strict=True))
+    out = np.array([[evaluate(tree, values={"x": float(a), "y": float(b)}) for a in x] for b in y])
+    out.setflags(write=False)
+    return out

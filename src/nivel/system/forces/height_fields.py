@@ -1,0 +1,38 @@
+"""Ground whose height varies in numbers for its kernel, and as triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.machine.bodies.surface import Triangles
+from nivel.machine.forces import HeightField
+
+Array = NDArray[np.float64]
+# Of the cubic between heights, the sum of the sizes of the weights of all sixteen.
+WEIGHTS = 1.25**2
+
+
+def numbers_of_heights(field: HeightField) -> list[float]:
+    """Numbers of `nivel.kernels.forces.height_field`: around the grid the parabolas through its outer heights go on."""
+    heights = field.heights
+    least, most = heights.min(), heights.max()
+    bound = 0.5 * (least + most) + 0.5 * WEIGHTS * (most - least)
+    rows, columns = heights.shape
+    padded = np.zeros((rows + 2, columns + 2))
+    padded[1:-1, 1:-1] = heights
+    padded[1:-1, 0], padded[1:-1, -1] = heights[:, :3] @ [3.0, -3.0, 1.0], heights[:, -3:] @ [1.0, -3.0, 3.0]
+    padded[0], padded[-1] = [3.0, -3.0, 1.0] @ padded[1:4], [1.0, -3.0, 3.0] @ padded[-4:-1]
+    return [float(columns), float(rows), *field.size, float(bound), *padded.ravel().tolist()]
+
+
+def ground_surface(field: HeightField) -> tuple[Array, Triangles]:
+    """vertices (n, 3) [m] in the axes of the plane's marker and triangles (m, 3), seen from above counter-clockwise."""
+    heights = field.heights
+    rows, columns = heights.shape
+    x, y = (np.linspace(-0.5, 0.5, n) * side for n, side in zip((columns, rows), field.size, strict=True))
+    vertices = np.stack([*np.meshgrid(x, y), heights], axis=2).reshape(-1, 3)
+    corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    first = np.stack([corner, corner + 1, corner + columns + 1], axis=1)
+    second = np.stack([corner, corner + columns + 1, corner + columns], axis=1)
+    return vertices, np.concatenate([first, second]).astype(np.uint32)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
+from scipy.linalg import expm, solve_continuous_are
 from scipy.optimize import linprog
 
 import nivel
@@ -13,6 +13,8 @@ import nivel
 FOLDER = Path(__file__).parents[1] / "examples" / "optimisation"
 sys.path.insert(0, str(FOLDER))
 
+from controller_gains import ANGLE, FORCE, PLACE, best_in_theory, linear  # noqa: E402
+from controller_gains import tuned as tuned_gains  # noqa: E402
 from counterbalance import VALVE, tuned  # noqa: E402
 from coupler_curve import LENGTHS, synthesised  # noqa: E402
 from friction_and_damping import identified  # noqa: E402
@@ -109,6 +111,40 @@ def test_a_load_hangs_at_rest_and_costs_no_more_than_theory_allows():
     target = np.linalg.solve(C, [3.0, 0.0, 0.0, 0.0])
     least = target @ np.linalg.solve(gramian, target) / 5.0
     assert 0.97 * least < found.objective < 1.1 * least
+
+
+def cost_in_theory(machine):
+    """x₀ᵀ P x₀ from 1 deg, with P of Riccati's equation (Kalman 1960)."""
+    A = linear(machine)
+    B = (linear(machine, 1.0) - A)[:, :1]
+    return (
+        np.radians(1.0) ** 2
+        * solve_continuous_are(A, B, np.diag([PLACE**-2, ANGLE**-2, 0.0, 0.0]), np.array([[FORCE**-2]]))[1, 1]
+    )
+
+
+def test_at_the_gains_of_theory_the_cost_is_that_of_theory_and_its_slopes_vanish():
+    """Of those gains, in shares: at the gains of the file they are a hundred times as large."""
+    machine = nivel.load(FOLDER / "balanced-pole.yaml")
+    theory = best_in_theory(machine)
+    slopes = []
+    for values in (theory, {}):
+        found = machine.with_values(values).gradient(["integral(sensor.cost)"], list(theory), check=False)
+        cost = float(found["integral(sensor.cost)"])
+        slopes.append(
+            [gain / cost * float(found[f"d(integral(sensor.cost))/d({path})"]) for path, gain in theory.items()]
+        )
+        if values:
+            assert cost == pytest.approx(cost_in_theory(machine), rel=2e-3)
+    assert np.abs(slopes[0]).max() < 1e-2 * np.abs(slopes[1]).max()
+
+
+@pytest.mark.full
+def test_gains_that_are_found_are_about_those_of_theory():
+    machine, found = tuned_gains()
+    assert found.objective == pytest.approx(cost_in_theory(machine), rel=2e-3)
+    for path, gain in best_in_theory(machine).items():
+        assert found.values[path] == pytest.approx(gain, rel=0.02)
 
 
 @pytest.mark.full

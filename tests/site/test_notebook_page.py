@@ -1,4 +1,4 @@
-"""The notebook of the site: every cell runs, and the page shows what came out of it."""
+"""The notebooks of the site: every cell runs, and the pages show what came out of them."""
 
 import importlib.util
 import re
@@ -8,7 +8,7 @@ import pytest
 
 from needing import needs
 
-needs("nbclient", "nbconvert", "ipykernel", "matplotlib")
+nbformat = needs("nbclient", "nbconvert", "ipykernel", "matplotlib", "nbformat")
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -30,3 +30,25 @@ def test_first_steps_run_and_their_page_shows_a_plot_a_table_and_the_errors():
     # the energy of a pendulum let go at the height of its pivot is zero; 3 s with rk4 keep it to a millionth of its swing
     (energy,) = re.findall(r"kinetic.*?^    ([\d.e-]+)$", text[text.index("energy.abs()") - 100 :], re.S | re.M)
     assert 0.0 <= float(energy) < 1e-5
+
+
+@pytest.mark.parametrize("path", sorted((DOCS / "notebooks").glob("*.ipynb")), ids=lambda path: path.stem)
+def test_notebooks_are_valid_and_have_no_outputs_of_their_own(path):
+    notebook = nbformat.read(path, as_version=4)
+    nbformat.validate(notebook)
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert not any(cell.outputs or cell.execution_count for cell in cells)
+    for cell in cells:
+        compile(cell.source, path.name, "exec")
+
+
+@pytest.mark.full
+@pytest.mark.filterwarnings("ignore")
+def test_studies_run_and_their_page_shows_what_is_known(monkeypatch):
+    """Friction and damping within four standard deviations of those that the block was measured with."""
+    monkeypatch.setenv("PYTHONPATH", str(DOCS.parent / "src"))
+    text, pictures = notebook_page(DOCS / "notebooks" / "studies.ipynb")
+    assert "48 done" in text
+    assert len(pictures) == 3
+    for value, deviation, truth in re.findall(r"([\d.]+) ± ([\d.]+), measured with ([\d.]+)", text):
+        assert abs(float(value) - float(truth)) < 4.0 * float(deviation)

@@ -38,6 +38,7 @@ MADE = {
     "keys.md",
     "notation.md",
     "notebooks/first-steps.md",
+    "notebooks/studies.md",
 }
 WRITTEN_HERE = [
     "index.md",

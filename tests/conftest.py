@@ -1,5 +1,6 @@
 """Settings that all tests share."""
 
+import functools
 import os
 
 import numpy as np
@@ -36,11 +37,20 @@ if not PLAIN:  # kernels as plain Python are imported by `tests/interpreted/plai
 
     # a second run is made by tests of it alone, which say `verify=True`: all others would take twice their time
     Machine.simulate.__wrapped__.__kwdefaults__["verify"] = False
+    # and so are equilibria with other elements
+    statics = Machine.statics
+
+    @functools.wraps(statics)
+    def unverified(machine, **given):
+        return statics(machine, **{"verify": False, **given})
+
+    Machine.statics = unverified
 
     @pytest.fixture
     def verified(monkeypatch):
-        """Runs are verified unless they say otherwise, as they are outside of the tests."""
+        """Runs and equilibria are verified unless they say otherwise, as they are outside of the tests."""
         monkeypatch.setitem(Machine.simulate.__wrapped__.__kwdefaults__, "verify", True)
+        monkeypatch.setattr(Machine, "statics", statics)
 
 
 @pytest.fixture

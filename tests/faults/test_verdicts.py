@@ -11,6 +11,8 @@ import nivel
 from nivel.cli import main
 from nivel.results.trust import Trust
 
+pytestmark = pytest.mark.usefixtures("verified")
+
 FAULTS = Path(__file__).parent
 EXAMPLES = FAULTS.parent.parent / "examples"
 

@@ -12,6 +12,8 @@ from simulating import G, machine
 
 MODULUS, DENSITY = 210e9, 7850.0
 STEEL = {"youngs_modulus": MODULUS, "poisson_ratio": 0.3, "density": DENSITY}
+pytestmark = pytest.mark.usefixtures("verified")
+
 GREEN, RED = 1e-2, 1e-1  # of the motion: the thresholds of the item `mesh`
 
 

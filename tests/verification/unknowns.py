@@ -220,16 +220,19 @@ class Unknowns:
             before = found
         return column
 
-    def error(self, count=None):
+    def error(self, count=None, columns=None):
         """Largest error of an entry of `matrix` as a share of the largest in its row; unknowns in units of their widths.
 
-        Entries are looked at one by one, or by default tests all at once along `count` random directions, where each that is wrong shows.
+        Entries are looked at one by one, or by default tests all at once along `count` random directions, where each that is wrong shows,
+        or those of so many `columns` at random.
         """
         widths = self.widths()
         _, own = self.matrix()
         directions = np.diag(widths)
+        rng = np.random.default_rng([len(widths), *self.here.name.encode()])
+        if columns and not FULL and len(widths) > columns:
+            directions = directions[:, rng.choice(len(widths), columns, replace=False)]
         if count and not FULL and len(widths) > count:
-            rng = np.random.default_rng(len(widths))
             signs = rng.choice([-1.0, 1.0], (len(widths), count))
             directions = 0.25 * widths[:, None] * signs * rng.uniform(0.5, 1.0, signs.shape)
         expected = (

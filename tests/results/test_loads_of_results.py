@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import nivel
+from nivel.files import parse_machine
+from nivel.results.frames.loads import hidden_between_frames
 
 # ASTM E1049-85, figure 6: peaks and valleys and what they count as
 HISTORY = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]
@@ -81,3 +83,30 @@ def test_frames_that_are_too_coarse_are_told(turns, positions, said):
     headline = str(result.powers().attrs["headline"])
     told = [each for each in ("from one reversal to the next", "work between frames") if each in headline]
     assert said in told if said else not told
+
+
+RINGING = """
+format: 1
+name: ringing
+bodies: {a: {mass: 1, inertia: [1, 1, 1]}}
+joints: {r: {type: translational, bodies: [ground, a], point: [0, 0, 0], axis: [1, 0, 0], start: {displacement: 0.1}}}
+forces: {coil: {type: joint-spring-damper, coordinate: r, stiffness: 10000}}
+simulation: {duration: 1, step: 1 ms, output_interval: 5 ms}
+"""
+
+
+@pytest.mark.parametrize(("interval", "told"), [("40 ms", True), ("2 ms", False)])
+def test_a_run_tells_where_its_frames_hide_peaks(interval, told):
+    """16 Hz: 1.6 and 31 frames a period."""
+    trust = nivel.Machine.from_record(parse_machine(RINGING)).simulate(output_interval=interval, verify=False).trust
+    lines = [item.text for item in trust.items if item.name == "unexamined"]
+    assert len(lines) == told
+    assert not told or ("peaks, work and cycles between frames: force.coil" in lines[0] and "reversal" in lines[0])
+
+
+def test_a_peak_at_an_end_of_the_history_hides_nothing():
+    """Straight up to round-off from its begin on: no parabola through the first three frames has its top there."""
+    assert hidden_between_frames(np.array([[3.0], [2.0], [1.0 + 1e-15], [0.0]])) == 0.0
+    tops = np.cos(np.linspace(-1.1, 1.0, 8))[:, None]
+    top = 1.0 / tops.max() - 1.0  # cos 0 = 1
+    assert hidden_between_frames(tops) == pytest.approx(top, rel=0.05)

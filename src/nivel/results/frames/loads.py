@@ -50,12 +50,13 @@ def reactions(result: Result) -> xarray.Dataset:
 
 def hidden_between_frames(history: Array) -> float:
     """How much larger the peaks of histories (t, n) may be between frames, as a share of the largest peak: the top of the parabola through
-    the largest number and its neighbours."""
+    the largest number and its neighbours; nothing where that is the first or the last one."""
     largest = float(np.max(np.abs(history), initial=0.0))
     if len(history) < PARABOLA or not largest > 0.0:
         return 0.0
-    at = np.clip(np.argmax(np.abs(history), axis=0), 1, len(history) - 2)
-    columns = np.arange(history.shape[1])
+    first = np.argmax(np.abs(history), axis=0)
+    columns = np.flatnonzero((first > 0) & (first < len(history) - 1))
+    at = first[columns]
     before, peak, after = (np.abs(history[at + k, columns]) for k in (-1, 0, 1))
     bend = 2.0 * peak - before - after
     above = np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(bend), where=bend > 0.0)

@@ -363,6 +363,43 @@ def test_creep_is_amber_and_stiction_is_not():
     assert not any(item.name == "creep" for item in nivel.load(FAULT).simulate().trust.items)
 
 
+@pytest.mark.parametrize("kind", ["contacts", "pair"])
+def test_creep_is_told_of_many_spheres_and_of_pairs(kind):
+    """Balls that roll down 5° slip by v_t atanh(2/7 tan(5°)/μ) all the time: friction of 2/7 m g sin(5°) needs that much."""
+    slope, mu, v_t, radius, duration = np.radians(5.0), 0.5, 0.02, 0.1, 1.0
+    friction = {"stiffness": 1e5, "exponent": 1, "restitution": 0.5, "friction": mu, "friction_transition_speed": v_t}
+    overlap = 1.0 * G * np.cos(slope) / 1e5
+    ball = {"mass": 1.0, "shape": {"type": "sphere", "radius": radius}}
+    sections = {
+        "gravity": [G * np.sin(slope), 0, -G * np.cos(slope)],
+        "bodies": {name: {**ball, "position": [0, y, radius - overlap]} for name, y in (("a", 0.0), ("b", 0.5))},
+        "forces": {
+            "it": {
+                "type": "contacts",
+                "between": ["a", "b"],
+                "planes": [{"body": "ground", "axis": [0, 0, 1]}],
+                **friction,
+            }
+        },
+    }
+    if kind == "pair":
+        del sections["bodies"]["b"]
+        sections["bodies"]["table"] = {
+            "position": [0, 0, -0.1],
+            "shape": {"type": "box", "size": [9, 2, 0.2]},
+            "density": 700,
+        }
+        sections["joints"] = {"held": {"type": "fixed", "bodies": ["ground", "table"], "point": [0, 0, 0]}}
+        sections["forces"] = {
+            "it": {"type": "contact", "bodies": ["a", "table"], "friction_model": "coulomb", **friction}
+        }
+    result = simulate(sections, integrator="radau", duration=duration, output_interval=0.01)
+    slip = v_t * np.arctanh(2.0 / 7.0 * np.tan(slope) / mu)
+    (line,) = [item for item in result.trust.items if item.name == "creep"]
+    assert line.verdict == "amber"
+    assert result.trust.found["creep"][0]["way"] == pytest.approx(slip * duration, rel=0.05)
+
+
 def test_whole_steps_refuse_contact_that_sticks():
     settings = {"integrator": "energy-momentum", "coordinates": "absolute", "stabilisation": "none", "step": 1e-3}
     with pytest.raises(ModelError, match=r"friction_model: 'stiction' does not go with .*`friction_model: coulomb`"):

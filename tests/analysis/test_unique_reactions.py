@@ -69,6 +69,14 @@ def test_ranges_of_a_door_are_those_of_one_hinge_or_the_other():
     run = machine.simulate(duration=0.01, coordinates="absolute")
     shown = run.array("joint_force_local")[0]
     assert np.all(np.abs(shown[:, 2] + 0.5 * weight) <= 0.5 * weight)
+    # the least norm: equal hinges carry half of the weight and of the couple each, by forces and by moments
+    np.testing.assert_allclose(shown[:, 2], -0.5 * weight, rtol=1e-9)
+    np.testing.assert_allclose(shown[0, 0], -shown[1, 0], rtol=1e-9)
+    moments = run.array("joint_torque_local")[0, :, 1]
+    np.testing.assert_allclose(moments[0], moments[1], rtol=1e-9)
+    assert 2.0 * a * shown[1, 0] + moments.sum() == pytest.approx(weight * b, rel=1e-9)
+    other = machine.simulate(duration=0.01, coordinates="independent").array("joint_force_local")[0]
+    np.testing.assert_allclose(other, shown, atol=1e-9 * weight)
     assert "force z (-100 to 0 N)" in str(machine.check())
 
 

@@ -45,6 +45,43 @@ def test_a_winch_hauls_in_by_its_turns(integrator):
     assert r.array("guide.displacement")[-1] > 3 * np.pi * R - 1e-4
 
 
+def test_two_winches_lift_a_hook_block_by_the_mean_of_what_they_haul_in():
+    """The rope runs from one drum around the sheave of the block to the other drum: z = (R φ₁ + R φ₂)/2 - (m g/2)/(2 k)."""
+    sheave, block, stiffness = 0.1, 2.0, 1e6
+    away = sheave + R
+    sections = {
+        "gravity": [0, 0, -G],
+        "bodies": {
+            "left": solid(1.0, position=[-away, 0, 1]),
+            "right": solid(1.0, position=[away, 0, 1]),
+            "block": solid(block),
+        },
+        "joints": {
+            "first": {"type": "revolute", "bodies": ["ground", "left"], "point": [-away, 0, 1], "axis": [0, 1, 0]},
+            "second": {"type": "revolute", "bodies": ["ground", "right"], "point": [away, 0, 1], "axis": [0, 1, 0]},
+            "guide": slide("ground", "block", point=[0, 0, 0], axis=[0, 0, 1]),
+        },
+        "drivers": {
+            "one": {"coordinate": "first", "value": "-4*pi*step(time, 0, 0, 1, 1)"},
+            "two": {"coordinate": "second", "value": "1*pi*step(time, 0.2, 0, 0.8, 1)"},
+        },
+        "forces": {
+            "rope": {
+                **{"type": "rope", "bodies": ["left", "block", "right"], "axis": [0, 1, 0], "radii": [R, -sheave, R]},
+                **{"points": [[-away, 0, 1], [0, 0, 0], [away, 0, 1]], "wound": [3, 3]},
+                **{"stiffness": stiffness, "damping": 2e3},
+            }
+        },
+    }
+    r = simulate(sections, duration=1.1, step=1e-4, output_interval=0.01, integrator="rk4")
+    hauled = R * (r.array("second.angle") - r.array("first.angle"))
+    late = r.time > 0.1
+    np.testing.assert_allclose(
+        r.array("guide.displacement")[late], 0.5 * hauled[late] - 0.25 * block * G / stiffness, atol=2e-5
+    )
+    assert hauled[-1] == pytest.approx(5.0 * np.pi * R, rel=1e-6)
+
+
 def test_an_unwound_drum_holds_the_rope_at_its_rim():
     """A drum that is turned back by a whole turn from a quarter: the free part ends at the rim, which goes around."""
     sections = winch(start=0.25, stiffness=1e5) | {

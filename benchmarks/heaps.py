@@ -2,6 +2,7 @@
 
 Time of a step, and the error of each against a run of its own with steps of a twentieth: of the places of the boxes, and of the mean height
 of the spheres, whose single places are chaotic. MuJoCo has no moving surfaces: its boxes slide on a plane at rest, seen from the belt.
+Then what a step of up to 800 spheres costs for each of them.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import nivel
 
 STEP, FINE, G, BELT = 2e-4, 20, 9.81, 0.5
 RADIUS, SPHERES = 0.02, 100
+COUNTS = (100, 200, 400, 800)
 BOX = (0.3, 0.2, 0.2)
 # walls of the hopper: 45°
 S = float(np.sqrt(0.5))
@@ -84,6 +86,34 @@ def run_nivel(text, names, step, duration):
     return places, 1e6 * result.timing["loop_seconds"] / result.timing["steps"]
 
 
+def nivel_layers(count: int) -> tuple[str, list[str]]:
+    """So many spheres in some layers above a floor, as a machine file."""
+    side, rng = int(np.ceil(0.5 * np.sqrt(count))), np.random.default_rng(0)
+    shape = f"shape: {{type: sphere, radius: {RADIUS}}}, density: 2500"
+    lines = ["format: 1", f"gravity: [0, 0, {-G}]", "markers: {floor: {body: ground, axis: [0, 0, 1]}}", "bodies:"]
+    for k in range(count):
+        z, y, x = k // side**2, k // side % side, k % side
+        a, b = rng.uniform(-1e-3, 1e-3, 2).tolist()
+        lines.append(f"  s{k}: {{position: [{x * 0.043 + a}, {y * 0.043 + b}, {0.021 + z * 0.043}], {shape}}}")
+    lines += [
+        "forces:",
+        "  heap: {type: contacts, between: all, planes: [floor], stiffness: 2e4, exponent: 1, restitution: 0.5,",
+        "    friction: 0.3, friction_transition_speed: 0.1}",
+    ]
+    return "\n".join(lines), [f"s{k}" for k in range(count)]
+
+
+def report_growth():
+    """A line for each number of spheres: what a step costs for each."""
+    for count in COUNTS:
+        layers, balls = nivel_layers(count)
+        spent = min(run_nivel(layers, balls, STEP, 0.02)[1] for _ in range(2))
+        print(
+            f"{count} spheres on a floor    nivel    {spent:8.1f} µs a step, {spent / count:.2f} µs for each sphere",
+            flush=True,
+        )
+
+
 def mujoco_boxes() -> tuple[str, float]:
     """The same boxes as MuJoCo knows them; the belt is at rest."""
     bodies = "".join(
@@ -131,7 +161,7 @@ def report(scene, program, run, measure):
 
 
 def main():
-    """All four lines."""
+    """All lines."""
 
     def apart(places, fine):
         return float(np.sqrt(np.mean(np.sum((places - fine) ** 2, axis=1))))
@@ -147,6 +177,7 @@ def main():
     hopper, still = mujoco_spheres()
     report("a hundred spheres", "nivel", lambda step: run_nivel(heap, balls, step, 0.4), height)
     report("a hundred spheres", "MuJoCo", lambda step: run_mujoco(hopper, still, step, 0.4, 0.3), height)
+    report_growth()
 
 
 if __name__ == "__main__":

@@ -311,6 +311,45 @@ def test_contacts_and_events(integrator):
     short(machine(sections).record, integrator, steps=10, **more)
 
 
+def test_contacts_of_all_shapes(monkeypatch):
+    """Ellipsoids, capsules on parts of others, ground with heights, and spheres that cells find."""
+    monkeypatch.setattr("nivel.system.forces.heaps.MANY", 2)
+    egg = {"type": "ellipsoid", "semi_axes": [0.3, 0.2, 0.1]}
+    bar, block = {"type": "capsule", "radius": 0.1, "length": 0.4}, {"type": "box", "size": [0.3, 0.3, 0.2]}
+    ball, hills = {"type": "sphere", "radius": 0.1}, {"size": [2, 2], "function": "0.1*x^2", "points": [5, 5]}
+    prism = {"type": "extrusion", "outline": [[-0.1, -0.1], [0.1, -0.1], [0, 0.1]], "length": 0.2}
+    disc = {"type": "cylinder", "radius": 0.1, "length": 0.2}
+    point = {"type": "contact", "stiffness": 1e4, "exponent": 1, "restitution": 0.5, "friction": 0.3}
+    pairs = {
+        "edge": (egg, block, [0.33, 0.28, 0.02]),
+        "eggs": (egg, egg, [0.2, 0.1, 0.15]),
+        "bars": (bar, bar, [0.3, 0, 0.19]),
+    }
+    pairs |= {"lies": (bar, block, [0.1, 0, 0.19]), "egg_and_ball": (egg, ball, [0.3, 0, 0.1])}
+    bodies, forces = {}, {}
+    for k, (name, (first, second, apart)) in enumerate(pairs.items()):
+        bodies |= {
+            f"a{k}": {"mass": 1, "inertia": [1, 1, 1], "position": [apart[0], apart[1] + k, apart[2]], "shape": first}
+        }
+        bodies |= {f"b{k}": {"mass": 1, "inertia": [1, 1, 1], "position": [0, k, 0], "shape": second}}
+        forces[name] = {**point, "bodies": [f"a{k}", f"b{k}"]}
+    for k, shape in enumerate((egg, ball, bar, block, prism, disc)):
+        bodies[f"c{k}"] = {"mass": 1, "inertia": [1, 1, 1], "position": [0.2, 0, 0.095], "shape": shape}
+        forces[f"ground_{k}"] = {**point, "body": f"c{k}", "plane": "floor", **({"heights": hills} if k else {})}
+    for k, place in enumerate(([9, 0, 0.05], [9.05, 0, 0.14], [9, 0.3, 2])):
+        bodies[f"s{k}"] = {"mass": 1, "inertia": [1, 1, 1], "position": place, "shape": ball}
+    heap = {
+        "type": "contacts",
+        "between": ["s0", "s1", "s2"],
+        "planes": ["floor"],
+        "stiffness": 1e4,
+        "restitution": 0.5,
+    }
+    floor = {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]}
+    sections = {"bodies": bodies, "markers": {"floor": floor}, "forces": {**forces, "heap": heap}}
+    short(machine(sections).record, steps=2, step=1e-5)
+
+
 # --- bodies that bend, beams, rails ---
 
 

@@ -81,3 +81,37 @@ def test_what_cannot_be_a_heap_is_refused(changes, said):
     forces = {"heap": {"type": "contacts", "between": ["ball_0", "ball_1"], **PAIR, **changes}}
     with pytest.raises(ModelError, match=said):
         simulate({"bodies": bodies, "markers": {"floor": FLOOR}, "forces": forces}, duration=0.1)
+
+
+def test_what_cells_find_is_what_all_pairs_give(monkeypatch):
+    """A cloud of sixty spheres of two sizes that collide: the same motion, touches and forces, to the round-off of sums."""
+    rng = np.random.default_rng(3)
+    grid = [(x, y, z) for x in range(4) for y in range(5) for z in range(3)]
+    bodies = {
+        f"ball_{k}": {
+            "shape": {"type": "sphere", "radius": 0.05 if k % 3 else 0.02},
+            "density": 2500,
+            "position": (0.11 * np.array(place) - 0.2 + rng.uniform(-5e-3, 5e-3, 3)).tolist(),
+            "velocity": rng.uniform(-1, 1, 3).tolist(),
+        }
+        for k, place in enumerate(grid)
+    }
+    rub = {"friction": 0.3, "friction_transition_speed": 0.1}
+    group = {
+        "heap": {"type": "contacts", "between": "all", "planes": [{**FLOOR, "position": [0, 0, -0.3]}], **PAIR, **rub}
+    }
+    sections = {"gravity": [0, 0, -G], "bodies": bodies, "forces": group}
+    settings = {"integrator": "rk4", "step": 5e-5, "duration": 0.1, "output_interval": 0.01}
+    monkeypatch.setattr("nivel.system.forces.heaps.MANY", 10)
+    cells = simulate(sections, **settings)
+    monkeypatch.setattr("nivel.system.forces.heaps.MANY", 1000)
+    pairs = simulate(sections, **settings)
+    assert pairs.array("force.heap.count").sum() > 15
+    np.testing.assert_array_equal(cells.array("force.heap.count"), pairs.array("force.heap.count"))
+    for name in bodies:
+        np.testing.assert_allclose(cells.array(f"{name}.position"), pairs.array(f"{name}.position"), atol=1e-9)
+    touching = pairs.array("force.heap.depth") > 0
+    np.testing.assert_allclose(
+        cells.array("force.heap.depth")[touching], pairs.array("force.heap.depth")[touching], atol=1e-8
+    )
+    assert np.all(cells.array("force.heap.depth")[~touching] < 0)

@@ -27,7 +27,7 @@ from nivel.machine.units.quantity import (
 )
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 
-FEWEST, MOST = 3, 1_000_000  # heights along a side, and in all
+FEWEST, MOST = 3, 250_000  # heights along a side, and in all
 POINTS: Final = (101, 101)
 PLACE: Final = ("x", "y")
 

@@ -13,6 +13,9 @@ from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
 
+# From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.
+MANY, CELL = 128, 1.25
+
 
 def spheres_between(machine: MachineRecord, force: Contacts) -> list[str]:
     """Names of the bodies that touch each other."""
@@ -40,7 +43,13 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
         radii.append(shape.radius)
     planes = [builder.end(plane) for plane in force.planes]
     numbers = [force.stiffness, force.exponent, damping_of_restitution(force.restitution), force.friction]
-    numbers += [force.friction_transition_speed or 1.0, *[0.0] * (heap.RADII - heap.POINT), *radii]
+    numbers += [force.friction_transition_speed or 1.0, *[0.0] * (heap.CELL - heap.POINT)]
+    cell, size = CELL * 2.0 * max(radii), 0
+    if len(names) >= MANY:
+        size = 1 << (2 * len(names) - 1).bit_length()
+    numbers += [cell, cell - 2.0 * max(radii), size, 0.0, *radii]
+    if size:
+        numbers += [0.0] * (size + (4 + heap.KEPT_OF_EACH) * len(names))
     places = len(names) * len(planes) + len(names) * (len(names) - 1) // 2
     columns = [first, len(names), len(planes), *markers, *planes]
     builder.elements.add(heap.apply, columns, [float(each) for each in numbers], places, tuple(range(places)))

@@ -211,6 +211,17 @@ def machine_with_gas():
                 },
                 "box": {"type": "volume", "volume": "0.3 L", "start": "2 bar", "fluid": "calm"},
                 "outside": {"type": "tank", "fluid": "calm"},
+                "hose": {
+                    "type": "tube", "ports": {"A": "line", "B": "cup"}, "diameter": "4 mm", "length": 2, "segments": 2,
+                    "bends": 1.5, "heat_transfer": 40, "start": "3 bar", "fluid": "air",
+                },
+                "cup": {
+                    "type": "volume", "volume": "0.1 L", "start": "0.9 bar", "heat_transfer": 50, "surface": 0.02, "fluid": "air",
+                },
+                "jet": {
+                    "type": "ejector", "ports": {"P": "supply", "A": "cup", "R": "room"}, "sonic_conductance": 2e-9,
+                    "vacuums": [0, 4e4, 8e4], "suction_flows": [1e-3, 6e-4, 0],
+                },
                 "check": {"type": "check-valve", "ports": {"A": "box", "B": "outside"}, **GAS_RATED},
             },
         }

@@ -19,6 +19,7 @@ OF_LIQUIDS: Final = ("wall_modulus",)
 WARM: Final = {"tank": ("temperature",), "cooler": ("heat_conductance",)}
 WALLS: Final = "heat_conductance"
 HOW: Final = "write `isothermal: false` and a `grade` in its fluid"
+OF_GASES: Final = ("heat_transfer",)
 
 
 def fluid_faults(machine: Any, nodes: Mapping[str, Any]) -> Faults:
@@ -66,7 +67,10 @@ def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
         known = ", ".join(f"`{word}`" for word, each in COMPONENT_OF.items() if each.gases)
         yield (*place, "type"), f"a {type_} is for liquids; circuits of gas know {known}"
         return
-    for key in OF_LIQUIDS if gas else ():
+    if not gas and not kind.liquids:
+        yield (*place, "type"), f"a {type_} is for gases; write a fluid such as `fluids: {{air: {{type: ideal-gas}}}}`"
+        return
+    for key in OF_LIQUIDS if gas else OF_GASES:
         if entry(component, key) is not None:
             yield (*place, key), f"`{key}` belongs to liquids"
     rated = [(place, component), *(((*place, key), entry(component, key)) for key in ("cushion_A", "cushion_B"))]

@@ -26,8 +26,8 @@ from nivel.native.function import leaf
 GAS_CONSTANT, RATIO, SURROUNDINGS, REFERENCE = 6, 7, 8, 9
 # columns of `columns`: those of `nivel.kernels.hydraulics.volume`, the state of the energy, or NONE; outputs: pressure, temperature
 OUTPUT, NODE, KIND, STATE, FUNCTION, ENERGY = 0, 1, 2, 3, 4, 5
-# column of `number`: H, heat through the walls [W/K]
-WALLS = 0
+# columns of `number`: H, heat through the walls [W/K], and what of it grows with the volume [W/(K m³)]
+WALLS, BY_VOLUME = 0, 1
 # At rest gas has the temperature of its surroundings: it goes there with this rate [1/s].
 CALM = 1.0
 
@@ -72,7 +72,7 @@ def apply(machine, number, t):
             record.control.stored[0] += stored
             if own != NONE:
                 warmer = temperature - f[SURROUNDINGS]
-                heat = n[WALLS] * warmer
+                heat = (n[WALLS] + n[BY_VOLUME] * volume) * warmer
                 lose(machine, heat * warmer / temperature)
                 if record.sampled.at_rest[0] == 1:
                     heat = heat + CALM * mass * heat_capacity(f) * warmer

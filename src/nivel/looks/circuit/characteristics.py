@@ -18,6 +18,7 @@ from nivel.machine.hydraulics import (
     CounterbalanceValve,
     CrossPortRelief,
     DirectionalValve,
+    Ejector,
     FlowControl,
     Orifice,
     ReducingValve,
@@ -27,13 +28,16 @@ from nivel.machine.hydraulics import (
     SpoolValve,
     UnloadingValve,
 )
+from nivel.machine.hydraulics.component import Component, Rating
 from nivel.machine.hydraulics.directional import CENTRED, EDGES
 from nivel.machine.hydraulics.fluid import OIL
 from nivel.system.hydraulics.components.spools import conductances
+from nivel.system.hydraulics.restrictions import CRITICAL_RATIO
 
 Array = NDArray[np.float64]
 BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
 POINTS: Final = 121
+SUPPLY: Final = 7e5  # Pa absolute, before valves of gas
 STATED: Final = 10e5  # Pa over an edge whose catalogue states no difference of pressure
 WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT = 300.0, 190.0, 46.0, 34.0, 34.0, 12.0
 COLOURS: Final = ("#2f6fb3", "#c0392b", "#2e8b57", "#b8860b", "#7d4fa3", "#555555", "#008b8b", "#d2691e")
@@ -68,14 +72,17 @@ class Chart:
 
 
 def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
-    """The charts of all valves of a machine record as JSON; those for gases are left out."""
+    """The charts of all valves of a machine record as JSON."""
     densities = {str(each["name"]): _density(each) for each in record.get("fluids") or ()}
     density = next(iter(densities.values()), OIL.mixed_density)
     out = []
     for data in record.get("hydraulics") or ():
         component = COMPONENT_OF[str(data["type"])].model_validate(data) if data["type"] in COMPONENT_OF else None
+        if isinstance(component, Rating) and component.is_of_gas:
+            out.append(_of_gas(component))
+            continue
         for kind, draw in _DRAWN.items():
-            if isinstance(component, kind) and not getattr(component, "is_of_gas", False):
+            if isinstance(component, kind):
                 chart = draw(component, density)
                 if chart is not None:
                     out.append(chart)
@@ -218,6 +225,24 @@ def _of_orifice(valve: Orifice, density: float) -> Chart | None:
     return Chart(valve.name, valve.type, "p_A - p_B, bar", (Curve("wholly open", p / BAR, flow),))
 
 
+def _of_gas(valve: Rating) -> Chart:
+    """By ISO 6358, from a supply of usual pressure."""
+    assert valve.sonic_conductance is not None
+    assert isinstance(valve, Component)
+    critical = CRITICAL_RATIO if valve.critical_ratio is None else valve.critical_ratio
+    p = np.linspace(0.0, SUPPLY, POINTS)
+    x = np.clip((1.0 - p / SUPPLY) / (1.0 - critical), 0.0, 1.0)
+    flow = valve.sonic_conductance * SUPPLY * np.sqrt(x * (2.0 - x)) / LITRE_PER_MINUTE
+    curve = Curve(f"wholly open, from {SUPPLY / BAR:g} bar", p / BAR, flow)
+    return Chart(valve.name, valve.type, "pressure behind it, bar absolute", (curve,))
+
+
+def _of_ejector(valve: Ejector, _: float) -> Chart:
+    flow = np.array(valve.suction_flows) / LITRE_PER_MINUTE
+    curve = Curve("suction", np.array(valve.vacuums) / BAR, flow)
+    return Chart(valve.name, valve.type, "vacuum, bar", (curve,))
+
+
 _DRAWN: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]]] = {
     SpoolValve: _of_spool,
     DirectionalValve: _of_directional,
@@ -229,6 +254,7 @@ _DRAWN: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]
     ReducingValve: _of_reducing,
     FlowControl: _of_flow_control,
     Orifice: _of_orifice,
+    Ejector: _of_ejector,
 }
 
 

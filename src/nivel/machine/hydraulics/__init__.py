@@ -24,7 +24,7 @@ from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
 from nivel.machine.hydraulics.machines import Engine, FlowSource, HydraulicMotor, Pump
 from nivel.machine.hydraulics.maps import HoseExpansion
 from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Reservoir, Tank, Volume
-from nivel.machine.hydraulics.pneumatic_valves import QuickExhaust, SoftStart
+from nivel.machine.hydraulics.pneumatic_valves import Ejector, QuickExhaust, SoftStart
 from nivel.machine.hydraulics.pressure_valves import (
     BrakeValve,
     CartridgeValve,
@@ -34,7 +34,7 @@ from nivel.machine.hydraulics.pressure_valves import (
     SequenceValve,
     UnloadingValve,
 )
-from nivel.machine.hydraulics.restrictions import Line, Orifice, Pipe
+from nivel.machine.hydraulics.restrictions import Line, Orifice, Pipe, Tube
 from nivel.machine.hydraulics.sections import Section
 from nivel.machine.hydraulics.spool_valve import Edge, Notch, Solenoid, SpoolValve
 from nivel.machine.hydraulics.switching import Switching
@@ -56,6 +56,7 @@ COMPONENTS: list[type[Component]] = [
     Pipe,
     Line,
     Cooler,
+    Tube,
     CheckValve,
     ReliefValve,
     CounterbalanceValve,
@@ -77,6 +78,7 @@ COMPONENTS: list[type[Component]] = [
     BrakeValve,
     QuickExhaust,
     SoftStart,
+    Ejector,
     FlowSource,
     Engine,
     Pump,
@@ -127,6 +129,7 @@ __all__ = [
     "Cushion",
     "DirectionalValve",
     "Edge",
+    "Ejector",
     "Engine",
     "FlowControl",
     "FlowDivider",
@@ -161,6 +164,7 @@ __all__ = [
     "Switching",
     "Tank",
     "TelescopicCylinder",
+    "Tube",
     "UnloadingValve",
     "Volume",
     "register",

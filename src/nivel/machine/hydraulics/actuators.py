@@ -12,6 +12,7 @@ from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Damping,
     Displacement,
+    HeatTransfer,
     Leakage,
     NotNegativeForce,
     NotNegativeNumber,
@@ -26,7 +27,7 @@ from nivel.machine.core.record import Name, entry
 from nivel.machine.forces.between import Ends
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.hydraulics.component import Component, Rating
-from nivel.machine.hydraulics.usual import DIAMETER, PISTON_SPEED, PRESSURE, STROKE, VOLUME, WALL_MODULUS
+from nivel.machine.hydraulics.usual import DIAMETER, HEAT_TRANSFER, PISTON_SPEED, PRESSURE, STROKE, VOLUME, WALL_MODULUS
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
@@ -130,6 +131,11 @@ class HydraulicCylinder(Ends, Actuator):
     acting: Literal["double", "single", "plunger"] = "double"
     seal_leakage: Leakage = Field(default=0.0, description="flow from A to B past the piston, laminar")
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
+    heat_transfer: Maybe[HeatTransfer] = Field(
+        default=None,
+        description="of gases: heat over the area of the walls of a chamber and the difference of temperature; not with `heat_conductance`",
+        usual=HEAT_TRANSFER,
+    )
     cushion_A: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the start of the stroke")
     cushion_B: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the end of the stroke")
 
@@ -143,10 +149,18 @@ class HydraulicCylinder(Ends, Actuator):
         whole = 0.25 * math.pi * self.piston**2
         return whole, whole - 0.25 * math.pi * self.rod**2
 
+    def walls(self, chamber: str) -> tuple[float, float]:
+        """Of a chamber the area of its ends [m²], and the area of bore and rod over its volume [1/m]."""
+        inner = self.rod if chamber == "B" else 0.0
+        area = self.areas[("A", "B").index(chamber)]
+        return 2.0 * area, math.pi * (self.piston + inner) / area
+
     def problems(self) -> Iterator[Problem]:
         yield from Ends.problems(self)
         yield from self.problems_of_line()
         yield from self.problems_of_ports((), self.chambers)
+        if self.heat_transfer is not None and self.heat_conductance is not None:
+            yield superfluous("heat_conductance", "stands in place of `heat_transfer`; give one of them")
         if not 0.0 <= self.rod < self.piston:
             yield Problem(("rod",), f"a rod is thinner than its piston of {self.piston:g} m, got {self.rod:g} m")
         if self.acting == "plunger" and self.rod:

@@ -9,7 +9,9 @@ from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
+    Area,
     Exponent,
+    HeatTransfer,
     NotNegativePressure,
     Pressure,
     Share,
@@ -26,8 +28,10 @@ from nivel.machine.hydraulics.maps import VolumeExpansion
 from nivel.machine.hydraulics.usual import (
     DIFFERENCE,
     FLOW,
+    HEAT_TRANSFER,
     LAG,
     PRESSURE,
+    SURFACE,
     TANK_HEIGHT,
     TEMPERATURE,
     VOLUME,
@@ -64,6 +68,12 @@ class Volume(Component):
         default=None,
         description="of gases, and of liquids that are not isothermal: heat through walls over the difference of temperature",
     )
+    heat_transfer: Maybe[HeatTransfer] = Field(
+        default=None,
+        description="of gases: heat over a `surface` and the difference of temperature; not with `heat_conductance`",
+        usual=HEAT_TRANSFER,
+    )
+    surface: Maybe[Area] = Field(default=None, description="of its walls, with `heat_transfer`", usual=SURFACE)
     start: Maybe[Pressure] = Field(
         default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
     )
@@ -71,6 +81,12 @@ class Volume(Component):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        if self.surface is None and self.heat_transfer is not None:
+            yield Problem((), "`surface` is missing: the area of the walls that `heat_transfer` is of")
+        if self.surface is not None and self.heat_transfer is None:
+            yield superfluous("surface", "belongs to a `heat_transfer`, and none is given")
+        if self.heat_transfer is not None and self.heat_conductance is not None:
+            yield superfluous("heat_conductance", "is `heat_transfer` times `surface`; give one of them")
         if self.expansion is not None and self.wall_modulus is not None:
             yield superfluous("wall_modulus", "is of walls that grow evenly; `expansion` is a curve; give one of them")
 

@@ -7,16 +7,17 @@ from math import pi
 from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Leakage, NotNegativeNumber, Pressure, Share, Truth
+from nivel.machine.core.coefficient import HeatTransfer, Leakage, NotNegativeNumber, Pressure, Share, Truth
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.hydraulics.component import Component, Rating, problem_of_share
 from nivel.machine.hydraulics.maps import LengthExpansion
-from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, PIPE_LENGTH, PRESSURE, WALL_MODULUS
+from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, HEAT_TRANSFER, PIPE_LENGTH, PRESSURE, WALL_MODULUS
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength, Whole
 
 MOST_SEGMENTS = 100
+AIR_VISCOSITY = 18.2e-6  # Pa s, at 20 °C
 Opening = Annotated[OneFunction, varying("number")]
 
 
@@ -118,3 +119,39 @@ class Line(Component):
             yield Problem(("segments",), f"1 to {MOST_SEGMENTS} segments were expected, got {self.segments}")
         if self.expansion is not None and self.wall_modulus is not None:
             yield superfluous("wall_modulus", "is of walls that grow evenly; `expansion` is a curve; give one of them")
+
+
+class Tube(Component):
+    """A tube of gas in segments, with the inertia and friction of the gas between them: pressure waves run through it with √(κ R T)."""
+
+    gases: ClassVar[bool] = True
+    liquids: ClassVar[bool] = False
+    needs: ClassVar[tuple[str, ...]] = ("A", "B")
+    passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
+    nodes: ClassVar[tuple[str, ...]] = (".1",)
+    late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B")
+
+    type: Literal["tube"] = "tube"
+    diameter: PositiveLength = Field(description="inside", usual=BORE)
+    length: PositiveLength = Field(usual=PIPE_LENGTH)
+    segments: Whole = Field(default=10, description="number of its volumes, up to 100")
+    bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
+    heat_transfer: HeatTransfer = Field(
+        default=0.0,
+        description="heat over the area of its walls and the difference of temperature",
+        usual=HEAT_TRANSFER,
+    )
+    start: Maybe[Pressure] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit", usual=PRESSURE
+    )
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+    @classmethod
+    def nodes_in(cls, data: Any) -> tuple[str, ...]:
+        count = entry(data, "segments")
+        return tuple(f".{k + 1}" for k in range(count if isinstance(count, int) else 10))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if not 1 <= self.segments <= MOST_SEGMENTS:
+            yield Problem(("segments",), f"1 to {MOST_SEGMENTS} segments were expected, got {self.segments}")

@@ -94,6 +94,7 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "thermal conductance": ("a thermal conductance", "W/K", dimension(kg=1, m=2, s=-3, K=-1)),
     "heat capacity": ("a heat capacity per mass", "J/(kg*K)", dimension(m=2, s=-2, K=-1)),
     "thermal expansion": ("a thermal expansion", "1/K", dimension(K=-1)),
+    "heat transfer coefficient": ("a heat transfer coefficient", "W/(m^2*K)", dimension(kg=1, s=-3, K=-1)),
     "displacement": ("a volume per angle", "m^3/rad", dimension(m=3, rad=-1)),
     "leakage": ("a leakage", "m^3/(s*Pa)", dimension(m=4, s=1, kg=-1)),
     "kinematic viscosity": ("a kinematic viscosity", "m^2/s", dimension(m=2, s=-1)),

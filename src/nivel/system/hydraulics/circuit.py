@@ -72,8 +72,8 @@ class Node:
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
     owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
-    warmth : state of the temperature of a liquid, or NONE. walls : heat through its walls [W/K]. quantity : its pressure among the results
-    of its component.
+    warmth : state of the temperature of a liquid, or NONE. walls : heat through its walls [W/K]; walls_by_volume : and what of it grows
+    with its volume [W/(K m³)]. quantity : its pressure among the results of its component.
     """
 
     name: str
@@ -89,6 +89,7 @@ class Node:
     energy: int = NONE
     warmth: int = NONE
     walls: float = 0.0
+    walls_by_volume: float = 0.0
     quantity: str = "pressure"
 
     @property

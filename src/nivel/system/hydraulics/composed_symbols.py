@@ -229,3 +229,10 @@ def soft_start(_: Mapping[str, Any]) -> Symbol:
     body += path("M-18 -16 H14 V-8 M14 8 V16 H-18 M14 -8 V8 M6 -8 Q13 0 6 8 M22 -8 Q15 0 22 8")
     body += path("M-18 -18 H-36 V0 H-30", "dashed")
     return Symbol(body, 36.0, 20.0, {"A": -18.0}, {"P": -18.0})
+
+
+def ejector(_: Mapping[str, Any]) -> Symbol:
+    """A vacuum generator: a jet that draws from A."""
+    body = path("M-24 -10 H24 V10 H-24 Z M-24 0 H-34 V18 M24 0 H34 V18 M0 -10 V-18")
+    body += path("M-18 -6 L-4 -2 V2 L-18 6 M4 -3 L18 -6 M4 3 L18 6") + path("M-2 -3 L6 0 L-2 3 z")
+    return Symbol(body, 34.0, 18.0, {"A": 0.0}, {"P": -34.0, "R": 34.0})

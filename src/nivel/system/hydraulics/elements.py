@@ -104,7 +104,9 @@ def _add_pressures(builder: SystemBuilder) -> None:
                     )
         if node.gas:
             builder.elements.add(
-                gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls]
+                gas.apply,
+                [node.output, k, node.kind, node.state, function, node.energy],
+                [node.walls, node.walls_by_volume],
             )
         elif is_warm(builder, node.fluid) and node.kind != volume.SIGNAL:
             columns = [node.output, k, node.kind, node.state, function, temperature]

@@ -13,6 +13,7 @@ from nivel.kernels.hydraulics.piston import STAGES, displace, guide, press
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Ends
 from nivel.machine.hydraulics import (
+    Tube,
     Accumulator,
     Actuator,
     Component,
@@ -123,7 +124,18 @@ def volume_nodes(builder: SystemBuilder, component: Volume, swept: Swept) -> Ite
     """The node that a volume is."""
     compliance = _compliance(component.volume, component.wall_modulus)
     room = (component.volume, compliance, *NO_ACCUMULATOR, *hose_points(component.expansion, 1.0))
-    yield _volume(builder, component, component.name, "", room, component.start, swept)
+    walls = (component.heat_transfer or 0.0) * (component.surface or 0.0)
+    yield _volume(builder, component, component.name, "", room, component.start, swept, (walls, 0.0))
+
+
+def tube_nodes(builder: SystemBuilder, component: Tube, swept: Swept) -> Iterator[Node]:
+    """The volumes of the segments of a tube of gas."""
+    length = component.length / component.segments
+    room = (0.25 * math.pi * component.diameter**2 * length, 0.0, *NO_ACCUMULATOR)
+    walls = component.heat_transfer * math.pi * component.diameter * length
+    for k in range(component.segments):
+        name = f"{component.name}.{k + 1}"
+        yield _volume(builder, component, name, f"_{k + 1}", room, component.start, swept, (walls, 0.0))
 
 
 def hose_points(expansion: HoseExpansion | None, length: float) -> list[float]:
@@ -199,7 +211,11 @@ def chamber_nodes(builder: SystemBuilder, component: Actuator, swept: Swept) -> 
         cushion = getattr(component, f"cushion_{chamber}", None)
         room = (dead, _compliance(dead, component.wall_modulus), 0.0, 1.0, 1.0)
         inner = chamber_node(component, chamber)
-        yield _volume(builder, component, inner, f"_{chamber}", room, start, swept)
+        transfer, ends = getattr(component, "heat_transfer", None), (0.0, 0.0)
+        if transfer is not None:
+            ends = component.walls(chamber)  # type: ignore[attr-defined]
+        walls = tuple((transfer or 0.0) * each for each in ends)
+        yield _volume(builder, component, inner, f"_{chamber}", room, start, swept, walls)
         if cushion is not None:
             room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
             yield _volume(builder, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept)
@@ -232,8 +248,9 @@ def _volume(
     room: tuple[float, ...],
     start: float | None,
     swept: Swept,
+    more_walls: tuple[float, ...] = (0.0, 0.0),
 ) -> Node:
-    """A node with mass, at first at TYPICAL pressure."""
+    """A node with mass, at first at TYPICAL pressure. more_walls : beside its `heat_conductance`, as in `Node`."""
     fluid = _fluid(builder, component)
     constants = builder.circuit.fluids[fluid]
     size = room[0] + swept.get(name, 0.0)
@@ -273,7 +290,8 @@ def _volume(
         gas=gas is not None,
         energy=energy,
         warmth=warmth,
-        walls=walls,
+        walls=walls + more_walls[0],
+        walls_by_volume=more_walls[1],
         quantity=f"pressure{ending}",
     )
 

@@ -11,6 +11,8 @@ from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import chamber_node, chamber_nodes
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppet, rated
 
+# difference of pressure at which the check valve beside a cushion opens, and from there to fully open [Pa]
+CHECK, CHECK_OF_GAS = (0.5e5, 3e5), (0.05e5, 0.2e5)
 OF_PISTONS = {piston.displace: DISPLACE, piston.guide: GUIDE, piston.press: PRESS}
 WITH_SEALS = {**OF_PISTONS, restriction.apply: RESTRICT}
 WITH_CUSHIONS = {**OF_PISTONS, spool.lift: LIFT, restriction.apply: RESTRICT}
@@ -39,9 +41,9 @@ def add_cylinder(builder: SystemBuilder, component: HydraulicCylinder) -> None:
         add_flow(
             builder, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (restriction.CUSHION, position)
         )
-        opening = add_poppet(
-            builder, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, (3e5, 0.0, -1.0, 0.0), 0.5e5
-        )
+        opens_at, opening_range = CHECK_OF_GAS if builder.circuit.nodes[inner].gas else CHECK
+        numbers = (opening_range, 0.0, -1.0, 0.0)
+        opening = add_poppet(builder, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, numbers, opens_at)
         add_flow(builder, component.name, f"check_flow_{chamber}", (port, inner), head, opening)
 
 

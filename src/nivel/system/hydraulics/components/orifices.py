@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 
-from nivel.kernels.hydraulics import line, pipe, restriction
+from nivel.kernels.hydraulics import gas_line, line, pipe, restriction
 from nivel.kernels.hydraulics.fluid import DENSITY, MODULUS, VISCOSITY
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.kernels.hydraulics.tangent import PIPE, RESTRICT
-from nivel.machine.hydraulics import Line, Orifice, Pipe
+from nivel.machine.hydraulics import Line, Orifice, Pipe, Tube
+from nivel.machine.hydraulics.restrictions import AIR_VISCOSITY
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.kind import ComponentKind
-from nivel.system.hydraulics.nodes import line_nodes
+from nivel.system.hydraulics.nodes import line_nodes, tube_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
 from nivel.system.signals.state_facts import StateFact
 
@@ -104,7 +105,26 @@ def _friction_terms(component: Line, fluid: tuple[float, ...]) -> int:
     return min(len(slower) + 1, len(line.RATES))
 
 
+def add_tube(builder: SystemBuilder, component: Tube) -> None:
+    """The flows between A, the segments and B."""
+    name, count, d = component.name, component.segments, component.diameter
+    nodes = [component.ports["A"], *(f"{name}.{k + 1}" for k in range(count)), component.ports["B"]]
+    density, area = builder.circuit.fluids[builder.circuit.nodes[nodes[1]].fluid][DENSITY], 0.25 * math.pi * d**2
+    critical = CRITICAL_REYNOLDS * AIR_VISCOSITY * area / d
+    for k in range(count + 1):
+        share = (0.5 if k in (0, count) else 1.0) / count
+        length, ending = share * component.length, {0: "A", count: "B"}.get(k, str(k))
+        first = builder.outputs.add((f"hydraulics.{name}.flow_{ending}", "m^3/s", f"flow at {ending} of {name}"))
+        words = f"mass flow at {ending} of {name}"
+        state = builder.own_state(StateFact(f"{name}.mass_flow_{ending}", "kg/s", words, 0.0, 10.0 * critical))
+        resistance = 128.0 * AIR_VISCOSITY * length / (math.pi * d**4)
+        numbers = [resistance, critical, area / length, density, 0.5 * component.bends * share / area**2]
+        columns = [first, builder.node(nodes[k]), builder.node(nodes[k + 1]), state]
+        builder.elements.add(gas_line.apply, columns, numbers)
+
+
 KINDS = (
+    ComponentKind(Tube, add_tube, (gas_line.apply,), symbols.pipe, None, tube_nodes),
     ComponentKind(Line, add_line, (line.apply,), symbols.pipe, {line.apply: line.add_slopes}, line_nodes),
     ComponentKind(Orifice, add_orifice, (restriction.apply,), symbols.orifice, {restriction.apply: RESTRICT}),
     ComponentKind(

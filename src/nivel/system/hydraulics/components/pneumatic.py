@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from nivel.kernels.hydraulics import restriction, spool
+from nivel.kernels.hydraulics import ejector, restriction, spool
 from nivel.kernels.hydraulics.tangent import LIFT, RESTRICT
-from nivel.machine.hydraulics import QuickExhaust, SoftStart
+from nivel.machine.hydraulics import Ejector, QuickExhaust, SoftStart
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import composed_symbols as symbols
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.restrictions import add_flow, add_poppet, rated
 
+JET_RATIO = 0.5  # b of jets that do not say
 SLOPES = {spool.lift: LIFT, restriction.apply: RESTRICT}
 
 
@@ -37,7 +38,19 @@ def add_soft_start(builder: SystemBuilder, component: SoftStart) -> None:
     add_flow(builder, name, "throttled_flow", ends, [share * head[0], *head[1:]])
 
 
+def add_ejector(builder: SystemBuilder, component: Ejector) -> None:
+    """The jet, and what it draws."""
+    ports, name = component.ports, component.name
+    ratio = JET_RATIO if component.critical_ratio is None else component.critical_ratio
+    add_flow(builder, name, "flow", (ports["P"], ports["R"]), [component.sonic_conductance, ratio, 0.0])
+    first = builder.outputs.add((f"hydraulics.{name}.suction_flow", "m^3/s", f"suction flow of {name}"))
+    columns = [first, *(builder.node(ports[port]) for port in ("P", "A", "R"))]
+    points = [number for pair in zip(component.vacuums, component.suction_flows, strict=True) for number in pair]
+    builder.elements.add(ejector.apply, columns, [component.drive, float(len(component.vacuums)), *points])
+
+
 KINDS = (
+    ComponentKind(Ejector, add_ejector, (restriction.apply, ejector.apply), symbols.ejector),
     ComponentKind(QuickExhaust, add_quick_exhaust, tuple(SLOPES), symbols.quick_exhaust, SLOPES),
     ComponentKind(SoftStart, add_soft_start, tuple(SLOPES), symbols.soft_start, SLOPES),
 )

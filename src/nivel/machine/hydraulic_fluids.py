@@ -72,7 +72,7 @@ def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
         return
     for key in OF_LIQUIDS if gas else OF_GASES:
         if entry(component, key) is not None:
-            yield (*place, key), f"`{key}` belongs to liquids"
+            yield (*place, key), f"`{key}` belongs to {'liquids' if gas else 'gases'}"
     rated = [(place, component), *(((*place, key), entry(component, key)) for key in ("cushion_A", "cushion_B"))]
     for where, rating in rated:
         if gas and entry(rating, "flow") is not None:

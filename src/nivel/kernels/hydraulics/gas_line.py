@@ -2,8 +2,8 @@
 
     l/A d(ṁ)/dt = p_a - p_b - Δp        Δp = 128 μ l/(π d⁴) ṁ/ρ (1 + (ṁ/ṁ_c)⁶)^(1/8) + ζ/(2 A²) ṁ |ṁ|/ρ
 
-laminar below ṁ_c and turbulent above it (Blasius), as `nivel.kernels.hydraulics.pipe`. With the volumes of the segments, in which the gas is
-compressed without heat, waves run with √(κ R T).
+laminar below ṁ_c and turbulent above it (Blasius), as `nivel.kernels.hydraulics.pipe`. With the volumes of the segments, in which the gas
+is compressed without heat, waves run with √(κ R T).
 """
 
 from __future__ import annotations

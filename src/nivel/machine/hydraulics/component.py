@@ -37,11 +37,11 @@ class Component(Checked):
     """A named part of a circuit.
 
     needs : ports that must be connected; may : those that may be. nodes : what of it others connect to, "" for itself, ".A" for its
-    chamber A. functions : fields that may vary. early : signals known before flows are; late : the others. gases, liquids : whether gas, or a
-    liquid, may flow through it. passes : pairs of ports (from, to) between which fluid passes at any pressure; delivers : port into which it delivers a
-    given flow, whatever the pressure; relieves : port whose pressure it bounds. These ask for a relief valve where none is reached.
-    sensing : ports that feel a pressure and take no flow. loads : whether a load-sensing signal may take the load of A or B from it.
-    usual : what its results are between, by the words with which their names begin.
+    chamber A. functions : fields that may vary. early : signals known before flows are; late : the others. gases, liquids : whether
+    gas, or a liquid, may flow through it. passes : pairs of ports (from, to) between which fluid passes at any pressure; delivers :
+    port into which it delivers a given flow, whatever the pressure; relieves : port whose pressure it bounds. These ask for a relief
+    valve where none is reached. sensing : ports that feel a pressure and take no flow. loads : whether a load-sensing signal may take
+    the load of A or B from it. usual : what its results are between, by the words with which their names begin.
     """
 
     collection: ClassVar[str] = "hydraulics"

@@ -13,7 +13,6 @@ from nivel.kernels.hydraulics.piston import STAGES, displace, guide, press
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Ends
 from nivel.machine.hydraulics import (
-    Tube,
     Accumulator,
     Actuator,
     Component,
@@ -27,6 +26,7 @@ from nivel.machine.hydraulics import (
     RotaryActuator,
     Tank,
     TelescopicCylinder,
+    Tube,
     Volume,
 )
 from nivel.machine.hydraulics.actuators import DEAD_SHARE, PistonFriction

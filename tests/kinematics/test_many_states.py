@@ -20,6 +20,7 @@ def test_quick_equations_are_those_of_the_reduction(file):
     assert quick._quick is not None
     slow._quick = None
     rng, body, count = np.random.default_rng(7), [*machine.bodies][-1], len(quick.names)
+    marker = next((each.name for each in machine.record.markers if each.body in machine.bodies), body)
     for _ in range(3):
         q = quick.displaced(quick.start, 0.03 * rng.standard_normal(count))
         v, a = rng.standard_normal((2, count))
@@ -30,6 +31,7 @@ def test_quick_equations_are_those_of_the_reduction(file):
                 each.inverse_dynamics(q, v, a),
                 each.forward_dynamics(q, v, a),
                 each.jacobian(body, q),
+                each.jacobian(marker, q),
             )
             for each in (quick, slow)
         ]

@@ -7,10 +7,11 @@ Machines with loops are those whose independent rows are chosen at the start; a 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import lapack
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.run.bound_entry import BoundEntry
@@ -53,7 +54,11 @@ class Quick:
         self._time = np.zeros(1, DUAL)
         self._of_values = BoundEntry(family.code, (int(motion.handle.address), 0), keep=motion)
         self._of_slopes = BoundEntry(family.twin, (int(motion.twin.address), 0, self._time), keep=motion)
-        self._eye = np.eye(len(selected))
+        self._eye, self._eye_of_rows = np.eye(len(selected)), np.eye(len(kept))
+        # of all velocities at once, which is quicker than one by one
+        self._moving: slice | Index = slice(0, self._n) if self._whole else self._free
+        self._arms: dict[tuple[int, bytes], Array] = {}
+        self._cross = np.zeros((3, 3))
         self._chunks = [*_chunks(self._free, self._n)]
 
     @property
@@ -112,10 +117,9 @@ class Quick:
             return self._eye, NO_ROWS
         Z, rows = np.zeros((len(self._free), len(self._selected))), J[self._kept]
         Z[self._selected] = self._eye
-        try:
-            inverse: Any = np.linalg.inv(rows[:, self._dependent])
-        except np.linalg.LinAlgError:
-            raise UnsuitedError from None
+        _, _, inverse, failed = lapack.dgesv(rows[:, self._dependent], self._eye_of_rows)  # type: ignore[attr-defined]
+        if failed:
+            raise UnsuitedError
         Z[self._dependent] = -inverse @ rows[:, self._selected]
         if not np.isfinite(Z).all():
             raise UnsuitedError
@@ -125,39 +129,52 @@ class Quick:
         """Give the machine independent velocities v and accelerations a (none: 0) that fit its loops."""
         own, free = self._own, self._free
         velocities, first = own.y[self._P :], self._n + self._S + self._K
-        if self._K:
-            drift = -inverse @ self.value()[first : first + self._K][self._kept]
-            velocities[free[self._dependent]] = drift
+        if not self._K:
+            if v is not None:
+                velocities[self._moving] = v
+            if a is not None:
+                own.vdot[self._moving] = a
+            return
+        dependent = free[self._dependent]
+        velocities[dependent] = -inverse @ self.value()[first : first + self._K][self._kept]
         if v is not None:
-            velocities[free] += Z @ v
-        if self._K:
-            still = -inverse @ self.value()[first + self._K :][self._kept]
-            own.vdot[free[self._dependent]] = still
+            velocities[self._moving] += Z @ v
+        own.vdot[dependent] = -inverse @ self.value()[first + self._K :][self._kept]
         if a is not None:
-            own.vdot[free] += Z @ a
+            own.vdot[self._moving] += Z @ a
 
     def efforts(self, Z: Array) -> Array:
         """(m,) Zᵀ r at the velocities and accelerations that it has."""
-        r = self.value()[: self._n]
-        return Z.T @ (r if self._whole else r[self._free])
+        r = self.value()[: self._n][self._moving]
+        return Z.T @ r if self._K else r.copy()
 
     def jacobian(self, Z: Array, b: int, position: Array) -> Array:
         """(6, m) velocity of a point of body b, given in its frame, and angular velocity."""
-        twin, bodies, tree = self._twin, self._instant.twin.bodies, self._instant.record.tree
+        twin, bodies, cross = self._twin, self._instant.twin.bodies, self._cross
+        arm = self._arm(b, position)
         out, first = np.empty((6, len(self._free))), self._P + self._n
         self._load()
         for columns, lanes, seeds in self._chunks:
             twin.y[self._P : first, 1:] = seeds[:, 1:]
             if self._of_slopes() != OK:
                 raise UnsuitedError
-            arm = position
-            if self._has_tree:
-                arm = tree.own[b] + rotation_matrices(tree.own_theta[b : b + 1])[0] @ position
-            x, y, z = bodies.A[b, :, :, 0] @ arm
+            x, y, z = (bodies.A[b, :, :, 0] @ arm).tolist()
+            cross[0, 1], cross[0, 2], cross[1, 2] = -z, y, -x
+            cross[1, 0], cross[2, 0], cross[2, 1] = z, -y, x
             omega = bodies.omega[b, :, lanes]
-            out[:3, columns] = bodies.Rdot[b, :, lanes] - np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]) @ omega
+            out[:3, columns] = bodies.Rdot[b, :, lanes] - cross @ omega
             out[3:, columns] = omega
-        return out @ Z
+        return out @ Z if self._K else out
+
+    def _arm(self, b: int, position: Array) -> Array:
+        """(3,) the point of body b in the axes in which the tree has the body."""
+        if not self._has_tree:
+            return position
+        key = b, position.tobytes()
+        if key not in self._arms:
+            tree = self._instant.record.tree
+            self._arms[key] = tree.own[b] + rotation_matrices(tree.own_theta[b : b + 1])[0] @ position
+        return self._arms[key]
 
 
 def _chunks(free: Index, n: int) -> Iterator[tuple[slice, slice, Array]]:

@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from nivel.system.signals.units import Unit
 
 ENDLESS: Final = 2**62  # steps
+NOTHING: Final = np.zeros((0, 0))
 # joints that other lengths open are closed to this share of their sizes, in so many corrections at most
 CLOSED: Final = 1e-10
 CORRECTIONS: Final = 20
@@ -588,15 +589,15 @@ def refuse_chosen_steps(plan: Plan) -> None:
 
 
 def _endless(prepared: Prepared, plan: Plan, *, whole: bool) -> tuple[Loop, NDArray[np.uint8] | None]:
-    """The compiled loop of a run without an end; where it is asked for, with all of the run but its frames in one piece of memory, and
-    that."""
+    """The compiled loop of a run without an end; where it is asked for, with all of the run in one piece of memory, and that, but
+    its frames and its pace, which no fixed step reads."""
     loop = start_loop(prepared, plan.settings)
     run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
     if not whole:
         return loop, None
-    own, piece = in_one_piece(run._replace(frames=np.zeros((0, 0))))
-    return loop._replace(history=Handle(own._replace(frames=run.frames))), piece
+    own, piece = in_one_piece(run._replace(frames=NOTHING, pace=NOTHING))
+    return loop._replace(history=Handle(own._replace(frames=run.frames, pace=run.pace))), piece
 
 
 def _of_units(prepared: Prepared) -> list[NDArray[Any]]:

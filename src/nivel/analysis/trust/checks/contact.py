@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,8 @@ Array = NDArray[np.float64]
 # happened between them.
 DEEP, UNCHANGED = 0.05, 0.2
 SHOWN = 5  # contacts of which each has a line
+# straight pieces of the way between two frames
+PIECES = 64
 # Places looked at on the way through the thinner hull, and at most between two frames; intervals between frames that are looked at.
 LOOKS, MOST_LOOKS, MOST_INTERVALS = 8, 100, 100
 
@@ -122,42 +125,96 @@ def hulls_of(machine: MachineRecord) -> list[HullPair]:
 
 
 def passed_spheres(result: Readable, pairs: Sequence[Pair]) -> list[Passed]:
-    """The deepest of each pair, where straight lines between frames, along the speeds at both, lead through the overlap."""
-    out, time = [], result.time
+    """The deepest of each pair, where the ways between frames lead through the overlap."""
+    out = []
     for pair in pairs:
-        first, second = (
-            place_and_velocity(result, body, at) for body, at in zip(pair.bodies, pair.centres, strict=True)
-        )
-        place, speed = first[0] - second[0], first[1] - second[1]
-        begin, way, span = place[:-1], np.diff(place, axis=0), np.diff(time)[:, None]
-        square = np.sum(way * way, axis=1)
-        share = -np.sum(begin * way, axis=1) / square
-        overlap = 1.0 - np.linalg.norm(begin + share[:, None] * way, axis=1) / pair.reach
-        half = np.sqrt(np.maximum(1.0 - (1.0 - overlap) ** 2, 0.0)) * pair.reach / np.sqrt(square)
-        straight = np.ones(len(way), dtype=bool)
-        for each in (speed[:-1], speed[1:]):
-            straight &= np.linalg.norm(each * span - way, axis=1) < UNCHANGED * np.sqrt(square)
-        through = straight & (overlap > DEEP) & (share > half) & (share < 1.0 - half)
-        if through.any():
-            k = int(np.argmax(np.where(through, overlap, 0.0)))
-            lasted = float(2.0 * half[k] * span[k, 0])
-            at = float(time[k] + share[k] * span[k, 0])
-            out.append(
-                Passed(pair.contact, pair.bodies, float(overlap[k]), "the distance at which they touch", at, lasted)
-            )
+        way = way_between(result, pair.bodies, pair.centres)
+        found = way.nearest(pair.reach)
+        if found is None:
+            continue
+        distance, at, lasted = found
+        overlap = 1.0 - distance / pair.reach
+        if overlap > DEEP:
+            out.append(Passed(pair.contact, pair.bodies, overlap, "the distance at which they touch", at, lasted))
     return out
 
 
-def place_and_velocity(result: Readable, body: str, at: Array) -> tuple[Array, Array]:
-    """Place and velocity (n, 3) of a point of a body."""
+@dataclass(frozen=True)
+class Way:
+    """Place (n, 3) of one point from another at the frames, its rate and its second rate."""
+
+    time: Array
+    place: Array
+    rate: Array
+    bend: Array
+
+    @property
+    def length(self) -> Array:
+        """(n - 1,) [m] of the ways between frames, at most."""
+        speed = np.linalg.norm(self.rate, axis=1)
+        return np.diff(self.time) * np.maximum(speed[:-1], speed[1:])
+
+    @property
+    def undisturbed(self) -> NDArray[np.bool_]:
+        """(n - 1,) whether accelerations at both frames explain the change of the velocity, as on straight lines and arcs: nothing else,
+        such as an impact, has happened between them."""
+        span, change = np.diff(self.time)[:, None], np.diff(self.rate, axis=0)
+        left = np.linalg.norm(change - 0.5 * span * (self.bend[:-1] + self.bend[1:]), axis=1)
+        speed = np.linalg.norm(self.rate, axis=1)
+        return left < UNCHANGED * np.maximum(speed[:-1], speed[1:])
+
+    def between(self, k: Any, share: Any) -> Array:
+        """(…, 3) places at a share of the way from frame k to the next: the cubic with the places and rates at both."""
+        s, span = np.asarray(share)[..., None], np.asarray(self.time[k + 1] - self.time[k])[..., None]
+        first = (1.0 + 2.0 * s) * self.place[k] + s * span * self.rate[k]
+        last = (3.0 - 2.0 * s) * self.place[k + 1] - (1.0 - s) * span * self.rate[k + 1]
+        return (1.0 - s) ** 2 * first + s * s * last
+
+    def nearest(self, reach: float) -> tuple[float, float, float] | None:
+        """Least distance [m] in an interval at whose ends it is larger than `reach`, its time [s], and for how long it is less [s]."""
+        distance = np.linalg.norm(self.place, axis=1)
+        apart = np.minimum(distance[:-1], distance[1:])
+        # to come within reach and to leave it again takes twice that way
+        taken = self.undisturbed & (apart > reach) & (apart - 0.75 * self.length < reach)
+        best: tuple[float, float, float] | None = None
+        shares = np.linspace(0.0, 1.0, PIECES + 1)
+        for k in np.flatnonzero(taken):
+            points = self.between(k, shares)
+            step = np.diff(points, axis=0)
+            square = np.maximum(np.sum(step * step, axis=1), np.finfo(float).tiny)
+            part = np.clip(-np.sum(points[:-1] * step, axis=1) / square, 0.0, 1.0)
+            least = np.linalg.norm(points[:-1] + part[:, None] * step, axis=1)
+            j = int(np.argmin(least))
+            if least[j] < reach and (best is None or least[j] < best[0]):
+                span = float(self.time[k + 1] - self.time[k])
+                speed = np.sqrt(square[j]) * PIECES / span
+                lasted = min(2.0 * np.sqrt(reach**2 - least[j] ** 2) / speed, span)
+                best = float(least[j]), float(self.time[k] + (j + part[j]) / PIECES * span), float(lasted)
+        return best
+
+
+def way_between(result: Readable, bodies: tuple[str, str], points: tuple[Array, Array]) -> Way:
+    """The way of a point of the first body, seen from one of the second in global axes."""
+    first, second = (_motion(result, body, at) for body, at in zip(bodies, points, strict=True))
+    return Way(result.time, *(a - b for a, b in zip(first, second, strict=True)))
+
+
+def _motion(result: Readable, body: str, at: Array) -> tuple[Array, Array, Array]:
+    """Place, velocity and acceleration (n, 3) of a point of a body."""
     k = result.coordinates["body"].index(body)
     arm = rotated(result.array("orientation")[:, k], at)
-    turning = cross(result.array("angular_velocity")[:, k], arm)
-    return result.array("position")[:, k] + arm, result.array("velocity")[:, k] + turning
+    omega, alpha = result.array("angular_velocity")[:, k], result.array("angular_acceleration")[:, k]
+    turning = cross(omega, arm)
+    bending = cross(alpha, arm) + cross(omega, turning)
+    return (
+        result.array("position")[:, k] + arm,
+        result.array("velocity")[:, k] + turning,
+        result.array("acceleration")[:, k] + bending,
+    )
 
 
 def passed_hulls(result: Readable, pairs: Sequence[HullPair]) -> list[Passed]:
-    """The deepest of each pair, where straight lines between frames, along the speeds at both, lead through the overlap."""
+    """The deepest of each pair, where the ways between frames lead through the overlap."""
     out = []
     for pair in pairs:
         found = [each for each in _passages(result, pair) if each.overlap > DEEP]
@@ -167,31 +224,33 @@ def passed_hulls(result: Readable, pairs: Sequence[HullPair]) -> list[Passed]:
 
 
 def _passages(result: Readable, pair: HullPair) -> Iterator[Passed]:
-    """The intervals at whose ends the hulls are apart and inside which they overlap."""
+    """The intervals at whose ends the hulls are apart and inside which they overlap. What turns reaches its faces on arcs: corners move as
+    far as their distance from the middle times the angle."""
     time, thinnest = result.time, pair.thinnest
-    first, second = (place_and_velocity(result, body, at) for body, at in zip(pair.bodies, pair.middles, strict=True))
-    place, speed = second[0] - first[0], second[1] - first[1]
-    way, span = np.diff(place, axis=0), np.diff(time)[:, None]
-    length = np.linalg.norm(way, axis=1)
-    share = np.clip(-np.sum(place[:-1] * way, axis=1) / length**2, 0.0, 1.0)
-    near = np.linalg.norm(place[:-1] + share[:, None] * way, axis=1) < pair.reach
-    straight = np.ones(len(way), dtype=bool)
-    for each in (speed[:-1], speed[1:]):
-        straight &= np.linalg.norm(each * span - way, axis=1) < UNCHANGED * length
+    way = way_between(result, (pair.bodies[1], pair.bodies[0]), (pair.middles[1], pair.middles[0]))
     turns = [result.array("orientation")[:, result.coordinates["body"].index(body)] for body in pair.bodies]
-    fast = np.flatnonzero(near & straight & (length > thinnest / LOOKS))
+    radii = [float(np.linalg.norm(corners, axis=1).max()) for corners in pair.corners]
+    swept = sum(radius * _angles(turn) for radius, turn in zip(radii, turns, strict=True))
+    length = way.length + swept
+    distance = np.linalg.norm(way.place, axis=1)
+    near = np.minimum(distance[:-1], distance[1:]) - 0.5 * way.length < pair.reach
+    fast = np.flatnonzero(near & way.undisturbed & (length > thinnest / LOOKS))
     for k in fast[np.argsort(-length[fast])][:MOST_INTERVALS]:
         count = int(np.clip(np.ceil(LOOKS * length[k] / thinnest), 2, MOST_LOOKS))
         shares = np.linspace(0.0, 1.0, count + 1)
-        depth = np.array(
-            [_depth(pair, place[k] + s * way[k], *(_between(turn, k, s) for turn in turns)) for s in shares]
-        )
+        depth = np.array([_depth(pair, way.between(k, s), *(_between(turn, k, s) for turn in turns)) for s in shares])
         if depth[0] <= 0.0 and depth[-1] <= 0.0 and depth.max() > 0.0:
-            lasted = float((depth > 0.0).sum() / count * span[k, 0])
-            at = float(time[k] + shares[np.argmax(depth)] * span[k, 0])
+            lasted = float((depth > 0.0).sum() / count * (time[k + 1] - time[k]))
+            at = float(time[k] + shares[np.argmax(depth)] * (time[k + 1] - time[k]))
             yield Passed(
                 pair.contact, pair.bodies, float(depth.max() / thinnest), "the thinner one's width", at, lasted
             )
+
+
+def _angles(theta: Array) -> Array:
+    """(n - 1,) [rad] by which a body turns from frame to frame, the shorter way."""
+    cosine = np.abs(np.sum(theta[:-1] * theta[1:], axis=1))
+    return 2.0 * np.arccos(np.minimum(cosine, 1.0))
 
 
 def _between(theta: Array, k: int, share: float) -> Array:

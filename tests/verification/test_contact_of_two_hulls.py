@@ -306,7 +306,7 @@ def test_what_two_hulls_are_not_is_told():
     cases = [
         (
             touching(box(BRICK), ball),
-            r"is for two of box, cylinder, extrusion, mesh; what touches a sphere or capsule takes a `stiffness`",
+            r"is for two of box, cylinder, extrusion, mesh; what touches a sphere, capsule or ellipsoid takes a `stiffness`",
         ),
         (
             touching(box(BRICK), box(PLATE), stiffness=1e5),
@@ -314,7 +314,7 @@ def test_what_two_hulls_are_not_is_told():
         ),
         (
             touching(ball, {**ball}, foundation_modulus=1e9),
-            "is for two of box, cylinder, extrusion, mesh; what touches a sphere or capsule takes a `stiffness`",
+            "is for two of box, cylinder, extrusion, mesh; what touches a sphere, capsule or ellipsoid takes a `stiffness`",
         ),
         (touching(box(BRICK), box(PLATE), foundation_modulus="3 N/m"), r"a foundation modulus .N/m\^3. was expected"),
     ]

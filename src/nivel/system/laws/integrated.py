@@ -18,8 +18,9 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.arithmetic import evaluate
+from nivel.machine.units.bounds import values_of
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.tree import ExpressionError
+from nivel.machine.units.tree import TIME, ExpressionError
 
 Array = NDArray[np.float64]
 COEFFICIENTS = 6
@@ -90,9 +91,8 @@ def _shifted(c: Array, h: float) -> Array:
 def _integrated_once(points: Array, pieces: Array, start: float) -> Array:
     out = np.zeros((len(pieces), pieces.shape[1] + 1))
     out[:, 1:] = pieces / np.arange(1, pieces.shape[1] + 1)
-    for k, h in enumerate(np.diff(points)):
-        out[k, 0] = start
-        start = float(polynomial.polyval(h, out[k]))
+    grown = (out * np.diff(points)[:, None] ** np.arange(out.shape[1])).sum(axis=1)
+    out[:, 0] = start + np.append(0.0, np.cumsum(grown)[:-1])
     return out[:, :COEFFICIENTS]
 
 
@@ -141,6 +141,10 @@ def _values(function: TimeFunction) -> Callable[[Array], Array]:
 
 def _evaluated(function: TimeFunction, t: Array) -> Array:
     """Raises ModelError where the function has no finite value."""
+    if isinstance(function, Expression):
+        out = values_of(function.tree, {TIME: t.ravel()}).reshape(t.shape)
+        if np.isfinite(out).all():
+            return out
     value = partial(evaluate, function.tree) if isinstance(function, Expression) else function
     assert callable(value)
     out = np.empty_like(t)

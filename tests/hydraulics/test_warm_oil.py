@@ -239,6 +239,14 @@ def test_what_belongs_to_warm_oil_is_refused_elsewhere(fluid, component, told):
         circuit({"pot": {"type": "volume", "volume": "1 L", **component}}, fluids={"oil": fluid})
 
 
+@pytest.mark.parametrize("written", ["20 degC", "20 °C", "68 degF"])
+def test_a_temperature_in_degrees_gets_the_line_to_write(written):
+    with pytest.raises(ModelError, match=r"write `293\.15 K`"):
+        circuit(
+            {"pot": {"type": "volume", "volume": "1 L"}}, fluids={"oil": {"grade": "HLP 46", "temperature": written}}
+        )
+
+
 def test_a_cooler_of_isothermal_oil_is_refused():
     cooler = {
         "type": "cooler",

@@ -30,10 +30,12 @@ from nivel.machine.hydraulics import (
     Volume,
 )
 from nivel.machine.hydraulics.machines import RotaryMachine
+from nivel.machine.hydraulics.usual import PUMP_DISPLACEMENT
 
 Said = Iterator[tuple[str, str]]
 LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns
 BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
+LARGEST: Final = PUMP_DISPLACEMENT.most * 1e-6 / (2.0 * math.pi)  # [m³/rad] of pumps that are built
 
 
 @dataclass(frozen=True)
@@ -163,7 +165,9 @@ def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
 def _against_relief(circuit: Circuit, each: Component) -> Said:
     if isinstance(each, Pump | FlowSource) and each.ports["B"] in circuit.settings:
         relief, setting = circuit.settings[each.ports["B"]]
-        given = _flow_of(each)
+        given = (
+            0.0 if isinstance(each, Pump) and each.displacement > LARGEST else _flow_of(each)
+        )  # the pump itself is remarked on
         passes = relief.conductance * math.sqrt(setting + relief.opening_range)
         if given > 1.05 * passes > 0.0:
             rated = f"flow: {math.ceil(given / LITRE_PER_MINUTE * 1.2)} L/min, pressure_drop: {setting / BAR:.4g} bar"

@@ -19,7 +19,7 @@ from nivel.machine.core.record import Name
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.hydraulics.component import Component, problem_of_share
 from nivel.machine.hydraulics.maps import CutOffCurve, EfficiencyMap, TorqueCurve
-from nivel.machine.hydraulics.usual import DIFFERENCE, DISPLACEMENT, FLOW, POWER, SHAFT_SPEED, TORQUE
+from nivel.machine.hydraulics.usual import DIFFERENCE, DISPLACEMENT, FLOW, POWER, PUMP_DISPLACEMENT, SHAFT_SPEED, TORQUE
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Duration, Quantity, Rate, Whole
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -129,6 +129,7 @@ class Pump(RotaryMachine):
     delivers: ClassVar[str] = "B"
 
     type: Literal["pump"] = "pump"
+    displacement: Displacement = Field(usual=PUMP_DISPLACEMENT)
     speed: Maybe[Speed] = Field(default=None, description="of its shaft, in place of `coordinate`", usual=SHAFT_SPEED)
     engine: Name | None = Field(default=None, description="that turns it, in place of `speed`")
     setting: Setting = Field(default=1.0, description="share of the displacement")
@@ -138,7 +139,7 @@ class Pump(RotaryMachine):
     greatest_setting: Share = Field(default=1.0, description="of the actuator")
     torque_limit: Maybe[Torque] = Field(
         default=None,
-        description="greatest torque of D times the pressure; with a port X, times the mean of both pressures",
+        description="greatest torque of D times the pressure, without friction; with a port X, times the mean of both pressures",
         usual=TORQUE,
     )
     cut_off_curve: Maybe[OneRecord[CutOffCurve]] = Field(

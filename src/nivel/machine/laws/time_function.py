@@ -32,6 +32,7 @@ from nivel.machine.units.quantity import (
     lacking_unit,
     parameters_of,
     read_quantity,
+    refuse_celsius,
     reported,
 )
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Parameters, varies
@@ -84,6 +85,7 @@ def _is_law(given: Mapping[Any, object]) -> bool:
 
 
 def _read_text(text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> float | Expression:
+    refuse_celsius(text, kind)
     tree = bound_tree(text, parameters, local)
     if not varies(tree):
         return _read_constant(text, kind, parameters)

@@ -24,7 +24,7 @@ from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
 from nivel.machine.units.plain_factors import completed, with_bodies
 from nivel.machine.units.shared_names import shared_names_hint
-from nivel.machine.units.slips import slip
+from nivel.machine.units.slips import in_kelvin, slip
 from nivel.machine.units.tree import (
     ExpressionError,
     FaultyParameterError,
@@ -212,6 +212,7 @@ def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
 def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
     value = plain(value)
     if isinstance(value, str):
+        refuse_celsius(value, kind)
         tree = constant_tree(value, parameters)
         try:
             its = measure(tree)
@@ -224,6 +225,12 @@ def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return given(value)
     raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
+
+
+def refuse_celsius(text: str, kind: Kind) -> None:
+    """Raises ExpressionError where a temperature is not absolute."""
+    if "temperature" in kinds_of(kind) and (meant := in_kelvin(text)):
+        raise ExpressionError(f"temperatures are absolute: in place of `{text.strip()}` write `{meant}`")
 
 
 def _check_constant(kind: Kind, text: str, parameters: Parameters) -> None:

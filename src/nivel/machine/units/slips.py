@@ -52,6 +52,17 @@ def spelled(name: str) -> str:
     return text
 
 
+def in_kelvin(text: str) -> str:
+    """The absolute temperature that is meant by one such as `20 degC` or `68 degF`; empty where none is seen."""
+    found = re.fullmatch(
+        r"\s*([-+]?\d+\.?\d*)\s*\*?\s*(?:deg|°|o)?\s*([CF]|celsius|Celsius|fahrenheit|Fahrenheit)\s*", text
+    )
+    if not found:
+        return ""
+    degrees = float(found[1]) if found[2][0] in "Cc" else (float(found[1]) - 32.0) / 1.8
+    return f"{round(degrees + 273.15, 4):g} K"
+
+
 def slip(text: str, taken: Collection[str] = ()) -> str:
     """What is meant by a usual slip in the expression `text`, as the end of the message on it; empty where none is seen.
 

@@ -4,6 +4,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from scipy.optimize import bisect
 
 from nivel.looks.circuit.characteristics import valve_charts, valve_diagram
 
@@ -54,6 +55,54 @@ def test_a_pilot_opens_a_counterbalance_valve_earlier():
     chart = only(type="counterbalance-valve", at="LVX", opens_at="180 bar", **RATED)
     opens = [curve.x[np.argmax(curve.y > 0.0)] for curve in chart.curves]
     assert opens == pytest.approx([180.0, 126.0, 72.0], abs=3.0)
+
+
+@pytest.mark.parametrize(("type_", "at", "keys", "middle", "shares"), [
+    ("shuttle-valve", "ABC", {}, 0.0, (1.0, 1.0)), ("flow-divider", "PAB", {"share": 0.3}, 0.0, (0.3, 0.7)),
+    ("priority-valve", ("P", "CF", "EF", "LS"), {"margin": "8 bar"}, 8.0, (1.0, 1.0)),
+])  # fmt: skip
+def test_two_edges_of_a_spool_open_against_each_other(type_, at, keys, middle, shares):
+    """Both half open, 40 L/min at 7 bar, in the middle; one wholly open and the other shut at the ends of the range."""
+    chart = only(type=type_, at=at, **keys, **RATED)
+    first, second = chart.curves
+    for curve, share in zip(chart.curves, shares, strict=True):
+        assert np.interp(middle, curve.x, curve.y) == pytest.approx(20.0 * share)
+        assert sorted([curve.y[0], curve.y[-1]]) == pytest.approx([0.0, 40.0 * share])
+    assert (first.y[0] == 0.0) == (second.y[-1] == 0.0)
+
+
+def test_a_brake_valve_opens_over_its_range():
+    (curve,) = only(
+        type="brake-valve", at=("VA", "VB", "A", "B"), opens_at="10 bar", opening_range="15 bar", **RATED
+    ).curves
+    assert np.interp([10.0, 17.5, 25.0], curve.x, curve.y) == pytest.approx([0.0, 20.0, 40.0], abs=0.05)
+
+
+def test_a_pilot_relief_valve_has_the_flow_of_its_pilot_then_that_of_its_main_stage():
+    """p_X by bisection of the balance of the pilot; the main stage opens by p - p_X beyond its spring of 2 bar."""
+    (curve,) = only(type="pilot-relief-valve", at="PT", opens_at="100 bar", **RATED).curves
+    k = 2.0 / np.sqrt(5.0)  # L/min of the orifice at 1 bar
+    for p in (101.5, 106.0):
+        x = bisect(lambda x, p=p: drop(p - x) - 2 * smooth((x - 100) / 3) * drop(x), 0, p, xtol=1e-13)
+        expected = k * drop(p - x) + 40 / np.sqrt(7) * smooth((p - x - 2) / 3) * drop(p)
+        assert np.interp(p, curve.x, curve.y) == pytest.approx(expected, rel=0.02)
+    assert np.all(curve.y[curve.x < 100] < 1e-9)
+
+
+def test_a_pilot_reducing_valve_shuts_above_its_setting():
+    (curve,) = only(type="pilot-reducing-valve", at="PAT", pressure="80 bar", **RATED).curves
+    assert np.interp(79.0, curve.x, curve.y) == pytest.approx(40 * np.sqrt((160 - 79) / 7), rel=1e-3)
+    assert curve.y[-1] == 0.0
+
+
+def drop(p):
+    """√p, rounded at half a bar as `transition` has it."""
+    return p * (p * p + 0.25) ** -0.25
+
+
+def smooth(t):
+    t = np.clip(t, 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
 
 
 def test_the_diagram_has_a_plot_for_each_valve():

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from html import escape
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nivel.looks.circuit.composed_characteristics import OF_COMPOSED
+from nivel.looks.circuit.curves import BAR, LITRE_PER_MINUTE, POINTS, Array, Chart, Curve, constant, root, step
 from nivel.machine.hydraulics import (
     COMPONENT_OF,
     CartridgeValve,
@@ -34,9 +34,6 @@ from nivel.machine.hydraulics.fluid import OIL
 from nivel.system.hydraulics.components.spools import conductances
 from nivel.system.hydraulics.restrictions import CRITICAL_RATIO
 
-Array = NDArray[np.float64]
-BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
-POINTS: Final = 121
 SUPPLY: Final = 7e5  # Pa absolute, before valves of gas
 STATED: Final = 10e5  # Pa over an edge whose catalogue states no difference of pressure
 WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT = 300.0, 190.0, 46.0, 34.0, 34.0, 12.0
@@ -50,25 +47,6 @@ STYLE = """
 .valves .name { font-weight: 600; font-size: 11px; }
 .valves .words { fill-opacity: 0.65; }
 """
-
-
-@dataclass(frozen=True)
-class Curve:
-    """x as its axis says, y [L/min]."""
-
-    label: str
-    x: Array
-    y: Array
-
-
-@dataclass(frozen=True)
-class Chart:
-    """The curves of one valve. across : what x is, with its unit."""
-
-    name: str
-    type: str
-    across: str
-    curves: tuple[Curve, ...]
 
 
 def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
@@ -92,17 +70,6 @@ def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
 def _density(fluid: Mapping[str, Any]) -> float:
     air = float(fluid.get("air") or 0.0)
     return (1.0 - air) * float(fluid["density"]) + 1.2 * air
-
-
-def root(difference: Array | float, corner: float) -> Any:
-    """Δp (Δp² + c²)^(-1/4)."""
-    return difference * (np.asarray(difference) ** 2 + corner**2) ** -0.25
-
-
-def step(t: Array) -> Array:
-    """3 t² - 2 t³, from 0 to 1."""
-    t = np.clip(t, 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
 
 
 def ramp(z: Array, width: float) -> Array:
@@ -160,12 +127,8 @@ def _opening(valve: Any, setting: float, label: str, across: str, factor: float 
     return Chart(valve.name, valve.type, across, (Curve(label, p / BAR, flow),))
 
 
-def _constant(value: object) -> float | None:
-    return float(value) if isinstance(value, float | int) else None
-
-
 def _of_pressure(valve: ReliefValve | CheckValve | SequenceValve | UnloadingValve, _: float) -> Chart | None:
-    setting = _constant(valve.opens_at)
+    setting = constant(valve.opens_at)
     across = {
         "relief-valve": "p_P - p_T, bar",
         "check-valve": "p_A - p_B, bar",
@@ -178,7 +141,7 @@ def _of_pressure(valve: ReliefValve | CheckValve | SequenceValve | UnloadingValv
 
 
 def _of_counterbalance(valve: CounterbalanceValve, _: float) -> Chart | None:
-    setting = _constant(valve.opens_at)
+    setting = constant(valve.opens_at)
     if setting is None:
         return None
     p = np.linspace(0.0, 1.15 * (setting + valve.opening_range), POINTS)
@@ -195,12 +158,12 @@ def _of_cartridge(valve: CartridgeValve, _: float) -> Chart:
 
 
 def _of_cross_port(valve: CrossPortRelief, _: float) -> Chart | None:
-    setting = _constant(valve.opens_at)
+    setting = constant(valve.opens_at)
     return None if setting is None else _opening(valve, setting, "A to B, and B to A", "p_A - p_B, bar")
 
 
 def _of_reducing(valve: ReducingValve, _: float) -> Chart | None:
-    setting = _constant(valve.pressure)
+    setting = constant(valve.pressure)
     if setting is None:
         return None
     before = 2.0 * setting
@@ -255,6 +218,7 @@ _DRAWN: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]
     FlowControl: _of_flow_control,
     Orifice: _of_orifice,
     Ejector: _of_ejector,
+    **OF_COMPOSED,
 }
 
 

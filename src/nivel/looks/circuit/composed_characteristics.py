@@ -1,0 +1,104 @@
+"""Characteristic curves of valves that are composed of others: shuttle, priority, divider, brake and pilot-operated valves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.looks.circuit.curves import BAR, LITRE_PER_MINUTE, POINTS, Array, Chart, Curve, constant, root, step
+from nivel.machine.hydraulics import (
+    BrakeValve,
+    FlowDivider,
+    PilotReducingValve,
+    PilotReliefValve,
+    PriorityValve,
+    ShuttleValve,
+)
+
+HALVINGS: Final = 60
+
+
+def _edges(valve: Any, across: str, middle: float, openings: dict[str, tuple[float, float]]) -> Chart:
+    """Flows of edges at the rated difference of pressure, over the pressure that moves their spool. openings : label → sign of the opening
+    with the pressure above `middle`, and share of the flow."""
+    x = np.linspace(middle - valve.opening_range, middle + valve.opening_range, POINTS)
+    drop, whole = (valve.pressure_drop or 0.0) / BAR, (valve.flow or 0.0) / LITRE_PER_MINUTE
+    curves = [
+        Curve(
+            f"{label} at {drop:.3g} bar", x / BAR, share * whole * step(0.5 + sign * (x - middle) / valve.opening_range)
+        )
+        for label, (sign, share) in openings.items()
+    ]
+    return Chart(valve.name, valve.type, across, tuple(curves))
+
+
+def _of_shuttle(valve: ShuttleValve, _: float) -> Chart:
+    return _edges(valve, "p_A - p_B, bar", 0.0, {"A to C": (1.0, 1.0), "B to C": (-1.0, 1.0)})
+
+
+def _of_priority(valve: PriorityValve, _: float) -> Chart | None:
+    margin = constant(valve.margin)
+    if margin is None:
+        return None
+    return _edges(valve, "p_CF - p_LS, bar", margin, {"P to CF": (-1.0, 1.0), "P to EF": (1.0, 1.0)})
+
+
+def _of_divider(valve: FlowDivider, _: float) -> Chart:
+    way = -1.0 if valve.combines else 1.0
+    return _edges(valve, "p_M - p_N, bar", 0.0, {"A": (way, valve.share), "B": (-way, 1.0 - valve.share)})
+
+
+def _of_brake(valve: BrakeValve, _: float) -> Chart | None:
+    setting = constant(valve.opens_at)
+    if setting is None:
+        return None
+    middle = setting + 0.5 * valve.opening_range
+    return _edges(valve, "p_VB above the air, bar", middle, {"A to VA": (1.0, 1.0)})
+
+
+def _pilot_chamber(valve: PilotReliefValve | PilotReducingValve, setting: float, p: Array) -> Array:
+    """p_X above the drain for the pressure before the orifice above it: what flows in flows out, found by halving."""
+    low, high = np.zeros_like(p), p.copy()
+    for _ in range(HALVINGS):
+        x = 0.5 * (low + high)
+        opened = 2.0 * step((x - setting) / valve.pilot_range)
+        fills = root(p - x, valve.transition) > opened * root(x, valve.transition)
+        low, high = np.where(fills, x, low), np.where(fills, high, x)
+    return 0.5 * (low + high)
+
+
+def _of_pilot_relief(valve: PilotReliefValve, _: float) -> Chart | None:
+    setting = constant(valve.opens_at)
+    if setting is None:
+        return None
+    p = np.linspace(0.0, 1.1 * (setting + valve.spring + valve.opening_range + valve.pilot_range), 8 * POINTS)
+    x = _pilot_chamber(valve, setting, p)
+    opening = step((p - x - valve.spring) / valve.opening_range)
+    flow = valve.conductance * opening * root(p, valve.transition) + valve.leakage * p
+    flow = (flow + valve.pilot_conductance * root(p - x, valve.transition)) / LITRE_PER_MINUTE
+    return Chart(valve.name, valve.type, "p_P - p_T, bar", (Curve(f"opens at {setting / BAR:.4g} bar", p / BAR, flow),))
+
+
+def _of_pilot_reducing(valve: PilotReducingValve, _: float) -> Chart | None:
+    setting = constant(valve.pressure)
+    if setting is None:
+        return None
+    before, end = 2.0 * setting, setting + valve.pilot_range + valve.spring + valve.opening_range
+    p = np.linspace(max(0.0, 2.0 * setting - end), 1.02 * end, 8 * POINTS)
+    x = _pilot_chamber(valve, setting, p)
+    opening = 1.0 - step((p - x - valve.spring) / valve.opening_range)
+    flow = valve.conductance * opening * root(before - p, valve.transition) / LITRE_PER_MINUTE
+    label = f"from P at {before / BAR:.4g} bar"
+    return Chart(valve.name, valve.type, "p_A - p_T, bar", (Curve(label, p / BAR, flow),))
+
+
+OF_COMPOSED: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]]] = {
+    ShuttleValve: _of_shuttle,
+    PriorityValve: _of_priority,
+    FlowDivider: _of_divider,
+    BrakeValve: _of_brake,
+    PilotReliefValve: _of_pilot_relief,
+    PilotReducingValve: _of_pilot_reducing,
+}

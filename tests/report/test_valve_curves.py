@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import bisect
 
 from nivel.looks.circuit.characteristics import valve_charts, valve_diagram
+from nivel.machine.hydraulics.grades import GRADES
 
 BAR = 1e5
 
@@ -69,6 +70,15 @@ def test_two_edges_of_a_spool_open_against_each_other(type_, at, keys, middle, s
         assert np.interp(middle, curve.x, curve.y) == pytest.approx(20.0 * share)
         assert sorted([curve.y[0], curve.y[-1]]) == pytest.approx([0.0, 40.0 * share])
     assert (first.y[0] == 0.0) == (second.y[-1] == 0.0)
+
+
+def test_an_orifice_by_its_diameter_takes_the_density_of_a_grade():
+    """Q = C A √(2 Δp/ρ) at 10 bar; HLP 46 at 40 °C."""
+    fluids = [{"name": "oil", "type": "liquid", "grade": "HLP 46", "density": None, "air": 0}]
+    (chart,) = valve_charts({**record(type="orifice", at="AB", diameter="2 mm"), "fluids": fluids})
+    density = GRADES["HLP 46"].at(313.15).density
+    expected = 0.65 * np.pi * 1e-6 * np.sqrt(2e6 / density) * 6e4
+    assert chart.curves[0].y[-1] == pytest.approx(expected, rel=1e-3)
 
 
 def test_a_brake_valve_opens_over_its_range():

@@ -20,6 +20,8 @@ from nivel.machine.hydraulics import (
     DirectionalValve,
     Ejector,
     FlowControl,
+    Fluid,
+    Gas,
     Orifice,
     ReducingValve,
     ReliefValve,
@@ -68,8 +70,9 @@ def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
 
 
 def _density(fluid: Mapping[str, Any]) -> float:
-    air = float(fluid.get("air") or 0.0)
-    return (1.0 - air) * float(fluid["density"]) + 1.2 * air
+    kind = Gas if fluid.get("type") == "ideal-gas" else Fluid
+    known = kind.model_validate({key: value for key, value in fluid.items() if value is not None})
+    return known.mixed_density if isinstance(known, Fluid) else known.density
 
 
 def ramp(z: Array, width: float) -> Array:

@@ -18,6 +18,7 @@ MACHINES = (
     "mobile-crane",
     "robot-arm",
     "rope-crane",
+    "rough-ground",
     "stewart-platform",
     "washing-machine",
     "wedge-press",

@@ -172,3 +172,32 @@ def test_numbers_of_a_contact_apart_are_zero():
     assert r.array("force.touch.normal_z")[-1] == 0.0
     # the ball about the box stands for its corners while it is far
     assert r.array("force.touch.depth")[0] == pytest.approx(-(1.0 - np.linalg.norm(SIZE) / 2))
+
+
+def test_the_work_of_friction_is_the_state_of_a_sample():
+    """A block that stops: ½ m v², but for half a sample of the power at its start, μ m g v/2 times the sample's time."""
+    contact = {
+        "type": "contact",
+        "body": "block",
+        "plane": "floor",
+        "stiffness": 1e6,
+        "exponent": 1,
+        "restitution": 0.3,
+    }
+    sections = {
+        "gravity": [0, 0, -G],
+        "bodies": {
+            "block": {
+                **{"mass": 2, "inertia": [0.1, 0.1, 0.1], "shape": {"type": "box", "size": [1, 1, 0.02]}},
+                **{"position": [0, 0, 0.01 - 2 * G / 4e6], "velocity": [1, 0, 0]},
+            }
+        },
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
+        "forces": {"slides": {**contact, "friction": 0.4}},
+        "control": {"heating": {"type": "signal", "value": "slides.friction_power", "sample_time": 1e-3}},
+        "states": {"heat": {"rate": "heating.value"}},
+    }
+    r = simulate(sections, integrator="rk4", step=1e-4, duration=0.5)
+    lag = 0.4 * 2 * G * 1e-3 / 2
+    assert r.array("state.heat")[-1] == pytest.approx(1.0 + lag, abs=2e-4)
+    assert r.array("dissipated_energy")[-1] == pytest.approx(1.0, abs=1e-6)

@@ -205,7 +205,7 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
                 out["axis"] = markers.frame[first][:, 2].tolist()
             case Rope() if force.radii is not None:
                 out["wheels"] = _wheels(machine, force, force.radii)
-            case Contact() if force.plane is not None:
+            case Contact() if force.plane is not None and force.heights is None:
                 out["axis"] = markers.frame[second][:, 2].tolist()
         yield out
     for cylinder in machine.hydraulics:

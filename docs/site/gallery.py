@@ -29,6 +29,7 @@ BODIES = {
     "blade": {},
     "connecting-rod": {},
     "lever": {},
+    "lug": {"solid.element_size": "12 mm"},
     "crane-boom": {"solid.element_size": "60 mm", "reduction.modes": 4, "reduction.stiffening": False},
 }
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import nivel
 from needing import needs
@@ -61,3 +62,15 @@ def test_the_lift_of_step_has_the_masses_of_its_solids():
     result = lift.simulate(duration=0.5, verify=False)
     assert result.outcome == "done"
     assert result.array("hinge.angle")[-1] == pytest.approx(0.4 * (1 - np.cos(1.0)), abs=1e-9)
+
+
+def test_the_spindle_follows_its_log():
+    """Its angle is the integral of the logged speed, and the effort of the driver that of both inertias and the drag, at the motor."""
+    folder = EXAMPLES.parent / "exchange"
+    log = np.genfromtxt(folder / "spindle-log.csv", delimiter=",", names=True)
+    speed = CubicSpline(log["time_ms"] / 1e3, log["speed_rpm"] * np.pi / 30, bc_type="natural")
+    result = nivel.load(folder / "spindle.yaml").simulate(verify=False)
+    assert result.array("motor.angle")[-1] == pytest.approx(float(speed.integrate(0, 2)), rel=1e-9)
+    rotor, spindle = 7850 * np.pi * 0.15 * 0.04**4 / 2, 7850 * np.pi * 0.4 * 0.06**4 / 2
+    wanted = (rotor + 4 * spindle) * speed(result.time, 1) + 4 * 0.02 * speed(result.time)
+    np.testing.assert_allclose(result.array("driver.log.effort"), wanted, atol=1e-4 * np.abs(wanted).max())

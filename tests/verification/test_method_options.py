@@ -1,9 +1,11 @@
 """Options of methods for single rows: feedback and penalties of a joint, tolerances, independent velocities, and iterations a step."""
 
 import math
+import re
 
 import numpy as np
 import pytest
+import yaml
 
 import machines
 import nivel
@@ -201,3 +203,20 @@ def test_iterations_of_every_step_are_in_the_result(tmp_path):
     assert math.isnan(mean[0])
     assert pendulum().simulate(verify=False).iterations is None
     assert "Iterations per step" in result.report(tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("settings", "key"),
+    [
+        ({"integrator": "dopri5", "stabilisation": "baumgarte"}, "baumgarte"),
+        ({"integrator": "ros2", "stabilisation": "baumgarte"}, "baumgarte"),
+        ({"integrator": "dopri5", "stabilisation": "none", "formulation": "penalty"}, "penalty"),
+    ],
+)
+def test_the_line_that_is_proposed_is_taken(settings, key):
+    """Coefficients that depend on the step are asked for where steps are chosen, by a line with units."""
+    given = {**settings, "coordinates": "absolute", "duration": 0.01}
+    with pytest.raises(ModelError, match=rf"`{key}: ") as caught:
+        pendulum(**given).simulate(verify=False)
+    line = re.search(rf"`({key}: \{{.*?\}})`", str(caught.value))[1]
+    assert pendulum(**given, **yaml.safe_load(line)).simulate(verify=False).outcome == "done"

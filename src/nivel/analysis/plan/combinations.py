@@ -64,7 +64,7 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     ):
         message = (
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, as fast as a step of {name}, which does not iterate and "
-            f"has order one there: take direct, or own coefficients `baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
+            f"has order one there: take direct, or own coefficients `baumgarte: {{alpha: 20/s, beta: 20/s}}`"
         )
         faults.append(_fault("stabilisation", message))
     if facts.kind == "corrector" and settings.corrector.iteration == "functional":
@@ -144,13 +144,13 @@ def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
     if settings.stabilisation == "baumgarte" and not _gives_coefficients(settings):
         message = (
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {reason}: take direct, or own coefficients "
-            f"`baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
+            f"`baumgarte: {{alpha: 20/s, beta: 20/s}}`"
         )
         faults.append(_fault("stabilisation", message))
     penalised = FORMULATIONS[settings.formulation].factor > 0.0
     if penalised and settings.stabilisation == "none" and settings.penalty.omega is None:
         message = (
-            f"`formulation: {settings.formulation}` without `omega` takes Ω = 0.1/step, {reason}: set `penalty: {{omega: 10 1/s}}`, "
+            f"`formulation: {settings.formulation}` without `omega` takes Ω = 0.1/step, {reason}: set `penalty: {{omega: 10/s}}`, "
             f"or take `stabilisation: direct`, which needs no Ω"
         )
         faults.append(_fault("penalty", message))

@@ -38,3 +38,12 @@ def test_an_arm_that_misses_the_pin_is_not_told():
 
 def test_an_arm_that_knocks_the_pin_away_is_not_told():
     assert contacts(ARM % 1, step="1 us", output_interval="1 ms", duration="40 ms") == []
+
+
+def test_contacts_of_shapes_without_a_check_are_named():
+    text = (ARM % 1.01).replace(
+        "shape: {type: sphere, radius: 2 mm}}", "shape: {type: capsule, radius: 2 mm, length: 10 mm}}"
+    )
+    trust = Machine.from_record(parse_machine(text)).simulate(verify=False).trust
+    (line,) = [item for item in trust.items if item.name == "unexamined"]
+    assert "pass through each other within a step at knock" in line.text

@@ -6,13 +6,15 @@ The parts are those of CoACD (Wei and others 2022). They are kept in the user ca
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from hashlib import sha256
 from typing import Any, Final
 
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.extras import needed
+from nivel.extras import require
 from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine.bodies.shape import MOST_PARTS
@@ -22,6 +24,16 @@ from nivel.native.store import folder
 PARTS: Final = "parts"
 KEY: Final = "convex_parts"
 VERSION: Final = b"1"  # of what stands in the cache
+PROGRAM: Final = """
+import json, sys
+given = json.load(sys.stdin)
+sys.path[:] = given["path"]
+import coacd, numpy
+coacd.set_log_level("off")
+mesh = coacd.Mesh(numpy.array(given["vertices"]), numpy.array(given["triangles"], numpy.int32))
+parts = coacd.run_coacd(mesh, max_convex_hull=given["most"], seed=0)
+print(json.dumps([[numpy.asarray(each).tolist() for each in part] for part in parts]))
+"""
 
 
 def divide_meshes(tree: Tree) -> None:
@@ -54,13 +66,7 @@ def convex_parts(surface: str, most: int) -> list[str]:
         return [str(each) for each in json.loads(file.read_text(encoding="utf-8"))]
     except (OSError, ValueError):
         pass
-    coacd = needed("coacd", "`convex_parts` of a mesh need")
-    vertices, triangles = surface_arrays(surface)
-    coacd.set_log_level("off")
-    parts = coacd.run_coacd(coacd.Mesh(vertices, triangles.astype(np.int32)), max_convex_hull=most, seed=0)
-    if not parts:
-        raise ModelError("the mesh cannot be divided into convex parts; is it closed?")
-    texts = [surface_text(np.asarray(points, float), np.asarray(faces, np.uint32)) for points, faces in parts]
+    texts = _divided(surface, most)
     try:
         file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         partial = file.with_suffix(".partial")
@@ -69,6 +75,23 @@ def convex_parts(surface: str, most: int) -> list[str]:
     except OSError:
         pass  # the next run divides it again
     return texts
+
+
+def _divided(surface: str, most: int) -> list[str]:
+    """The parts, from a process of its own: gmsh cannot be initialised in one that has loaded the library."""
+    require("`convex_parts` of a mesh need", "coacd")
+    vertices, triangles = surface_arrays(surface)
+    given = {"path": sys.path, "most": most, "vertices": vertices.tolist(), "triangles": triangles.tolist()}
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM], input=json.dumps(given), capture_output=True, text=True, check=False
+    )
+    if done.returncode != 0:
+        lines = done.stderr.strip().splitlines() or ["CoACD has ended"]
+        raise ModelError(f"the mesh cannot be divided into convex parts: {lines[-1]}")
+    parts = json.loads(done.stdout.splitlines()[-1])
+    if not parts:
+        raise ModelError("the mesh cannot be divided into convex parts; is it closed?")
+    return [surface_text(np.array(points, float), np.array(faces, np.uint32)) for points, faces in parts]
 
 
 def _divide_contacts(tree: Tree, counts: dict[str, int]) -> None:

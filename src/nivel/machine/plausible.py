@@ -7,10 +7,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Final
 
+from nivel.machine.bodies.shape import Extrusion, Mesh
+from nivel.machine.bodies.solids import share_of_hull
 from nivel.machine.circuit_remarks import circuit_remarks
 from nivel.machine.core.record import Record
+from nivel.machine.forces import Contact
 from nivel.machine.given import Shown, Usual
 from nivel.machine.hydraulics import Actuator, Component, Volume
 from nivel.machine.hydraulics.machines import RotaryMachine
@@ -18,6 +21,9 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
 from nivel.machine.uses.hydraulic_uses import makers, ports_of
 from nivel.machine.uses.references import SECTIONS
+
+# Of its hull a body fills no less than this share where the hull may touch in its place.
+HOLLOW: Final = 0.9
 
 
 @dataclass(frozen=True)
@@ -41,6 +47,7 @@ def remarks(machine: MachineRecord) -> Iterator[Remark]:
             yield from _of_fields(element, f"{section}.{element.name}")
     yield from _of_volumes(machine)
     yield from _unfillable(machine)
+    yield from _hollow(machine)
     for place, message in circuit_remarks(machine.hydraulics):
         yield Remark(f"hydraulics.{place}", message, math.inf)
 
@@ -94,6 +101,27 @@ def _of_volumes(machine: MachineRecord) -> Iterator[Remark]:
                 f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
             )
             yield Remark(f"hydraulics.{component.name}.displacement", message, math.inf)
+
+
+def _hollow(machine: MachineRecord) -> Iterator[Remark]:
+    """Contacts of bodies of which the hull touches, and is much more than the body."""
+    bodies = {body.name: body for body in machine.bodies}
+    for force in machine.forces:
+        if not isinstance(force, Contact) or force.bodies is None:
+            continue
+        for name in force.bodies:
+            shape = bodies[name].shape
+            if not isinstance(shape, Extrusion | Mesh) or (isinstance(shape, Mesh) and shape.parts is not None):
+                continue
+            share = share_of_hull(shape)
+            if share < HOLLOW:
+                advice = (
+                    "give the shape `convex_parts: 8`"
+                    if isinstance(shape, Mesh)
+                    else "divide it into bodies with `fixed` joints, or take a mesh with `convex_parts`"
+                )
+                message = f"`{name}` is concave, and its hull touches, of which it fills {100 * share:.0f} %; {advice}"
+                yield Remark(f"forces.{force.name}", message, math.inf)
 
 
 def _unfillable(machine: MachineRecord) -> Iterator[Remark]:

@@ -146,6 +146,23 @@ def part_corners(mesh: Mesh, part: int) -> Array:
     return _in_body(mesh, surface_arrays(mesh.parts[part - 1])[0])
 
 
+def share_of_hull(shape: Extrusion | Mesh) -> float:
+    """Volume of a solid by that of its convex hull; 1 of a mesh that encloses none."""
+    from scipy.spatial import ConvexHull
+
+    if isinstance(shape, Extrusion):
+        outline = np.array(shape.outline)
+        return abs(section(outline).area) / float(ConvexHull(outline).volume)
+    return 1.0 if why_not_solid(shape) else _share_of_hull(shape.surface or "")
+
+
+@lru_cache(maxsize=64)
+def _share_of_hull(surface: str) -> float:
+    from scipy.spatial import ConvexHull
+
+    return _enclosed(surface).volume / float(ConvexHull(surface_arrays(surface)[0]).volume)
+
+
 def why_not_solid(mesh: Mesh) -> str:
     """Why a mesh encloses no certain volume, or an empty text."""
     vertices, triangles = _welded(mesh.surface or "")

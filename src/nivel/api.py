@@ -608,6 +608,7 @@ class Machine(Model):
         limits: Mapping[str, Sequence[float | None]] | None = None,
         iterations: int = 100,
         accuracy: float = 1e-8,
+        exact_slopes: bool = False,
         threads: int | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
@@ -616,8 +617,8 @@ class Machine(Model):
 
         inputs : by name, the number of pieces, all of one length, in each of which the input changes along a straight line within its
         range: direct shooting, by SLSQP. limits : as in `optimise`; two equal numbers prescribe an output, ``{"swing": (0.0, 0.0)}``.
-        objective, outputs, iterations, accuracy, settings : as in `optimise`. Raises ModelError as `optimise` does, and for inputs without
-        a range.
+        objective, outputs, iterations, accuracy, exact_slopes, settings : as in `optimise`. Raises ModelError as `optimise` does,
+        and for inputs without a range.
         """
         from nivel.analysis.optimise.inputs import course_of
         from nivel.analysis.optimise.optimise import Aim, optimise
@@ -626,13 +627,15 @@ class Machine(Model):
         chosen = self._ready(settings, listener)
         course = course_of(chosen.record, inputs, float(chosen.simulation.duration))
         given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
+        machine = Machine.from_record(course.record)
         found = optimise(
-            Machine.from_record(course.record),
+            machine,
             course.box,
             Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
             most=iterations,
             tolerance=accuracy,
             threads=threads or processors(),
+            exact=machine._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
             listener=listener,
         )
         return course.tables(found.values), found

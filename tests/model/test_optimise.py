@@ -127,6 +127,70 @@ def test_the_covariance_covers_the_truth_of_100_seeds(oscillator):
     assert mean == pytest.approx(2.0, abs=0.6)
 
 
+PUSHED = OSCILLATOR.replace("duration: 2 s, step: 2 ms", "duration: 1 s, step: 5 ms").replace(
+    "forces:\n",
+    "inputs: {push: {range: [-20, 20], units: N}}\n"
+    "sensors: {effort: {value: push.value^2, units: N^2}, speed: {coordinate: rail.displacement, quantity: rate}}\n"
+    "forces:\n  drive: {type: motor, coordinate: rail, effort: push.value}\n",
+)
+
+
+def test_inputs_over_time_follow_from_exact_slopes_as_from_differences():
+    """One run in place of one for each of four corners, twice."""
+    machine = nivel.Machine.from_record(parse_machine(PUSHED))
+    given = {
+        "outputs": {"place": "rail.displacement", "speed": "sensor.speed"},
+        "limits": {"place": (0.2, 0.2), "speed": (0.0, 0.0)},
+    }
+    (tables, exact), (others, differences) = (
+        machine.optimal_inputs("mean(sensor.effort)", {"push": 3}, exact_slopes=each, **given) for each in (True, False)
+    )
+    assert exact.kept
+    assert exact.objective == pytest.approx(differences.objective, rel=1e-5)
+    np.testing.assert_allclose(tables["push"].values, others["push"].values, atol=1e-2)
+    assert exact.evaluations < 0.3 * differences.evaluations
+
+
+CHAIN = """
+format: 1
+bodies: {near: {mass: 2, inertia: [1, 1, 1], velocity: [1, 0, 0]}, far: {mass: 1, inertia: [1, 1, 1]}}
+joints:
+  rail: {type: translational, bodies: [ground, near], point: [0, 0, 0], axis: [1, 0, 0]}
+  slide: {type: translational, bodies: [near, far], point: [0, 0, 0], axis: [1, 0, 0]}
+forces:
+  first: {type: joint-spring-damper, coordinate: rail.displacement, stiffness: 64, damping: 2.5}
+  second: {type: joint-spring-damper, coordinate: slide.displacement, stiffness: 120, damping: 1.2}
+simulation: {duration: 1.5 s, step: 5 ms, output_interval: 15 ms, integrator: rk4}
+"""
+FOUR = {
+    "first.stiffness": (40, 90),
+    "first.damping": (0.5, 6),
+    "second.stiffness": (60, 200),
+    "second.damping": (0.3, 4),
+}
+
+
+def four_are_covered(seeds):
+    """How often 95 % regions of four parameters, χ² below 9.49, hold the truth."""
+    machine, rng = nivel.Machine.from_record(parse_machine(CHAIN)), np.random.default_rng(11)
+    result, truth = machine.simulate(verify=False), np.array([64.0, 2.5, 120.0, 1.2])
+    covered = 0
+    for _ in range(seeds):
+        data = {
+            name: (result.time[1:], result.array(name)[1:] + 2e-3 * rng.standard_normal(len(result.time) - 1))
+            for name in ("rail.displacement", "slide.displacement")
+        }
+        found = machine.identify(data, FOUR)
+        error = np.array([*found.values.values()]) - truth
+        covered += error @ np.linalg.solve(found.covariance, error) <= 9.49
+    return covered
+
+
+@pytest.mark.parametrize(("seeds", "least"), [(2, 1), pytest.param(100, 90, marks=pytest.mark.full)])
+def test_the_covariance_of_four_parameters_covers_the_truth(seeds, least):
+    assert four_are_covered(seeds) >= least
+
+
 def test_what_the_measurements_do_not_tell_apart_is_named(oscillator):
     """Mass, stiffness and damping of a free vibration: only their ratios act."""
     truth = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5})

@@ -14,6 +14,7 @@ from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
 from nivel.machine import MachineRecord, Record
 from nivel.machine.core.record import field_words
+from nivel.machine.laws.table import Table
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.wording import shown, unknown_word
 
@@ -68,6 +69,8 @@ def _entered(value: Any, step: str, is_section: bool) -> Any:
             if step not in value:
                 raise ModelError(unknown_word(step, [str(key) for key in value], "key"))
             return value[step]
+        case Table() if step in ("times", "values"):
+            return getattr(value, step)
         case tuple() if step.isdecimal() and int(step) < len(value):
             return value[int(step)]
         case tuple():

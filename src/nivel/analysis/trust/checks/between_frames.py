@@ -73,4 +73,4 @@ def say(found: Hidden) -> Item:
     return Item("unexamined", "green", said, row=found.name)
 
 
-CHECKS = (Check("between_frames", Run, look, say, 912, (FRAMES,), "Peaks between frames", line="unexamined"),)
+CHECKS = (Check("between_frames", Run, look, say, 914, (FRAMES,), "Peaks between frames", line="unexamined"),)

@@ -1,5 +1,6 @@
 """The balance of components in the report: together they lose what the circuit loses, and a restriction its flow times its drop."""
 
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 
 import nivel
 from circuits import BAR, between, circuit
+from nivel.looks.circuit.power_flow import LOSS, power_diagram
+from nivel.report.power_panel import circuit_power
 from nivel.results.frames.circuit_balance import component_balances
 
 FOLDER = Path(__file__).parents[2] / "examples" / "hydraulics"
@@ -47,3 +50,42 @@ def test_a_piston_takes_its_area_times_its_speed():
     speed, a, b = (np.ravel(result.array(f"hydraulics.lift.{name}")) for name in ("speed", "pressure_A", "pressure_B"))
     assert lift.flow == pytest.approx(np.max(np.abs(speed)) * np.pi / 4 * 0.1**2)
     assert lift.difference == pytest.approx(np.max(np.abs(a - b)))
+
+
+@pytest.mark.parametrize(
+    ("file", "duration"),
+    [("harvester-crane.yaml", 2.0), ("pick-and-place.yaml", 1.5), ("two-pump-excavator.yaml", 2.0)],
+)
+def test_the_power_flow_balances_with_the_energies_of_the_circuit(file, duration):
+    """What comes in is what goes out; the sum is that of the exact energies of the run."""
+    machine = nivel.load(FOLDER / file)
+    result = machine.simulate(duration=duration, verify=False)
+    balances = component_balances(result, record_of(machine))
+    flow = circuit_power(result, record_of(machine), balances)
+    assert flow is not None
+    assert sum(each.energy for each in flow.sinks) == pytest.approx(flow.whole, rel=1e-9)
+    supplied, lost = (float(np.ravel(result.array(f"state.hydraulics.{each}"))[-1]) for each in ("supplied", "lost"))
+    back = sum(each.energy for each in flow.sources if each.name.endswith("from bodies") or each.name == "stored")
+    tanks = sum(each.energy for each in flow.sinks if each.name == "supplies and tanks")
+    assert flow.whole - back - tanks == pytest.approx(supplied, rel=1e-6)
+    losses = sum(each.energy for each in flow.sinks if each.kind == LOSS) - tanks
+    pistons = [each.name for each in balances if each.type == "cylinder"]
+    rubbed = sum(
+        np.trapezoid(*(np.ravel(result.array(f"hydraulics.{name}.{each}")) for each in ("friction", "position")))
+        for name in pistons
+    )
+    assert losses == pytest.approx(lost + rubbed, rel=0.01)
+    drawn = power_diagram(flow)
+    assert drawn.count("<rect") >= 6
+    assert ET.fromstring(drawn).tag.endswith("svg")
+
+
+def test_gas_loses_its_available_energy_in_a_valve():
+    """ṁ R T₀ ln(p_a/p_b) at one temperature: p_N Q ln(p_a/p_b)."""
+    valve = {"type": "orifice", "sonic_conductance": 1e-8}
+    machine = circuit(between(valve, A=6 * BAR, B=1 * BAR), fluids={"air": {"type": "ideal-gas"}})
+    result = machine.simulate(duration=1.0, step=0.1, integrator="rk4")
+    (found,) = component_balances(result, record_of(machine))
+    lost = float(np.ravel(result.array("state.hydraulics.lost"))[-1])
+    assert found.lost == pytest.approx(1e5 * 6e-3 * np.log(6.0), rel=1e-6)
+    assert found.lost == pytest.approx(lost, rel=1e-6)

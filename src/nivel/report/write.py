@@ -25,6 +25,7 @@ from nivel.report.panel import Group, Panel
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.picture import STYLE, machine_picture
+from nivel.report.power_panel import power_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
@@ -70,6 +71,7 @@ def report_html(result: Result) -> str:
     environment.filters["quantity"] = quantity
     record = _record(result)
     shown = panels(result)
+    balances = component_balances(result, record)
     motion, motion_left_out = _motion(result)
     return environment.get_template("page.html.j2").render(
         result=result,
@@ -94,7 +96,8 @@ def report_html(result: Result) -> str:
         tornados=tornados(result),
         slopes_headline=slopes_headline(result),
         diagram=control_diagram(record),
-        balance=component_balances(result, record),
+        balance=balances,
+        power=power_picture(result, record, balances),
         valves=valve_diagram(record) if record.get("hydraulics") else "",
         circuit=circuit_diagram(record, pressures_at(result, 0) if len(result.time) else {}),
         icon=joint_icon,

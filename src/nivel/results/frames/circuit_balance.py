@@ -1,8 +1,9 @@
 """Balance of the components of a circuit over a run: the largest flow and difference of pressure of each, and the energy that it takes,
 gives and loses.
 
-Losses are ∫ Σ Q Δp dt of all edges of a component, of pumps and motors ∫ (P - Q Δp) dt with the power P into the shaft. The exact losses,
-with the energy that fluid stores as it is compressed, are those of the trust report.
+Losses are ∫ Σ Q Δp dt of all edges of a component, of gas those of its available energy at the temperature around it, of pumps and motors
+∫ (P - Q Δp) dt with the power P into the shaft. The exact losses, with the energy that fluid stores as it is compressed, are those of the
+trust report.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.hydraulics.fluid import REFERENCE_PRESSURE
 from nivel.machine.hydraulics.nodes import ATMOSPHERE
 from nivel.machine.hydraulics.spool_valve import ends_of
 from nivel.results.scales import Readable
@@ -62,6 +64,9 @@ ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
         "check_flow_B": ("VB", "B"),
     },
     "section": {"flow_PM_back": ("P", "M")},
+    "ejector": {"flow": ("P", "R"), "suction_flow": ("A", "R")},
+    "soft-start": {"flow": ("P", "A"), "throttled_flow": ("P", "A")},
+    "tube": {"flow_B": ("A", "B")},
     "pump": {"flow": ("A", "B")},
     "hydraulic-motor": {"flow": ("A", "B")},
     "flow-source": {"flow": ("A", "B")},
@@ -106,6 +111,8 @@ def _of(result: Readable, time: NDArray[np.float64], data: Mapping[str, Any]) ->
     if kind in DRIVEN and power is not None:
         lost = power + throttled  # fluid goes from A to B against the pressure
         supplied, delivered = np.maximum(power, 0.0), np.maximum(-power, 0.0)
+    elif kind == "engine" and power is not None:
+        supplied = power
     elif power is not None:
         delivered = power
         flow, difference = _of_piston(result, data)
@@ -127,9 +134,9 @@ def _of_piston(result: Readable, data: Mapping[str, Any]) -> tuple[float, float]
 
 
 def _edges(result: Readable, data: Mapping[str, Any]) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """(flow [m³/s], difference of pressure [Pa]) over time of every edge."""
+    """(flow [m³/s], difference of pressure [Pa]) over time of every edge; of gas what stands for that difference in its loss."""
     name, kind = str(data["name"]), str(data["type"])
-    known = ENDS.get(kind, {})
+    known, gas = ENDS.get(kind, {}), _carries_gas(data)
     for variable in result.variables:
         if not variable.startswith(f"{START}{name}."):
             continue
@@ -140,7 +147,12 @@ def _edges(result: Readable, data: Mapping[str, Any]) -> Iterator[tuple[NDArray[
         flow = _history(result, variable)
         a, b = (_pressure(result, data, port) for port in ends)
         if flow is not None and a is not None and b is not None:
-            yield flow, a - b
+            yield flow, REFERENCE_PRESSURE * np.log(a / b) if gas else a - b
+
+
+def _carries_gas(data: Mapping[str, Any]) -> bool:
+    """Whether gas flows through a component: its flow [m³/s] is that at 1 bar, and it loses ṁ R T₀ ln(p_a/p_b) of its available energy."""
+    return data.get("sonic_conductance") is not None or data.get("type") == "tube"
 
 
 def _named(quantity: str, data: Mapping[str, Any]) -> tuple[str, str] | None:

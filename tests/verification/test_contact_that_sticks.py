@@ -9,6 +9,7 @@ import nivel
 from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
+from preparing import prepare
 from references import stick_slip
 from simulating import G, machine, simulate, slide, solid
 
@@ -349,6 +350,22 @@ def test_a_tower_of_bricks_tips(push, tips):
     r = simulate(tower(2.0, ramp), duration=0.6, integrator="generalised-alpha", step=5e-4, output_interval=0.02)
     lean = r.array("brick5.position.x")[-1]
     assert (lean > 0.1) if tips else (lean < 1e-3)
+
+
+# --- cost ---
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_boxes_apart_have_nothing_to_do_with_each_other(coordinates):
+    """Newton's matrix of four boxes that stick to the floor has four times the entries of one box, not sixteen times."""
+    entries = []
+    for count in (1, 4):
+        sections = box(0.3)
+        one, touch = sections["bodies"].pop("box"), sections["forces"].pop("touch")
+        for k in range(count):
+            sections["bodies"][f"box{k}"] = {**one, "position": [0, 0.5 * k, one["position"][2]]}
+            sections["forces"][f"touch{k}"] = {**touch, "body": f"box{k}"}
+        record = machine(sections | {"simulation": {"integrator": "radau"}}).record
+        entries.append(len(prepare(record, "newton-euler", coordinates).motion.system.record.newton.value))
+    assert entries[1] <= 4 * entries[0]
 
 
 # --- the trust report ---

@@ -229,7 +229,7 @@ class Unknowns:
         widths = self.widths()
         _, own = self.matrix()
         directions = np.diag(widths)
-        rng = np.random.default_rng([len(widths), *self.here.name.encode()])
+        rng = np.random.default_rng([len(widths), self.here.rows])
         if columns and not FULL and len(widths) > columns:
             directions = directions[:, rng.choice(len(widths), columns, replace=False)]
         if count and not FULL and len(widths) > count:

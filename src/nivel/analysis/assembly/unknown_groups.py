@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -29,12 +30,8 @@ def unknown_groups(
     normalised = {f"{name}.euler_parameters": body for body, name in enumerate(system.bodies)}
     owners = [system.row_owner[k] if k < system.machine_rows else system.rows[k] for k in row]
     joints = list(dict.fromkeys(owners))
-    if coordinates == "relative" and not system.frictions:
-        return _groups_of_tree(system, row, part)
     if coordinates == "relative":
-        sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints), *[1] * len(stiction)]
-        constraint = [k > states for k in range(len(sizes))]
-        return sizes, constraint, {(a, b) for b in range(len(sizes)) for a in range(b)}
+        return _groups_of_tree(system, row, part)
     count = system.body_count
     modes = [int(last - first) for first, last in record.flexible.mode]
     moving = count + len(modes)
@@ -57,16 +54,30 @@ def unknown_groups(
     for each in system.coupled:
         groups = _moved_by(system, each.bodies) | {moving + state for state in each.states}
         couples |= set(combinations(sorted(groups), 2))
-    effort = {k: moving + states + len(joints) + place for place, k in enumerate(stiction)}
+    couples |= _of_frictions(system, moving, number, partial(_moved_by, system))
+    return sizes, constraint, couples
+
+
+def _of_frictions(
+    system: System, moving: int, number: Mapping[str, int], moved_by: Callable[[Iterable[int]], set[int]]
+) -> set[tuple[int, int]]:
+    """What depends on each other by frictions: efforts, what moves their bodies, and what their loads follow.
+
+    moving : groups of velocities; states follow them. number : group of each joint that is a constraint. moved_by : the groups of
+    velocities that move bodies.
+    """
+    first_effort = moving + len(system.record.elements.state) + len(number)
+    effort = {k: first_effort + place for place, k in enumerate(frictions_with_stiction(system))}
+    couples: set[tuple[int, int]] = set()
     for k, (bodies, states_of_load, joint) in enumerate(_frictions(system)):
         depending = [*(moving + state for state in states_of_load), *([number[joint]] if joint in number else [])]
         depending += [effort[k]] if k in effort else []
-        first, count = record.friction.columns[k, [columns.FIRST, columns.COUNT]]
+        first, count = system.record.friction.columns[k, [columns.FIRST, columns.COUNT]]
         if first == k:
             couples |= set(combinations([effort[k + a] for a in range(count)], 2))
-        couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
+        couples |= {(body, group) for body in moved_by(bodies) for group in depending}
         couples |= set(combinations(depending, 2))
-    return sizes, constraint, couples
+    return couples
 
 
 def integrals(system: System, constraint: list[bool]) -> list[int]:
@@ -87,6 +98,7 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
     owners = [system.row_owner[k] for k in row]
     joints = list(dict.fromkeys(owners))
     sizes = [last - first for *_, first, last in nodes] + [1] * states + [owners.count(joint) for joint in joints]
+    sizes += [1] * len(frictions_with_stiction(system))
     constraint = [k >= moving + states for k in range(len(sizes))]
     bodies_of: dict[int, set[int]] = {}
     rows_of: dict[int, set[int]] = {}
@@ -106,6 +118,17 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
         couples |= set(combinations(own, 2))
     for joint, bodies in bodies_of.items():
         couples |= {(node, joint) for body in bodies for node in carrying.of(body)}
+    number = {joint: moving + states + k for k, joint in enumerate(joints)}
+
+    def moved_by(bodies: Iterable[int]) -> set[int]:
+        return {node for body in bodies for node in carrying.of(body)}
+
+    for bodies, _, loading in _frictions(system):
+        couples |= carrying.pairs(bodies)
+        if loading and loading not in number:
+            # the reaction of a joint that carries a body follows from everything
+            return sizes, constraint, set(combinations(range(len(sizes)), 2))
+    couples |= _of_frictions(system, moving, number, moved_by)
     return sizes, constraint, couples
 
 

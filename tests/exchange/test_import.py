@@ -10,6 +10,9 @@ import nivel
 from exchange_models import joint, link, robot
 from nivel.cli import main
 from nivel.exchange import read_model
+from nivel.exchange.looks import Drawing
+from nivel.exchange.mechanism import Frame, Link, Look
+from nivel.exchange.notes import Notes
 from nivel.files import parse_machine
 
 ROOT = Path(__file__).parents[2]
@@ -181,3 +184,18 @@ def test_imported_examples_run(name):
     result = nivel.load(ARM.with_name(name)).simulate(duration=0.1, verify=False)
     assert result.outcome == "done"
     assert abs(result.array("energy_error")).max() < 1e-6
+
+
+def test_an_ellipsoid_along_the_axes_is_a_shape_and_one_askew_a_surface(tmp_path):
+    """Half a turn about (1, 1, 0) exchanges two of its semi-axes."""
+    drawing, notes = Drawing(tmp_path / "model.xml", (), tmp_path), Notes()
+    for turned, kind in (
+        (np.array([[0, 1, 0], [1, 0, 0], [0, 0, -1]]), "ellipsoid"),
+        (np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]]), "mesh"),
+    ):
+        look = Look("ellipsoid", place=Frame(turned.astype(float), np.array([0.1, 0, 0])), sizes=(0.3, 0.2, 0.1))
+        (shape,) = drawing.shapes(Link("foot", Frame(), looks=[look]), Frame(), notes)
+        assert shape.get("type", "mesh") == kind
+        if kind == "ellipsoid":
+            assert shape["semi_axes"] == [0.2, 0.3, 0.1]
+            assert list(shape["centre"]) == [0.1, 0, 0]

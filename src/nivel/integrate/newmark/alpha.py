@@ -41,6 +41,7 @@ from nivel.integrate.loop.step_control import (
 from nivel.integrate.newmark.alpha_error import SHARE, filtered_error, part_of, plain_error
 from nivel.integrate.newmark.alpha_start import go_on_beyond, start
 from nivel.integrate.newmark.alpha_step import RATE, attempt, keep_step, refresh
+from nivel.integrate.newmark.correction_slopes import NUMBERS, ROWS
 from nivel.integrate.newmark.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
@@ -215,6 +216,8 @@ def alpha(evaluate, machine, history):
 
 
 FACTS = tuple(
-    IntegratorFacts(name, alpha, order=2, stages=12, numbers=14, kind="corrector", needs="accelerations", ends="jumps")
+    IntegratorFacts(
+        name, alpha, order=2, stages=ROWS, numbers=NUMBERS, kind="corrector", needs="accelerations", ends="jumps"
+    )
     for name in ("newmark", "hht", "generalised-alpha")
 )

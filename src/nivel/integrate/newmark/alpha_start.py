@@ -30,7 +30,8 @@ from nivel.integrate.newmark.alpha_step import (
     W,
 )
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.lanes import slope, unit
+from nivel.kernels.core.lanes import is_whole, slope, unit
+from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate, call_family
 from nivel.kernels.record.record import record_at
@@ -74,7 +75,7 @@ def keep_fast(machine, t, cq, cv, cx, x):
     for k in range(n + states):
         move_unknown(newton, moving, k, unit(0, real(x[k])), cq, cv, cx)
     for k in range(n):
-        moving.vdot[k] = here.vdot[k]
+        moving.vdot[k] = real(here.vdot[k])
     status = call_family(newton.address[1], twin, 0, t)
     if status != OK:
         return status
@@ -82,10 +83,20 @@ def keep_fast(machine, t, cq, cv, cx, x):
         b[k] = (1.0 if k < n else -1.0) * slope(moving.value[k], 0)
     for k in range(n + states, b.shape[0]):
         b[k] = 0.0
+    if is_whole(machine):
+        twin, moving = load_twin(newton, here)
+        for k in range(n + states):
+            move_unknown(newton, moving, k, x[k] - real(x[k]), cq, cv, cx)
+        for k in range(n):
+            moving.vdot[k] = real(here.vdot[k])
+        status = call_family(newton.address[1], twin, 0, t)
+        for k in range(n + states):
+            along = moving.value[k] - real(moving.value[k])
+            b[k] += (1.0 if k < n else -1.0) * number_of(machine, along)
     solve(machine)
     for k in range(n + states):
         x[k] = b[k]
-    return OK
+    return status
 
 
 @leaf

@@ -28,6 +28,10 @@ Changes that stop getting smaller, with a matrix that is known to be a good one,
 fixed step that is enough for chosen ones too, which ask for a share of their error. With index 3, and without constraints, velocities are
 as exact as positions over the step, and positions are known to their round-off: there a larger change is accepted where round-off explains
 all of it, unknown by unknown (`is_round_off`).
+
+Slopes, where numbers are dual, follow once the values are found, with the same matrix: a new one would give the values of the next steps
+other corrections of positions than the run without slopes has. How these depend on the matrix is looked at where that was made
+(`nivel.integrate.newmark.correction_slopes`).
 """
 
 from __future__ import annotations
@@ -36,6 +40,7 @@ import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.integrate.loop.step_control import ROUND_OFF
+from nivel.integrate.newmark.correction_slopes import add_moved, forget_moved, keep_made_at, settle_correction
 from nivel.integrate.newmark.friction_turns import begin_turns, follow_turns, keep_made, next_seed, release
 from nivel.integrate.newmark.newton_state import find_state
 from nivel.kernels.algebra.analytic import real
@@ -64,8 +69,9 @@ STALLED, GOOD = 0.5, 0.1
 FAR = 1e-4
 # A change of the effort of a friction counts as this share of it.
 CLOSE = 1e-4
-# Slopes change no more where they change by less than this share of the scales; passes for that at most.
-SETTLED, MOST_SETTLING = 1e-9, 10
+# Slopes change no more where they change by less than this share of the scales; passes for that at most. A matrix with which these contract
+# by less than SLOWLY is made anew.
+SETTLED, MOST_SETTLING, SLOWLY = 1e-9, 20, 0.3
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
 SAMPLES, SAFETY = 8, 4.0
 
@@ -98,7 +104,7 @@ def write_defect(machine, cq, cv):
 
 @leaf
 def close_positions(machine, cq, cv):
-    """newton.moved := the further change of positions that closes them after the change in newton.b is made. Overwrites `last`."""
+    """newton.moved := the further change of positions that closes them after the change in newton.b is made; `last` := all unknowns of it."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     b, value, kept = newton.b, residual.value, newton.last
@@ -114,7 +120,7 @@ def close_positions(machine, cq, cv):
     for i in range(n):
         newton.moved[i] = b[i]
     for i in range(b.shape[0]):
-        b[i] = kept[i]
+        b[i], kept[i] = kept[i], b[i]
 
 
 @leaf
@@ -301,19 +307,25 @@ def settle_slopes(machine, run, t, cq, cv, cx):
     """Slopes of the unknowns, whose values are found: changes with the matrix there, until they change no more (implicit function theorem).
     `residual.y` is the state then. Returns a status."""
     record = record_at(machine)
-    newton = record.newton
+    newton, last = record.newton, np.inf
+    status = settle_correction(machine, run, cq, cv, cx) if newton.level[0] == 2 else OK
     for attempt in range(MOST_SETTLING):
-        status = find_state(machine, t, cq, cv, cx)
+        if status == OK:
+            status = find_state(machine, t, cq, cv, cx)
         if status == OK:
             status = call_hook(machine, RESIDUAL, 0, t)
-        if status == OK and attempt == 0:
+        if status == OK and (newton.kept[CQ] == 0.0):
             status = renew(machine, t, cq, cv, cx)
         if status != OK:
             return status
         find_change(machine, cq, cv)
         take_change(newton, record.residual, newton.b, newton.moved, 1.0)
-        if steepness_of_change(machine, run.scale, cq, cv, cx) <= SETTLED:
+        steepness = steepness_of_change(machine, run.scale, cq, cv, cx)
+        if steepness <= SETTLED:
             break
+        if attempt > 0 and steepness > SLOWLY * last:
+            newton.kept[CQ] = 0.0
+        last = steepness
     return find_state(machine, t, cq, cv, cx)
 
 
@@ -329,6 +341,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     full = newton.settings[FULL] == 1.0
     stale, inherited, last, share, best = full, True, np.inf, 1.0, np.inf
     begin_turns(record.residual)
+    if is_whole(machine) and newton.level[0] == 2:
+        forget_moved(run)
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -347,6 +361,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
             status = renew(machine, t, cq, cv, cx)
             counter[FACTORISATIONS] += 1
             stale, inherited = False, False
+            if is_whole(machine) and newton.level[0] == 2:
+                keep_made_at(machine, run, t)
         if status != OK:
             newton.kept[CQ] = 0.0
             return status
@@ -370,6 +386,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
             continue
         share = 1.0
         take_change(newton, record.residual, newton.b, newton.moved, share)
+        if is_whole(machine) and newton.level[0] == 2:
+            add_moved(machine, run)
         keep_change(newton)
         done = size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance)
         if bidding:

@@ -63,6 +63,7 @@ from nivel.integrate.radau.radau_stages import (
     predict,
     write_polynomial,
 )
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
@@ -103,7 +104,7 @@ def smooth(machine, history, h, slope):
     run, factors = run_at(history), record_at(machine).newton.shifted.real
     for i in range(run.y.shape[0]):
         factors.r[i] = (h * slope[i] - run.stages[RATES, i]) / GAMMA
-    solve_shifted_parts(machine, factors, h / GAMMA)
+    solve_shifted_parts(machine, factors, real(h) / GAMMA)
     for i in range(run.y.shape[0]):
         run.stages[ERROR, i] = factors.r[i]
 

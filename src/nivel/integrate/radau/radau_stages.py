@@ -3,6 +3,9 @@
 Derivatives are found at an accepted state and serve for steps of any size as long as the iteration contracts well; only the factors
 depend on the step. Energies are integrals of what the other entries do: nothing depends on them, so they follow one iteration behind,
 do not count for the contraction, and have to come to rest with the others.
+
+Slopes of the stages, where numbers are dual, follow once the values are found: by further changes with the same factors, until these
+slopes change no more.
 """
 
 from __future__ import annotations
@@ -13,10 +16,14 @@ from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, TI
 from nivel.integrate.loop.workspace import larger
 from nivel.integrate.radau.coupled_stages import bring_back, factorise_stages, find_stage_parts, put_aside, solve_stages
 from nivel.integrate.radau.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, A, C
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.lanes import is_whole, slope, steepest, unit
+from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
 from nivel.kernels.residual.shifted_matrix import factorise_shifted, find_parts, solve_shifted_parts
+from nivel.native.duals import LANES
 from nivel.native.function import leaf
 
 # Rows of run.stages: Z_i; ω₁, Re ω₂, Im ω₂; rates at the stages; d_1 … d_4 of the last accepted step; estimated error; d_1 … d_3 of this
@@ -38,6 +45,8 @@ CONTRACTS = 0.1
 # what is left is taken for no less than this share of a change, and of the last one for no less than that
 SANGUINE, LEAST_LEFT = 1e-3, 0.1
 FORGET = 0.8
+# Slopes change no more where they change by less than this share of the scales; passes for that at most.
+SETTLED, MOST_SETTLING = 1e-10, 20
 
 
 @leaf
@@ -53,9 +62,9 @@ def make_factors(machine, history, h):
             return status
         run.numbers[FOUND], run.numbers[AGE], run.numbers[MADE] = 1.0, 0.0, 0.0
     if run.numbers[MADE] != h:
-        status = factorise_shifted(machine, shifted.real, h / GAMMA)
+        status = factorise_shifted(machine, shifted.real, real(h) / GAMMA)
         if status == OK and run.numbers[COUPLED] == 0.0:
-            status = factorise_shifted(machine, shifted.pair, h / MU)
+            status = factorise_shifted(machine, shifted.pair, real(h) / MU)
         run.numbers[MADE] = h if status == OK and run.numbers[COUPLED] == 0.0 else 0.0
     return status
 
@@ -80,14 +89,20 @@ def predict(run, h):
 
 
 @leaf
+def of_pair(x0, x1, x2):
+    """The part along the complex eigenvector: real and imaginary."""
+    p0, p1, p2 = LEFT_PAIR[0], LEFT_PAIR[1], LEFT_PAIR[2]
+    return p0.real * x0 + p1.real * x1 + p2.real * x2, p0.imag * x0 + p1.imag * x1 + p2.imag * x2
+
+
+@leaf
 def write_omega(run):
     """ω of Z."""
     stages = run.stages
     for i in range(run.y.shape[0]):
         z0, z1, z2 = stages[Z, i], stages[Z + 1, i], stages[Z + 2, i]
-        omega = LEFT_PAIR[0] * z0 + LEFT_PAIR[1] * z1 + LEFT_PAIR[2] * z2
         stages[OMEGA, i] = LEFT[0] * z0 + LEFT[1] * z1 + LEFT[2] * z2
-        stages[OMEGA + 1, i], stages[OMEGA + 2, i] = omega.real, omega.imag
+        stages[OMEGA + 1, i], stages[OMEGA + 2, i] = of_pair(z0, z1, z2)
 
 
 @leaf
@@ -111,13 +126,13 @@ def evaluate_stages(evaluate, machine, history, h, end, renewed):
 def find_changes(machine, history, h):
     """The changes of ω into the right sides of the two systems."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
-    stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
-    s, z = h / GAMMA, h / MU
+    stages, single, pair = run.stages, shifted.real.r, shifted.pair.r
+    s, z = real(h) / GAMMA, real(h) / MU
     for i in range(run.y.shape[0]):
-        f0, f1, f2 = stages[RATES, i], stages[RATES + 1, i], stages[RATES + 2, i]
-        real[i] = s * (LEFT[0] * f0 + LEFT[1] * f1 + LEFT[2] * f2) - stages[OMEGA, i]
-        slope = LEFT_PAIR[0] * f0 + LEFT_PAIR[1] * f1 + LEFT_PAIR[2] * f2
-        pair[i] = z * slope - complex(stages[OMEGA + 1, i], stages[OMEGA + 2, i])
+        f0, f1, f2 = real(stages[RATES, i]), real(stages[RATES + 1, i]), real(stages[RATES + 2, i])
+        single[i] = s * (LEFT[0] * f0 + LEFT[1] * f1 + LEFT[2] * f2) - real(stages[OMEGA, i])
+        re, im = of_pair(f0, f1, f2)
+        pair[i] = z * complex(re, im) - complex(real(stages[OMEGA + 1, i]), real(stages[OMEGA + 2, i]))
     solve_shifted_parts(machine, shifted.real, s)
     solve_shifted_parts(machine, shifted.pair, z)
 
@@ -126,13 +141,13 @@ def find_changes(machine, history, h):
 def size_of_changes(machine, history):
     """The largest change of Z as a share of the scales, of the motion and of the energies, and its place."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
-    real, pair = shifted.real.r, shifted.pair.r
+    single, pair = shifted.real.r, shifted.pair.r
     largest, energies, worst = 0.0, 0.0, 0
     for i in range(run.y.shape[0]):
         change = 0.0
         for m in range(3):
-            change = max(change, np.abs(RIGHT[m] * real[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real))
-        share = change / run.scale[i] + (real[i] - real[i])
+            change = max(change, np.abs(RIGHT[m] * single[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real))
+        share = change / run.scale[i] + (single[i] - single[i])
         if i >= run.y.shape[0] - 2:
             energies = max(energies, share)
         elif not share <= largest:
@@ -146,13 +161,60 @@ def size_of_changes(machine, history):
 def take_changes(machine, history):
     """Add the changes asked for to ω and Z."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
-    stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
+    stages, single, pair = run.stages, shifted.real.r, shifted.pair.r
     for i in range(run.y.shape[0]):
-        stages[OMEGA, i] += real[i]
+        stages[OMEGA, i] += single[i]
         stages[OMEGA + 1, i] += pair[i].real
         stages[OMEGA + 2, i] += pair[i].imag
         for m in range(3):
-            stages[Z + m, i] += RIGHT[m] * real[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real
+            stages[Z + m, i] += RIGHT[m] * single[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real
+
+
+@leaf
+def change_slopes_of_pair(machine, history, h, lane):
+    """One change of the slopes of ω₂ and Z along a direction, for the rates at the stages. Returns the largest, as a share of the scales."""
+    run, shifted = run_at(history), record_at(machine).newton.shifted
+    stages, pair, largest = run.stages, shifted.pair.r, 0.0
+    for i in range(run.y.shape[0]):
+        re, im = of_pair(h * stages[RATES, i], h * stages[RATES + 1, i], h * stages[RATES + 2, i])
+        missed = complex(slope(re, lane), slope(im, lane)) / MU
+        pair[i] = missed - complex(slope(stages[OMEGA + 1, i], lane), slope(stages[OMEGA + 2, i], lane))
+    solve_shifted_parts(machine, shifted.pair, real(h) / MU)
+    for i in range(run.y.shape[0]):
+        stages[OMEGA + 1, i] += number_of(machine, unit(lane, pair[i].real))
+        stages[OMEGA + 2, i] += number_of(machine, unit(lane, pair[i].imag))
+        for m in range(3):
+            change = 2.0 * (RIGHT_PAIR[m] * pair[i]).real
+            stages[Z + m, i] += number_of(machine, unit(lane, change))
+            largest = max(largest, np.abs(change) / real(run.scale[i]))
+    return largest
+
+
+@leaf
+def settle_slopes(evaluate, machine, history, h, end):
+    """Slopes of the stages, whose values are found: changes with the factors there, until they change no more. Returns a status."""
+    run, single = run_at(history), record_at(machine).newton.shifted.real.r
+    stages = run.stages
+    for _ in range(MOST_SETTLING):
+        status = evaluate_stages(evaluate, machine, history, h, end, False)
+        if status != OK:
+            return status
+        for i in range(run.y.shape[0]):
+            f = LEFT[0] * stages[RATES, i] + LEFT[1] * stages[RATES + 1, i] + LEFT[2] * stages[RATES + 2, i]
+            missed = h / GAMMA * f - stages[OMEGA, i]
+            single[i] = missed - real(missed)
+        solve_shifted_parts(machine, record_at(machine).newton.shifted.real, real(h) / GAMMA)
+        largest = 0.0
+        for i in range(run.y.shape[0]):
+            stages[OMEGA, i] += single[i]
+            for m in range(3):
+                stages[Z + m, i] += RIGHT[m] * single[i]
+                largest = max(largest, RIGHT[m] * steepest(single[i]) / real(run.scale[i]))
+        for lane in range(LANES):
+            largest = max(largest, change_slopes_of_pair(machine, history, h, lane))
+        if largest <= SETTLED:
+            break
+    return OK
 
 
 @leaf
@@ -201,7 +263,7 @@ def iterate(evaluate, machine, history, h, end, close):
                 break
         if max(change, energies) * min(left, 1.0) <= close:
             numbers[LEFT_OVER] = max(left, SANGUINE)
-            return OK
+            return settle_slopes(evaluate, machine, history, h, end) if is_whole(machine) else OK
         last = change
     numbers[LEFT_OVER] = 1.0
     return no_convergence(machine, history, worst)
@@ -241,6 +303,24 @@ def take_stage_changes(machine, history, h, positions):
 
 
 @leaf
+def settle_coupled(evaluate, machine, history, h, end, positions):
+    """`settle_slopes` with the factors of `iterate_coupled`. Returns a status."""
+    run, r = run_at(history), record_at(machine).newton.shifted.coupled.r
+    for _ in range(MOST_SETTLING):
+        status = evaluate_stages(evaluate, machine, history, h, end, False)
+        if status != OK:
+            return status
+        take_stage_changes(machine, history, h, positions)
+        largest = 0.0
+        for i in range(run.y.shape[0]):
+            for m in range(3):
+                largest = max(largest, steepest(r[m, i]) / real(run.scale[i]))
+        if largest <= SETTLED:
+            break
+    return OK
+
+
+@leaf
 def iterate_coupled(evaluate, machine, history, h, end, close):
     """The same as `iterate` by Newton's iteration with derivatives at the stages, which serve as long as changes contract by CONTRACTS."""
     run, record = run_at(history), record_at(machine)
@@ -264,7 +344,7 @@ def iterate_coupled(evaluate, machine, history, h, end, close):
             contraction = change / last if last > 0.0 else 0.0
             left = max(LEAST_LEFT, contraction / (1.0 - contraction)) if contraction < 1.0 else np.inf
         if max(change, energies) * min(left, 1.0) <= close:
-            status = OK
+            status = settle_coupled(evaluate, machine, history, h, end, positions) if is_whole(machine) else OK
             break
         last = change
     bring_back(machine, run.y)

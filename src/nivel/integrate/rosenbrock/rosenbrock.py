@@ -8,6 +8,8 @@ The order is 2 for any γ, J and f_t, so the parts of J that `nivel.kernels.resi
 1/√2 make
 the method L-stable for the exact J. With the larger one neither the step nor the state inside it overshoots where a motion only decays, but
 the error of everything else, (3 γ² - 2 γ³ - 1/6) h³, is 34 times as large: a machine with springs swings, so the smaller one.
+
+On dual numbers k₁ and k₂ have the slopes that J gives them too (`nivel.kernels.residual.shifted_slopes`).
 """
 
 from __future__ import annotations
@@ -16,15 +18,31 @@ import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.residual.shifted_along import prepare_shifted, solve_shifted
+from nivel.kernels.residual.shifted_slopes import ROWS as OF_SLOPES
+from nivel.kernels.residual.shifted_slopes import settle_solution
 from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 GAMMA = 1.0 - np.sqrt(0.5)
-# rows of run.stages: k₁ and k₂
-FIRST, SECOND = 0, 1
-ROWS = 2
+# rows of run.stages: k₁ and k₂; a right-hand side, and work for its slopes
+FIRST, SECOND, GIVEN, WORK = 0, 1, 2, 3
+ROWS = 3 + OF_SLOPES
+
+
+@leaf
+def solve_for(machine, run, t, row, share, ahead):
+    """Overwrite a row of run.stages with the solution of (1 - share J) k = row + share ahead f_t. Returns a status."""
+    x, given = run.stages[row], run.stages[GIVEN]
+    for i in range(x.shape[0]):
+        given[i] = x[i]
+    status = solve_shifted(machine, t, x, share, ahead)
+    if status == OK and is_whole(machine):
+        status = settle_solution(machine, t, given, x, share, ahead, run.scale, run.stages[WORK : WORK + OF_SLOPES])
+    return status
 
 
 @entry(STEP_SIGNATURE)
@@ -38,7 +56,7 @@ def ros2(evaluate, machine, history):
     for i in range(y.shape[0]):
         first[i] = run.rate[i]
     if status == OK:
-        status = solve_shifted(machine, t, first, share, 1.0)
+        status = solve_for(machine, run, t, FIRST, share, 1.0)
     if status != OK:
         return status
     for i in range(y.shape[0]):
@@ -49,7 +67,7 @@ def ros2(evaluate, machine, history):
         return status
     for i in range(y.shape[0]):
         second[i] -= 2.0 * first[i]
-    status = solve_shifted(machine, t, second, share, -1.0)
+    status = solve_for(machine, run, t, SECOND, share, -1.0)
     for i in range(y.shape[0]):
         y[i] += 0.5 * h * (3.0 * first[i] + second[i])
     return status

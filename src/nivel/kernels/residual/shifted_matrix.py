@@ -7,12 +7,16 @@ As in `nivel.kernels.residual.shifted_along`, with Δv = r_v + s Δv̇, Δx = r_
 so a right-hand side costs products with the entries of D and K instead of evaluations. X is 1 for plain positions. Euler parameters turn
 with the body, θ̇ = ½ θ ∘ (0, ω̄), and 1 - s ∂θ̇/∂θ has the inverse (1 + a Θ)/(1 + a² ω̄²), Θ d = d ∘ (0, ω̄), a = s/2, since Θ² = -ω̄².
 The energies at the end of y, on which nothing depends, have x = r.
+
+Of derivatives and of the state the values alone count, whatever r is: where r is of dual numbers, x has the slopes of r, not those that it
+has by what (1 - s ∂f/∂y) is. That is enough for iterations.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import angular_velocity
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.residual import known_multiplier
@@ -44,6 +48,18 @@ def find_parts(machine, t, y, rate):
 
 
 @leaf
+def three_values(x, k):
+    """Values of three entries from k on."""
+    return real(x[k]), real(x[k + 1]), real(x[k + 2])
+
+
+@leaf
+def four_values(x, k):
+    """Values of four entries from k on."""
+    return real(x[k]), real(x[k + 1]), real(x[k + 2]), real(x[k + 3])
+
+
+@leaf
 def turned(theta, w, d, x, a):
     """(1 + a Θ)/(1 + a² ω̄²) of d + a θ ∘ (0, x): four numbers."""
     x0, x1, x2 = a * x[0], a * x[1], a * x[2]
@@ -70,24 +86,25 @@ def combine(machine, factors, s):
     n, states = newton.place.shape[0], newton.state.shape[0]
     positions = np.int64(y.shape[0]) - n - states - 2
     for p in range(M.shape[0]):
-        value[p] = M[p] + s * D[p]
+        value[p] = real(M[p]) + s * real(D[p])
     for j in range(n):
         first = np.int64(newton.entry_start[j])
         count = np.int64(newton.entry_start[j + 1]) - first
         if newton.place[j, 1] == NONE:
             for e in range(first, first + count):
                 p = newton.entry[e, 1]
-                value[p] += s * s * K[p]
+                value[p] += s * s * real(K[p])
         elif newton.place[j, 1] == 0:
             # the columns of the three axes have the same rows
             a = 0.5 * s
-            w0, w1, w2 = y[positions + j], y[positions + j + 1], y[positions + j + 2]
+            w0, w1, w2 = real(y[positions + j]), real(y[positions + j + 1]), real(y[positions + j + 2])
             share = s * s / (1.0 + a * a * (w0 * w0 + w1 * w1 + w2 * w2))
             for e in range(first, first + count):
                 p0, p1, p2 = newton.entry[e, 1], newton.entry[e + count, 1], newton.entry[e + 2 * count, 1]
-                value[p0] += share * (K[p0] + a * (K[p2] * w1 - K[p1] * w2))
-                value[p1] += share * (K[p1] + a * (K[p0] * w2 - K[p2] * w0))
-                value[p2] += share * (K[p2] + a * (K[p1] * w0 - K[p0] * w1))
+                k0, k1, k2 = real(K[p0]), real(K[p1]), real(K[p2])
+                value[p0] += share * (k0 + a * (k2 * w1 - k1 * w2))
+                value[p1] += share * (k1 + a * (k0 * w2 - k2 * w0))
+                value[p2] += share * (k2 + a * (k1 * w0 - k0 * w1))
 
 
 @leaf
@@ -109,8 +126,8 @@ def move_by_right_side(newton, y, factors, s):
         if axis == NONE:
             moved[k] = r[p] + s * r[v]
         elif axis == 0:
-            theta, d = y[p : p + 4], r[p : p + 4]
-            d[0], d[1], d[2], d[3] = turned(theta, y[v : v + 3], d, r[v : v + 3], 0.5 * s)
+            theta, d = four_values(y, p), r[p : p + 4]
+            d[0], d[1], d[2], d[3] = turned(theta, three_values(y, v), d, r[v : v + 3], 0.5 * s)
             angular_velocity(theta, d, moved[k : k + 3])
 
 
@@ -125,9 +142,9 @@ def load_right_side(newton, factors, positions):
         along = r[positions + j]
         for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
             row, p = newton.entry[e, 0], newton.entry[e, 1]
-            b[row] -= D[p] * along
+            b[row] -= real(D[p]) * along
             if j < n:
-                b[row] -= K[p] * moved[j]
+                b[row] -= real(K[p]) * moved[j]
 
 
 @leaf
@@ -148,7 +165,7 @@ def solve_shifted_parts(machine, factors, s):
             r[p] += s * (r[v] + b[k])
         elif axis == 0:
             none = (0.0, 0.0, 0.0, 0.0)
-            c0, c1, c2, c3 = turned(y[p : p + 4], y[v : v + 3], none, b[k : k + 3], 0.5 * s)
+            c0, c1, c2, c3 = turned(four_values(y, p), three_values(y, v), none, b[k : k + 3], 0.5 * s)
             r[p] += c0
             r[p + 1] += c1
             r[p + 2] += c2

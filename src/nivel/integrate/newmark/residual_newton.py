@@ -330,6 +330,16 @@ def settle_slopes(machine, run, t, cq, cv, cx):
 
 
 @leaf
+def end_correction(machine, run, t, cq, cv, cx):
+    """Before a new matrix is made: slopes of what was corrected with the one there is, and the state as it is with them. Returns a status."""
+    status = settle_correction(machine, run, cq, cv, cx)
+    forget_moved(run)
+    if status == OK:
+        status = find_state(machine, t, cq, cv, cx)
+    return call_hook(machine, RESIDUAL, 0, t) if status == OK else status
+
+
+@leaf
 def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
 
@@ -358,7 +368,10 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
             # another equation: changes that were before say nothing of those to come
             stale, last, share = stale or other, np.inf, 1.0
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
-            status = renew(machine, t, cq, cv, cx)
+            if is_whole(machine) and newton.level[0] == 2:
+                status = end_correction(machine, run, t, cq, cv, cx)
+            if status == OK:
+                status = renew(machine, t, cq, cv, cx)
             counter[FACTORISATIONS] += 1
             stale, inherited = False, False
             if is_whole(machine) and newton.level[0] == 2:

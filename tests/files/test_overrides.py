@@ -110,3 +110,30 @@ def test_a_number_for_a_parameter_has_the_unit_of_the_file(tmp_path):
         machine.with_values({"parameters.speed": float("nan")})
     with pytest.raises(ModelError, match="radius"):
         machine.with_values({"parameters.radius": 1.0})
+
+
+def test_entries_of_lists_that_are_not_written():
+    moving = parse_machine(
+        "format: 1\nbodies: {a: {mass: 1, inertia: [1, 1, 1]}}", overrides={"bodies.a.velocity.1": 2}
+    )
+    assert body(moving, "a").velocity == (0, 2, 0)
+    turning = parse_machine(
+        "format: 1\nbodies: {a: {mass: 1, inertia: [1, 1, 1]}}",
+        overrides={"a.angular_velocity.2": "30 rpm", "gravity.1": -1.62},
+    )
+    assert body(turning, "a").angular_velocity == pytest.approx((0, 0, np.pi))
+    assert turning.gravity == (0, -1.62, 0)
+    # where zero is not what stands there unless it is written, the line to write is said
+    with pytest.raises(ModelError, match=r"`bodies.a.position` is not written.*write `position: \[0, 0, 0\]`"):
+        parse_machine("format: 1\nbodies: {a: {mass: 1, inertia: [1, 1, 1]}}", overrides={"bodies.a.position.0": 1})
+
+
+def test_moments_of_inertia_by_place_and_by_axis(tmp_path):
+    path = tmp_path / "a.yaml"
+    path.write_text("format: 1\nbodies: {a: {mass: 1, inertia: [1, 1.5, 2]}}", encoding="utf-8")
+    machine = nivel.load(path)
+    assert machine["bodies.a.inertia.2"] == machine["bodies.a.inertia.zz"] == 2
+    for word in ("2", "zz"):
+        assert machine.with_values({f"bodies.a.inertia.{word}": 2.2})["bodies.a.inertia.zz"] == 2.2
+    with pytest.raises(ModelError, match=r"`angular_velocity` is not written.*write `angular_velocity: \[0, 0, 0\]`"):
+        machine["bodies.a.angular_velocity.1"]

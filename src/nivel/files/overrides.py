@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import deepcopy
 from difflib import get_close_matches
+from itertools import pairwise
 from math import isfinite
 from numbers import Real
 from typing import Any
@@ -16,6 +17,12 @@ from nivel.machine.core.record import unknown_word
 from nivel.machine.parameters import resolve
 from nivel.machine.units.tree import Number
 from nivel.machine.uses.references import SECTIONS
+
+
+# moments of inertia about the body's axes, as places in a list
+MOMENTS = ("xx", "yy", "zz")
+# vectors of bodies that are zero where they are not written
+RATES = ("velocity", "angular_velocity", "angular_velocity_body")
 
 
 def in_order(overrides: Mapping[str, object]) -> tuple[dict[str, object], dict[str, object], dict[str, object]]:
@@ -114,8 +121,8 @@ def _set(tree: Tree, dotted: str, steps: list[str], value: Any, words: tuple[str
     if not isinstance(tree.data, dict):
         return  # reported when the file is read
     container, path = tree.data, ()
-    for step in steps[:-1]:
-        container, path = _enter(container, path, step)
+    for step, following in pairwise(steps):
+        container, path = _enter(container, path, step, following)
     path = _put(container, path, steps[-1], value)
     for places in (tree.places, tree.keys):
         for inner in [each for each in places if each[: len(path)] == path]:
@@ -123,12 +130,25 @@ def _set(tree: Tree, dotted: str, steps: list[str], value: Any, words: tuple[str
     tree.outside.add(path)
 
 
-def _enter(container: Any, path: Path, step: str) -> tuple[Any, Path]:
-    """What stands under `step`; an empty mapping where nothing stands yet."""
+def _enter(container: Any, path: Path, step: str, following: str) -> tuple[Any, Path]:
+    """What stands under `step`; where nothing stands yet an empty mapping, or the list in which `following` is a place."""
     key = _key(container, path, step)
     if container[key] is None:
-        container[key] = {}
+        container[key] = _unwritten(container, path, step) if following.isdecimal() else {}
     return container[key], (*path, key)
+
+
+def _unwritten(container: Any, path: Path, step: str) -> list[float]:
+    """The entries of a list that is not written, where they are known to be zero."""
+    if path == () and step == "gravity":
+        return [0.0, 0.0, 0.0]
+    if len(path) == 2 and path[0] == "bodies" and step in RATES:
+        return [0.0, 0.0, 0.0]
+    del container[step]
+    place = ".".join(map(str, (*path, step)))
+    raise ModelError(
+        f"`{place}` is not written in the file, so it has no entries: write `{step}: [0, 0, 0]` with its values"
+    )
 
 
 def _put(container: Any, path: Path, step: str, value: Any) -> Path:
@@ -141,6 +161,8 @@ def _key(container: Any, path: Path, step: str) -> str | int:
     """The key or index `step` in `container`, made if it may be new."""
     place = ".".join(map(str, path))
     if isinstance(container, list):
+        if path[-1:] == ("inertia",) and len(container) == 3 and step in MOMENTS:
+            return MOMENTS.index(step)
         if not step.isdecimal() or int(step) >= len(container):
             raise ModelError(
                 f"`{place}` is a list of {len(container)}; its entries are 0 to {len(container) - 1}, not `{step}`"

@@ -13,11 +13,14 @@ from nivel.files.outline import TOP_WORDS
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
 from nivel.machine import MachineRecord, Record
+from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.record import field_words
 from nivel.machine.laws.table import Table
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.wording import shown, unknown_word
 
+# places of principal moments of inertia in a list
+PRINCIPAL = {"0": "xx", "1": "yy", "2": "zz"}
 PARAMETERS = (
     "the machine has no parameters: they belong to machine files, and are worked out when elements are replaced in Python; "
     "set them first, with `with_values` of the machine that was loaded"
@@ -51,6 +54,11 @@ def value_at(record: MachineRecord, path: str) -> Any:
     steps = [step.strip() for step in path.split(".")]
     for at, step in enumerate(steps):
         try:
+            if value is None and step.isdecimal():
+                key = steps[at - 1]
+                raise ModelError(
+                    f"`{key}` is not written, so it has no entries: write `{key}: [0, 0, 0]` with its values"
+                )
             value = _entered(value, step, at == 0)
         except ModelError as error:
             raise ModelError(Fault("", 0, 0, ".".join(steps[: at + 1]), error.faults[0].message)) from None
@@ -62,6 +70,8 @@ def _entered(value: Any, step: str, is_section: bool) -> Any:
     match value:
         case Record():
             names = {field.alias or name: name for name, field in type(value).model_fields.items()}
+            if isinstance(value, Inertia) and step in PRINCIPAL:
+                step = PRINCIPAL[step]
             if step not in names:
                 raise ModelError(unknown_word(step, field_words(type(value)), "section" if is_section else "key"))
             return getattr(value, names[step])

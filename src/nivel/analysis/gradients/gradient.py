@@ -29,10 +29,11 @@ from nivel.results.frames.row_units import per
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 
-# integrators whose steps carry slopes right to their end
-FOLLOWED = (
-    "euler, heun, rk4, rkn4, dopri5, dop853, ab1 … ab5, abm4, am1 … am5, adams, bdf, newmark, hht, generalised-alpha"
-)
+# integrators whose steps do not carry slopes right to their end, and why
+UNFOLLOWED = {
+    "energy-momentum": "a force of its own keeps the energy, and stays out of derivatives; generalised-alpha has them",
+    "extrapolated-euler": "its matrix has secants of restrictions in place of their tangents; ros2 or radau have them",
+}
 HEADLINES = {
     "green": "slopes agree with differences of runs along a direction of all parameters",
     "amber": "differences of runs do not confirm all slopes: see the `verdict` of each",
@@ -122,24 +123,12 @@ def gradient(
 
 def refuse(plan: Plan) -> None:
     """Raise ModelError where the methods of a run carry no slopes."""
-    facts, settings, faults = plan.methods.integrator, plan.settings, []
-    name = settings.integrator
-    of_newmark = name in ("newmark", "hht", "generalised-alpha")
-    explicit = facts.kind == "explicit" and not facts.residual
-    multistep = facts.multistep and not name.startswith("gear")
-    if of_newmark and settings.steps == 0:
-        what = f"`integrator: {name}` with chosen steps has no gradients"
-        faults.append(Fault("", 0, 0, "simulation.step_control", f"{what}; `step_control: fixed` has them"))
-    elif not (of_newmark or explicit or multistep):
-        what = f"`integrator: {name}` has no gradients"
-        better = "dopri5, or generalised-alpha or bdf for what is stiff"
-        faults.append(Fault("", 0, 0, "simulation.integrator", f"{what}; these have them: {FOLLOWED}. Try {better}"))
+    name, faults = plan.settings.integrator, []
+    if name in UNFOLLOWED:
+        what = f"`integrator: {name}` has no gradients: {UNFOLLOWED[name]}"
+        faults.append(Fault("", 0, 0, "simulation.integrator", what))
     if any(block.type == "fmu" for block in plan.machine.control):
         faults.append(Fault("", 0, 0, "control", "FMUs give no slopes, so a machine with one has no gradients"))
-    if plan.stabilisation.CONSERVES:
-        faults.append(
-            Fault("", 0, 0, "simulation.stabilisation", "`geometric` has no gradients; `direct` closes constraints too")
-        )
     if faults:
         raise ModelError(faults)
 

@@ -69,9 +69,9 @@ STALLED, GOOD = 0.5, 0.1
 FAR = 1e-4
 # A change of the effort of a friction counts as this share of it.
 CLOSE = 1e-4
-# Slopes change no more where they change by less than this share of the scales; passes for that at most. A matrix with which these contract
-# by less than SLOWLY is made anew.
-SETTLED, MOST_SETTLING, SLOWLY = 1e-9, 20, 0.3
+# Slopes change no more where what is left to change is below this share of the scales; passes for that at most. Changes above LOST that
+# contract by less than SLOWLY ask for a new matrix, those below are round-off.
+SETTLED, LOST, MOST_SETTLING, SLOWLY = 1e-9, 1e-7, 20, 0.5
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
 SAMPLES, SAFETY = 8, 4.0
 
@@ -307,23 +307,25 @@ def settle_slopes(machine, run, t, cq, cv, cx):
     """Slopes of the unknowns, whose values are found: changes with the matrix there, until they change no more (implicit function theorem).
     `residual.y` is the state then. Returns a status."""
     record = record_at(machine)
-    newton, last = record.newton, np.inf
+    newton, last = record.newton, 0.0
     status = settle_correction(machine, run, cq, cv, cx) if newton.level[0] == 2 else OK
     for attempt in range(MOST_SETTLING):
         if status == OK:
             status = find_state(machine, t, cq, cv, cx)
         if status == OK:
             status = call_hook(machine, RESIDUAL, 0, t)
-        if status == OK and (newton.kept[CQ] == 0.0):
+        if status == OK and newton.kept[CQ] == 0.0:
             status = renew(machine, t, cq, cv, cx)
         if status != OK:
             return status
         find_change(machine, cq, cv)
         take_change(newton, record.residual, newton.b, newton.moved, 1.0)
         steepness = steepness_of_change(machine, run.scale, cq, cv, cx)
-        if steepness <= SETTLED:
+        contraction = steepness / last if attempt > 0 and last > 0.0 else 1.0
+        left = min(1.0, contraction / (1.0 - contraction)) * steepness if contraction < SLOWLY else steepness
+        if left <= SETTLED or (attempt > 0 and contraction >= SLOWLY and left <= LOST):
             break
-        if attempt > 0 and steepness > SLOWLY * last:
+        if attempt > 0 and contraction >= SLOWLY:
             newton.kept[CQ] = 0.0
         last = steepness
     return find_state(machine, t, cq, cv, cx)

@@ -1,8 +1,8 @@
 """Slopes of two hundred triples of machine, parameter and method against differences of runs.
 
-A slope is right within NEAR of the scale of its output: the largest size of the curve, or the largest change that any of the parameters makes
-for a change by itself. Differences are of order six (Richardson over h, 2 h and 4 h); they know a slope only so far as both of order four
-agree, which is allowed for up to TOLD. What is further off has to be told by the verdict.
+A slope is right within NEAR of the scale of its output: the largest size of the curve, or the largest change that any of the parameters
+makes for a change by itself. Differences are of order six (Richardson over h, 2 h and 4 h); they know a slope only so far as both of order
+four agree, which is allowed for up to TOLD. What is further off has to be told by the verdict.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.flexible.body.body_file import write_body
-from nivel.flexible.reduce import reduce
 from nivel.analysis.gradients.outputs import outputs_of, value_of
 from nivel.analysis.gradients.parameters import parameters_of
+from nivel.flexible.body.body_file import write_body
+from nivel.flexible.reduce import reduce
 
 pytestmark = pytest.mark.compiles  # runs on dual numbers, which `nivel warmup` leaves out
 

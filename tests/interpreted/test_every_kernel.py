@@ -75,7 +75,25 @@ BY_ADDRESS += ["c_function.call"]
 # what only slopes of whole runs need, which are compiled: tests/analysis/test_gradients.py
 OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction", "balance", "variable_corrector")]
 OF_SLOPES += ["lanes.steepest", "direct.are_steep", "independent.is_steep", "crossing.root", "shifted_along.add_slopes"]
-OF_SLOPES += ["residual_newton.steepness_of_change"]
+OF_SLOPES += ["residual_newton.steepness_of_change", "residual_newton.end_correction"]
+OF_SLOPES += ["radau_stages.settle_slopes", "radau_stages.settle_coupled", "radau_stages.change_slopes_of_pair"]
+OF_SLOPES += [
+    f"shifted_slopes.{name}"
+    for name in ("keep_base", "bring_back", "move_along", "find_missed", "load_missed", "settle_solution")
+]
+OF_SLOPES += [
+    f"correction_slopes.{name}"
+    for name in (
+        "forget_moved",
+        "copy_unknowns",
+        "keep_made_at",
+        "add_moved",
+        "size_of_moved",
+        "move_made_at",
+        "load_missed",
+        "settle_correction",
+    )
+]
 LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS, *BY_ADDRESS, *OF_SLOPES}
 
 

@@ -18,7 +18,6 @@ from nivel.machine.parameters import resolve
 from nivel.machine.units.tree import Number
 from nivel.machine.uses.references import SECTIONS
 
-
 # moments of inertia about the body's axes, as places in a list
 MOMENTS = ("xx", "yy", "zz")
 # vectors of bodies that are zero where they are not written

@@ -54,26 +54,21 @@ def value_at(record: MachineRecord, path: str) -> Any:
     steps = [step.strip() for step in path.split(".")]
     for at, step in enumerate(steps):
         try:
-            if value is None and step.isdecimal():
-                key = steps[at - 1]
-                raise ModelError(
-                    f"`{key}` is not written, so it has no entries: write `{key}: [0, 0, 0]` with its values"
-                )
-            value = _entered(value, step, at == 0)
+            value = _entered(value, step, steps[at - 1] if at else "")
         except ModelError as error:
             raise ModelError(Fault("", 0, 0, ".".join(steps[: at + 1]), error.faults[0].message)) from None
     return value
 
 
-def _entered(value: Any, step: str, is_section: bool) -> Any:
-    """What `value` has under `step`. Raises ModelError."""
+def _entered(value: Any, step: str, key: str) -> Any:
+    """What `value` has under `step`. key : the step before, empty for the machine itself. Raises ModelError."""
     match value:
         case Record():
             names = {field.alias or name: name for name, field in type(value).model_fields.items()}
             if isinstance(value, Inertia) and step in PRINCIPAL:
                 step = PRINCIPAL[step]
             if step not in names:
-                raise ModelError(unknown_word(step, field_words(type(value)), "section" if is_section else "key"))
+                raise ModelError(unknown_word(step, field_words(type(value)), "key" if key else "section"))
             return getattr(value, names[step])
         case Mapping():
             if step not in value:
@@ -81,6 +76,8 @@ def _entered(value: Any, step: str, is_section: bool) -> Any:
             return value[step]
         case Table() if step in ("times", "values"):
             return getattr(value, step)
+        case None if step.isdecimal():
+            raise ModelError(f"`{key}` is not written, so it has no entries: write `{key}: [0, 0, 0]` with its values")
         case tuple() if step.isdecimal() and int(step) < len(value):
             return value[int(step)]
         case tuple():

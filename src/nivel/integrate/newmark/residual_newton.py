@@ -104,7 +104,7 @@ def write_defect(machine, cq, cv):
 
 @leaf
 def close_positions(machine, cq, cv):
-    """newton.moved := the further change of positions that closes them after the change in newton.b is made; `last` := all unknowns of it."""
+    """newton.moved := the further change of positions that closes them after the change in newton.b; `last` := all unknowns of it."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     b, value, kept = newton.b, residual.value, newton.last
@@ -333,7 +333,7 @@ def settle_slopes(machine, run, t, cq, cv, cx):
 
 @leaf
 def end_correction(machine, run, t, cq, cv, cx):
-    """Before a new matrix is made: slopes of what was corrected with the one there is, and the state as it is with them. Returns a status."""
+    """Before a new matrix is made: slopes of what was corrected with the one there is, and the state with them. Returns a status."""
     status = settle_correction(machine, run, cq, cv, cx)
     forget_moved(run)
     if status == OK:

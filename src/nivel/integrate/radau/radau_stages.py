@@ -172,7 +172,7 @@ def take_changes(machine, history):
 
 @leaf
 def change_slopes_of_pair(machine, history, h, lane):
-    """One change of the slopes of ω₂ and Z along a direction, for the rates at the stages. Returns the largest, as a share of the scales."""
+    """One change of the slopes of ω₂ and Z along a direction, for the rates at the stages. Returns the largest as a share of scales."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
     stages, pair, largest = run.stages, shifted.pair.r, 0.0
     for i in range(run.y.shape[0]):

@@ -1,7 +1,7 @@
 """Slopes of the solutions of (1 - s ∂f/∂y) x = r for what ∂f/∂y itself changes by: on records of which all numbers are dual.
 
-`nivel.kernels.residual.shifted_along` finds x with the slopes of r. The equation says that the residual does not change to first order along
-x, with the accelerations and multipliers that go with it; so the slopes of
+`nivel.kernels.residual.shifted_along` finds x with the slopes of r. The equation says that the residual does not change to first order
+along x, with the accelerations and multipliers that go with it; so the slopes of
 
     (R(y + ε x) - R(y - ε x))/2 ε
 

@@ -34,6 +34,8 @@ UNFOLLOWED = {
     "energy-momentum": "a force of its own keeps the energy, and stays out of derivatives; generalised-alpha has them",
     "extrapolated-euler": "its matrix has secants of restrictions in place of their tangents; ros2 or radau have them",
 }
+# blocks of control whose code is not that of nivel
+FOREIGN = {"fmu": "FMUs", "c": "C functions"}
 HEADLINES = {
     "green": "slopes agree with differences of runs along a direction of all parameters",
     "amber": "differences of runs do not confirm all slopes: see the `verdict` of each",
@@ -127,8 +129,9 @@ def refuse(plan: Plan) -> None:
     if name in UNFOLLOWED:
         what = f"`integrator: {name}` has no gradients: {UNFOLLOWED[name]}"
         faults.append(Fault("", 0, 0, "simulation.integrator", what))
-    if any(block.type == "fmu" for block in plan.machine.control):
-        faults.append(Fault("", 0, 0, "control", "FMUs give no slopes, so a machine with one has no gradients"))
+    for kind, what in FOREIGN.items():
+        if any(block.type == kind for block in plan.machine.control):
+            faults.append(Fault("", 0, 0, "control", f"{what} give no slopes, so a machine with one has no gradients"))
     if faults:
         raise ModelError(faults)
 

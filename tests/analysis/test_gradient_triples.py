@@ -203,7 +203,7 @@ CASES = {
     ),
     "flexible": Case(
         "flexible/pendulum.yaml",
-        ("hinge.angle", "tip"),
+        ("hinge.angle", "hinge.angle.rate"),
         ("gravity.1", "markers.tip.position.0"),
         {
             "rk4": {"integrator": "rk4"},
@@ -271,8 +271,8 @@ CASES = {
     ),
 }
 PAIRS = [(name, method) for name, case in CASES.items() for method in case.methods]
-# of every kind of method one, for a machine that is cheap
-SAMPLE = [("pendulum", "radau"), ("pendulum", "ros2, absolute"), ("pendulum", "hht, absolute"), ("event", "rk4")]
+# what needs no code that the tests of gradients do not compile
+SAMPLE = [("pendulum", "hht, absolute"), ("event", "rk4")]
 
 
 def loaded(tmp_path, text):

@@ -81,7 +81,7 @@ gravity: [0, 0, -9.81]
 bodies: {block: {mass: 2, inertia: [1, 1, 1], velocity: [speed, 0, 0]}}
 joints: {rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}}
 forces:
-  rub: {type: friction, coordinate: rail.displacement, model: coulomb, coefficient: mu}
+  rub: {type: friction, coordinate: rail.displacement, model: coulomb, coefficient: mu, transition_speed: 1e-3}
   spring: {type: joint-spring-damper, coordinate: rail, stiffness: 4, damping: 0.1}
 simulation: {duration: 0.3 s, step: 2 ms, output_interval: 10 ms}
 """

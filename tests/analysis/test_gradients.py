@@ -39,6 +39,17 @@ forces: {spring: {type: force, body: block, vector: [-stiffness*block.x, 0, 0]}}
 simulation: {duration: 1 s, step: 2 ms, integrator: rk4}
 """
 
+# the velocity is not written
+PUSHED = """
+format: 1
+name: pushed
+bodies: {block: {mass: 2, inertia: [1, 1, 1]}}
+joints: {rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}}
+inputs: {push: {rest: 3, range: [-10, 10], units: N}}
+forces: {drive: {type: motor, coordinate: rail, effort: push.value}}
+simulation: {duration: 1 s, step: 10 ms, integrator: rk4}
+"""
+
 CLOSED = """
 format: 1
 name: four-bar
@@ -115,6 +126,18 @@ def test_of_a_fall_by_its_closed_form(tmp_path):
     # v = -g t is largest at the landing, where |v| = √(2 g h)
     assert found["peak(ball.velocity.z)"].item() == pytest.approx(9.81 * t, rel=1e-9)
     assert slope(found, "peak(ball.velocity.z)", parameters[0]).item() == pytest.approx(1.0 / t, rel=1e-7)
+
+
+def test_inputs_states_and_sums_by_their_closed_forms(tmp_path):
+    # x = v t + F t²/2 m, so ∂x/∂F = t²/2 m and ∂x/∂v = t; the work F x has the slope x + F t²/2 m along F
+    machine = loaded(tmp_path, PUSHED)
+    parameters = ["inputs.push.rest", "bodies.block.velocity.0"]
+    found = machine.gradient(
+        ["block.position.x", "external_work", "integral(block.velocity.x)"], parameters, check=False
+    )
+    for output in ("block.position.x", "integral(block.velocity.x)"):
+        assert [slope(found, output, each).item() for each in parameters] == pytest.approx([0.25, 1.0], abs=1e-9)
+    assert slope(found, "external_work", parameters[0]).item() == pytest.approx(0.75 + 3.0 * 0.25, abs=1e-9)
 
 
 @pytest.mark.parametrize("integrator", ["rk4", "dopri5", "bdf", "generalised-alpha"])

@@ -204,7 +204,7 @@ CASES = {
     "flexible": Case(
         "flexible/pendulum.yaml",
         ("hinge.angle", "hinge.angle.rate"),
-        ("gravity.1", "markers.tip.position.0"),
+        ("gravity.0", "gravity.1"),
         {
             "rk4": {"integrator": "rk4"},
             "radau": {"integrator": "radau", "tolerance": 1e-8},

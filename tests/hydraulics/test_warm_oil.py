@@ -259,6 +259,13 @@ def test_a_cooler_of_isothermal_oil_is_refused():
         circuit({"a": {"type": "tank"}, "b": {"type": "tank"}, "cooler": cooler})
 
 
+def test_a_pump_that_delivers_into_the_reservoir_is_reversed():
+    reservoir = {"type": "reservoir", "volume": "8 L", "oil": "6 L"}
+    reverse = {**PUMP, "ports": {"A": "supply", "B": "tank"}}
+    built = circuit({"tank": reservoir, "supply": {"type": "volume", "volume": "1 L"}, "pump": reverse})
+    assert any("the pump is reversed" in str(each) for each in built.remarks)
+
+
 @pytest.mark.parametrize(("key", "value", "told"), [
     ("oil", "9 L", "above the liquid is air"), ("start", "2 bar", "closed: true"),
 ])  # fmt: skip

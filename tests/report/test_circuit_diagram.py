@@ -15,7 +15,7 @@ from nivel.system.hydraulics.components import COMPONENTS
 
 FILES = sorted((Path(__file__).parents[2] / "examples" / "hydraulics").glob("*.yaml"))
 SVG = "{http://www.w3.org/2000/svg}"
-WITHOUT_SYMBOL = {"volume"}  # a line with a name
+WITHOUT_SYMBOL = {"volume", "reservoir"}  # a line, and a tank at the end of each line that leads there
 
 FORTY = Path("forty-components")  # no file: a machine of seven functions
 

@@ -24,6 +24,7 @@ from nivel.machine.hydraulics import (
     Pump,
     ReducingValve,
     ReliefValve,
+    Reservoir,
     Section,
     SpoolValve,
     Tank,
@@ -47,7 +48,7 @@ class Circuit:
     @cached_property
     def low(self) -> frozenset[str]:
         """Tanks of low pressure."""
-        tanks = (each for each in self.components if isinstance(each, Tank))
+        tanks = (each for each in self.components if isinstance(each, Tank | Reservoir))
         return frozenset(each.name for each in tanks if isinstance(each.pressure, float | int) and each.pressure <= LOW)
 
     @cached_property

@@ -73,7 +73,7 @@ def circuit_of(record: Mapping[str, Any]) -> Circuit:
     for data in record.get("hydraulics") or ():
         kind, name = str(data["type"]), str(data["name"])
         gas = str(data.get("fluid")) in of_gas or (data.get("fluid") is None and of_gas == {*_fluids(record)} != set())
-        if kind == "tank" and not _is_supply(data):
+        if kind == "reservoir" or (kind == "tank" and not _is_supply(data)):
             drains.add(name)
             gases |= {name} if gas else set()
         elif _is_line(kind):

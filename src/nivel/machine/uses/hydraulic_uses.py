@@ -202,7 +202,7 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
         for a, b in kind.passes:
             if a in ports and b in ports:
                 joined.setdefault(ports[a], set()).add(ports[b])
-    tanks = {name for name, type_ in nodes.items() if type_ == "tank"}
+    tanks = {name for name, type_ in nodes.items() if type_ in ("tank", "reservoir")}
     for at, component in enumerate(components):
         kind, ports = COMPONENT_OF.get(str(entry(component, "type")), Component), ports_of(component)
         if kind.delivers not in ports or any(entry(component, key) is not None for key in BOUNDING):

@@ -217,12 +217,6 @@ def accumulator(data: Mapping[str, Any]) -> Symbol:
     return Symbol(body, 10.0, 22.0, {}, {"A": 0.0}, "supply", _setting(data, "volume", 1e3, "L"))
 
 
-def reservoir(_: Mapping[str, Any]) -> Symbol:
-    """A tank with a level."""
-    body = path("M-16 -10 V12 H16 V-10") + path("M-16 0 H16") + path("M-3 -4 h6 l-3 4 z M0 -18 V8")
-    return Symbol(body, 16.0, 18.0, {"P": 0.0}, {}, "supply")
-
-
 def cooler(_: Mapping[str, Any]) -> Symbol:
     """A cooler: heat leaves on both sides."""
     body = path("M0 -14 L14 0 L0 14 L-14 0 Z M0 -20 V20") + path("M-14 0 l6 -4 v8 z M14 0 l-6 -4 v8 z", "full")

@@ -83,7 +83,7 @@ OF_ACCUMULATORS = (
     accumulator.rub,
 )
 KINDS = (
-    ComponentKind(Reservoir, None, (reservoir.apply,), symbols.reservoir, {}, reservoir_nodes, present=add_reservoir),
+    ComponentKind(Reservoir, None, (reservoir.apply,), None, {}, reservoir_nodes, present=add_reservoir),
     ComponentKind(Volume, None, (), slopes={}, nodes=volume_nodes),
     ComponentKind(Tank, None, (), symbols.source, {}, tank_nodes),
     ComponentKind(

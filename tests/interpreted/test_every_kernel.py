@@ -557,9 +557,9 @@ def test_lines_and_gas_that_cools(integrator):
         "valve": {"type": "directional-valve", "ways": "2/2", "ports": {"P": "end", "A": "hose"}, "command": "time > 5e-5",
                   "switching": {"on_delay": "20 us", "off_delay": "40 ms", "time": "10 ms"}, **rated},
         "orifice": {"type": "orifice", "ports": {"A": "hose", "B": "drain"}, **rated},
-        "store": {**test_thermal_accumulator.STORE, "ports": {"A": "hose"}},
+        "store": {**test_thermal_accumulator.STORE, "ports": {"A": "hose"}, "piston_friction": "0.5 bar"},
     }  # fmt: skip
-    fluids = {"oil": {"grade": "HLP 46", "air": 0.01, "dissolved_air": 0.05}}
+    fluids = {"oil": {"grade": "HLP 46", "air": 0.01, "dissolved_air": 0.05, "isothermal": False}}
     short(circuit(hydraulics, fluids=fluids).record, integrator, steps=2, step=1e-4, coordinates="relative")
 
 

@@ -89,10 +89,10 @@ simulation: {duration: 0.3 s, step: 2 ms, output_interval: 10 ms}
 PRESSED = """
 format: 1
 name: pressed
-parameters: {radius: 0.1, speed: 0.02}
+parameters: {radius: 0.1, speed: -0.05}
 gravity: [0, 0, -9.81]
-bodies: {ball: {shape: {type: sphere, radius: radius}, mass: 2, position: [0, 0, radius - 5e-3], velocity: [0, 0, speed]}}
-forces: {floor: {type: contact, body: ball, plane: {body: ground}, stiffness: 1e5, restitution: 0.5}}
+bodies: {ball: {shape: {type: sphere, radius: radius}, mass: 2, position: [0, 0, radius - 3.4e-3], velocity: [0, 0, speed]}}
+forces: {floor: {type: contact, body: ball, plane: {body: ground}, stiffness: 1e5, restitution: 0.9}}
 simulation: {duration: 0.1 s, step: 0.2 ms, output_interval: 5 ms}
 """
 

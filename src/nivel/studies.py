@@ -165,17 +165,24 @@ class Study:
         if search is None:
             said = "the study says nothing of measurements: write `identify: {data: FILE.csv}`"
             raise ModelError(self.file.fault((), said))
-        found = self.machine.identify(
-            beside(self.file.file, search.data),
-            self._bounds,
-            deviations=search.deviations,
-            starts=search.starts,
-            seed=search.seed,
-            iterations=search.iterations,
-            time_limit=self.file.record.time_limit,
-            threads=threads,
-            listener=listener,
-        )
+        from nivel.analysis.optimise.table import NothingFoundError
+
+        try:
+            found = self.machine.identify(
+                beside(self.file.file, search.data),
+                self._bounds,
+                deviations=search.deviations,
+                starts=search.starts,
+                seed=search.seed,
+                iterations=search.iterations,
+                time_limit=self.file.record.time_limit,
+                threads=threads,
+                listener=listener,
+            )
+        except NothingFoundError:
+            raise
+        except ModelError as error:
+            raise ModelError([self._placed(each) for each in error.faults]) from None
         return replace(found, dataset=self._of_search(found.dataset, ["sum_of_squares"], {}))
 
     @property
@@ -238,8 +245,10 @@ class Study:
         }
 
     def _placed(self, fault: Fault) -> Fault:
-        """A fault of an output at its line."""
+        """A fault of an output, or of measurements, at its line."""
         steps = tuple(fault.path.split("."))
+        if not fault.line and steps[0] in ("data", "deviations"):
+            return self.file.fault(("identify", steps[0]), fault.message)
         if fault.line or steps[0] not in ("outputs", "save"):
             return fault
         return self.file.fault(steps, fault.message)

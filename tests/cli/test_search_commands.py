@@ -126,6 +126,11 @@ def test_identify_reads_the_table_beside_the_study(folder):
         ("optimise", STUDY + BEST.replace("output: speed", "output: sped"), "did you mean `speed`"),
         ("identify", STUDY + BEST, "write `identify: {data: FILE.csv}`"),
         ("identify", STUDY + FROM_BENCH, "bench.csv"),
+        (
+            "identify",
+            STUDY + FROM_BENCH.replace("bench.csv", "other.csv"),
+            "wrong.yaml:8:41 identify.deviations there are no measurements of `rail.displacement`; there are `rail.place`",
+        ),
         ("optimise", STUDY.replace("from: 20 N/m, to: 200 N/m", "from: 20 N/m") + BEST, "to"),
         (
             "optimise",
@@ -136,6 +141,7 @@ def test_identify_reads_the_table_beside_the_study(folder):
 )
 def test_faults_say_what_to_write(folder, command, study, message):
     (folder / "wrong.yaml").write_text(study)
+    (folder / "other.csv").write_text("time, rail.place\n0, 1\n1, 2\n")
     done = called(command, "wrong.yaml")
     assert done.exit_code == 2
     assert any(each in " ".join(done.output.split()) for each in message.split("|")), done.output

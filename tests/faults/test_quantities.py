@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 
 import nivel
+from nivel.analysis.trust.checks.quantities import group_of
+from nivel.system.layout import Variable
 
 FAULTS = Path(__file__).parent
 
@@ -48,3 +50,9 @@ def test_constant_numbers_have_no_range_to_be_wrong_by():
     """A speed that stays as it is, to round-off: its own magnitude is the scale."""
     trust = nivel.load(FAULTS / "t5-gap.yaml").simulate(verify=True, duration=0.1).trust
     assert all(item.verdict == "green" for item in trust.items if item.name == "quantities")
+
+
+def test_flags_that_jump_have_no_error_in_their_units():
+    """`sticks` of a contact is 0 or 1, `count` of many spheres a whole number: an error of 1.39 of them says nothing."""
+    for name, group in (("force.lies.sticks", ""), ("force.heap.count", ""), ("force.lies.depth", "forces")):
+        assert group_of(Variable(name, ("time",), "1", name, slice(0, 1)), frozenset()) == group

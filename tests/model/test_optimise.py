@@ -263,6 +263,22 @@ def test_methods_of_further_libraries_find_the_same_within_limits(oscillator, me
     assert known.objective * (1 - 1e-4) <= found.objective <= known.objective * (1 + near)
 
 
+@pytest.mark.filterwarnings("ignore::Warning:cma")
+def test_cma_searches_a_single_parameter(oscillator):
+    needs("cma")
+    given = "peak(rail.displacement)", {DAMPING: (1.0, 4.0)}
+    found = oscillator.optimise(*given, method="CMA-ES", iterations=10)
+    assert found.values[DAMPING] == pytest.approx(4.0, rel=1e-2)
+
+
+def test_cobyla_does_not_end_in_the_first_corner(oscillator):
+    """The speed of a damped block is least within the bounds, below that at the stiffest spring."""
+    given = "rms(rail.displacement.rate)", {STIFFNESS: (20.0, 200.0)}
+    known = oscillator.optimise(*given, method="differential-evolution")
+    found = oscillator.optimise(*given, method="COBYLA")
+    assert found.objective == pytest.approx(known.objective, rel=1e-3)
+
+
 @pytest.mark.parametrize(("method", "package", "module"), [("CMA-ES", "pycma", "cma"), ("TPE", "Optuna", "optuna")])
 def test_a_missing_library_is_told_before_anything_runs(oscillator, monkeypatch, method, package, module):
     monkeypatch.setitem(sys.modules, module, None)

@@ -151,6 +151,10 @@ def test_heights_of_files(tmp_path):
         (b"", "function: 1/x", "has no value everywhere on the rectangle: division by zero"),
         (b"", "function: slope*x", "`slope`"),
         (b"", "values: [[1, 2, 3], [1, 2], [1, 2, 3]]", "all rows need as many heights"),
+        (b"", "function: 0.1*x, unit: 1 mm", "`unit` is the length of one unit of a `file`"),
+        (b"", "values: [[1, 2, 3], [1, 2, 3], [1, 2, 3]], unit: 1 mm", "`unit` is the length of one unit of a `file`"),
+        (b"1,2,3\n1,2,3\n1,2,3\n", "file: ground.csv, points: [5, 5]", "`points` belongs to a `function`"),
+        (b"", "function: 0.1*x, points: 41", "write `points: [41, 41]`"),
         (b"", "unit: 1 m", "`values`, a `file` or a `function` must be given"),
     ],
 )

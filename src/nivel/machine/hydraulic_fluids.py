@@ -63,12 +63,13 @@ def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
     kind = COMPONENT_OF.get(type_)
     if kind is None:
         return
+    name = f"{'an' if type_[0] in 'aeiou' else 'a'} {type_}"
     if gas and not kind.gases:
         known = ", ".join(f"`{word}`" for word, each in COMPONENT_OF.items() if each.gases)
-        yield (*place, "type"), f"a {type_} is for liquids; circuits of gas know {known}"
+        yield (*place, "type"), f"{name} is for liquids; circuits of gas know {known}"
         return
     if not gas and not kind.liquids:
-        yield (*place, "type"), f"a {type_} is for gases; write a fluid such as `fluids: {{air: {{type: ideal-gas}}}}`"
+        yield (*place, "type"), f"{name} is for gases; write a fluid such as `fluids: {{air: {{type: ideal-gas}}}}`"
         return
     for key in OF_LIQUIDS if gas else OF_GASES:
         if entry(component, key) is not None:

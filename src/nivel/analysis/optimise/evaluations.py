@@ -74,7 +74,7 @@ def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
         except (TypeError, ValueError):
             numbers = []
         if len(numbers) not in (2, 3) or isinstance(given, str) or not numbers[0] < numbers[-1]:
-            message = f"bounds were expected, (1, 3), or (1, 2, 3) with a start between them, got {shown(given)}"
+            message = f"bounds were expected, (1, 3), or (1, 2, 3) with a start between them, the least first, got {shown(given)}"
             faults.append(Fault("", 0, 0, path, message))
             continue
         low, high = numbers[0], numbers[-1]

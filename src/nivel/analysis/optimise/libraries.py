@@ -28,7 +28,8 @@ def by_cma(objectives: Objectives, start: Array, most: int, tolerance: float, se
     cma: Any = needed("cma", "the method `CMA-ES` needs")
     given = {"bounds": [0.0, 1.0], "maxiter": most, "tolfun": tolerance, "seed": seed + 1, "verbose": -9}
     if len(start) == 1:  # which knows no single parameters: one that changes nothing goes beside it
-        return _by_cma(cma, lambda places: objectives([z[:1] for z in places]), np.append(start, 0.5), given)
+        best, said = _by_cma(cma, lambda places: objectives([z[:1] for z in places]), np.append(start, 0.5), given)
+        return best[:1], said
     return _by_cma(cma, objectives, start, given)
 
 

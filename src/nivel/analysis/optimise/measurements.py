@@ -14,7 +14,7 @@ from nivel.errors import Fault, ModelError
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
-from nivel.words.wording import shown, unknown_word
+from nivel.words.wording import shown
 
 Columns = tuple[np.ndarray, np.ndarray, str]  # times [s], values in SI units, and the unit of the heading
 
@@ -24,8 +24,9 @@ TIME: Final = "time"
 def signals_of(data: str | PathLike[str] | Mapping[str, Any], deviations: Mapping[str, float]) -> list[Signal]:
     """data : a file with a column `time` and columns with names of results; or (times, values) by name. Raises ModelError."""
     given = _arrays(data) if isinstance(data, Mapping) else _columns(fspath(data))
+    there = ", ".join(f"`{name}`" for name in given)
     faults = [
-        Fault("", 0, 0, f"deviations.{name}", unknown_word(name, list(given), "signal"))
+        Fault("", 0, 0, f"deviations.{name}", f"there are no measurements of `{name}`; there are {there}")
         for name in deviations
         if name not in given
     ]

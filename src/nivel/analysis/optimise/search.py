@@ -21,6 +21,9 @@ CONSTRAINED: Final = ("SLSQP", "trust-constr", "COBYLA")
 FAR: Final = 1e3
 # constraints are kept to this share of their limits
 KEPT: Final = 1e-6
+# trust radii of COBYLA in the unit cube: with its own first one, 1, it may end in a corner after three runs
+FIRST_RADIUS: Final = 0.25
+LAST_RADIUS: Final = 1e-6
 # weight of broken constraints for methods that know none
 WEIGHT: Final = 1e3
 PENALISED: Final = 1e6
@@ -72,6 +75,8 @@ class Search:
             given["jac"] = self._slope
         if self._method in ("SLSQP", "L-BFGS-B"):
             given["options"]["ftol"] = self._tolerance
+        if self._method == "COBYLA":
+            given["options"] |= {"rhobeg": FIRST_RADIUS, "tol": LAST_RADIUS}
         objective = self._objective
         if (self._rows or self._equal) and self._method in CONSTRAINED:
             given["constraints"] = self._constraints()

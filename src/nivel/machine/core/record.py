@@ -228,6 +228,7 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
     return line["msg"]
 
 
+_ALONG_TWO_AXES = ("HeightField",)  # records whose pairs of numbers are along x and y
 _IN_SPACE = ("position", "point", "velocity", "centre_of_mass", "centre", "gravity", "vector", "axis", "x_axis")
 
 
@@ -255,6 +256,8 @@ def _line_to_write(line: ErrorDetails, record: type[Record]) -> str:
     """What would be right where a list or a mapping was expected, as the end of the sentence."""
     field = next((step for step in reversed(line["loc"]) if isinstance(step, str)), record.__name__.lower())
     if line["type"] == "tuple_type":
+        if record.__name__ in _ALONG_TWO_AXES:
+            return f"; write `{field}: [{line['input']}, {line['input']}]`"
         return list_line(field, line["input"])
     return mapping_line(field, line["input"]) if _SENTENCES[line["type"]].startswith("a mapping") else ""
 

@@ -72,9 +72,15 @@ class HeightField(Checked):
     )
 
     def problems(self) -> Iterator[Problem]:
+        if self.file is None and self.unit != 1.0:
+            yield superfluous(
+                "unit", "is the length of one unit of a `file`; write lengths of heights with their units"
+            )
         if self.function is not None:
             yield from self._problems_of_function()
             return
+        if self.points != POINTS:
+            yield superfluous("points", "belongs to a `function`; rows of heights have their own number")
         if self.values is None:
             if self.file is None:
                 yield Problem((), "`values`, a `file` or a `function` must be given: `function: 0.1*x^2`")

@@ -269,6 +269,8 @@ def _named(name: str) -> Node:
         element, quantity, *rest = name.split(".")
         if quantity in _VECTORS and rest in (["x"], ["y"], ["z"]):
             raise ExpressionError(f"`{name}` has more than one dot; write `{element}.{_VECTORS[quantity]}{rest[0]}`")
+        if rest == ["rate"]:
+            raise ExpressionError(f"`{name}` has more than one dot; write `{element}.{quantity}_rate`")
         raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
     return Signal(name)
 

@@ -33,6 +33,7 @@ AT_REST, OWN = 1e-3, 1e-6
 ROUNDED = 1e-9
 # Positions and what is made of them have lines of their own, constraints and energies too.
 ELSEWHERE = ("position", "orientation", "joint_coordinate", "constraint_", "axis_")
+FLAGS = (".sticks", ".count")  # whole numbers, which jump
 ENERGIES = ("kinetic_energy", "potential_energy", "dissipated_energy", "external_work", "energy_error", "total_energy")
 
 
@@ -122,7 +123,7 @@ def _worst(run: Run, estimate: Estimate, group: Group) -> QuantityError | None:
 def group_of(variable: Variable, components: frozenset[str]) -> str:
     """The group that a variable of a result belongs to; empty where its errors are told elsewhere."""
     name = variable.name
-    if name.startswith(ELSEWHERE) or name in ENERGIES or name.endswith("_local"):
+    if name.startswith(ELSEWHERE) or name in ENERGIES or name.endswith(("_local", *FLAGS)):
         return ""
     # masses and pressures of volumes, and sums of energies, of which pressures and balances speak
     if name.startswith("state.") and name.split(".")[1] in components | {"hydraulics"}:

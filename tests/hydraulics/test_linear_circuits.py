@@ -5,10 +5,11 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from scipy.signal import cont2discrete
 
 from circuits import BAR, circuit
-from simulating import slide
+from simulating import machine, slide
 
 MASS, BORE, STROKE, SUPPLY, BETA, RHO = 400.0, 0.05, 0.6, 100 * BAR, 1.2e9, 860.0
 AREA = 0.25 * math.pi * BORE**2
@@ -218,3 +219,24 @@ def test_the_margins_of_a_digital_servo_are_those_at_which_it_becomes_unstable()
     L = 5.0 * np.linalg.solve(z * np.eye(4) - Phi, Gamma)[0, 0]
     assert abs(L) == pytest.approx(1.0, rel=1e-2)
     assert loop.phase_margin == pytest.approx(math.degrees(np.angle(-L)), abs=1.0)
+
+
+@pytest.mark.parametrize(("volume", "stable"), [(1e-3, False), (50e-3, True)])
+def test_a_pump_on_its_cut_off_curve_alone_on_a_volume_has_the_poles_of_its_cubic(volume, stable):
+    """(s + g) (s² + 2 ζ ω s + ω²) + k ω² = 0, k = β Q/(V range), g that of the leak: it grows where k > 2 ζ ω, about."""
+    full, width, leak, ratio, omega = 1e-3, 10 * BAR, 2e-11, 0.8, 12 * math.pi
+    hydraulics = {
+        "tank": {"type": "tank", "pressure": 1.0 * BAR},
+        "line": {"type": "volume", "volume": volume},
+        "pump": {
+            "type": "pump", "ports": {"A": "tank", "B": "line"}, "displacement": full / 150, "speed": 150, "frequency": "6 Hz",
+            "leakage": leak, "cut_off_curve": {"pressures": [200 * BAR, 200 * BAR + width], "settings": [1, 0]},
+        },
+    }  # fmt: skip
+    model = machine({"hydraulics": hydraulics, "fluids": OIL}).linearise()
+    p = BAR + brentq(lambda d: full * (1 - (d - 200 * BAR) / width) - leak * d, 200 * BAR, 200 * BAR + width)
+    k, g = bulk_modulus(p) / volume * full / width, bulk_modulus(p) / volume * leak
+    wanted = np.roots([1, 2 * ratio * omega + g, omega**2 + 2 * ratio * omega * g, omega**2 * (g + k)])
+    # oil that the pump takes in is less dense by 2 %
+    assert np.sort_complex(model.eigenvalues) == pytest.approx(np.sort_complex(wanted), rel=0.02)
+    assert model.stable == stable == (k < 2 * ratio * omega)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from circuits import BAR, PA, circuit, history
+from hydraulic_zoo import machine_with_warm_oil
 from nivel.errors import ModelError
 from nivel.machine.hydraulics.grades import GRADES
 
@@ -272,3 +273,25 @@ def test_a_pump_that_delivers_into_the_reservoir_is_reversed():
 def test_faulty_reservoirs_are_refused(key, value, told):
     with pytest.raises(ModelError, match=told):
         circuit({"tank": {"type": "reservoir", "volume": "8 L", "oil": "6 L", key: value}})
+
+
+def test_errors_of_pressures_that_the_report_states_at_1_ms_are_the_true_ones_within_a_factor_of_three():
+    """Warm oil pushes a block through a hose in two segments: the largest error of all pressures, and the mean of the worst one."""
+    built = machine_with_warm_oil()
+    settings = {"duration": 0.1, "output_interval": 1e-3}
+    exact = built.simulate(integrator="radau", tolerance=1e-9, **settings)
+    result = built.simulate(integrator="extrapolated-euler", step=1e-3, verify=True, **settings)
+    (line,) = [each for each in result.trust.items if each.name == "quantities" and ": pressures " in each.text]
+    off = {
+        name: np.abs(history(result, name) - history(exact, name))
+        for name in result.variables
+        if name.startswith("hydraulics.") and ".pressure" in name
+    }
+    largest = max(map(np.max, off.values())) / BAR
+    assert largest > 5
+    stated = float(line.text.partition("within ")[2].split(" bar")[0])
+    assert largest / 3 < stated < 3 * largest
+    spans = {name: np.ptp(history(exact, name)) for name in off}
+    means = {name: np.mean(off[name]) / span for name, span in spans.items() if span > 1e-3 * BAR}
+    assert means[line.row] / 3 < line.fraction < 3 * means[line.row]
+    assert line.fraction > max(means.values()) / 3

@@ -1,4 +1,4 @@
-"""Rows that CalculiX makes itself: rotations of rigid groups, incompatible modes, shells; with CalculiX where it is installed."""
+"""Rows that CalculiX makes itself: rotations of rigid groups, incompatible modes, beams; with CalculiX where it is installed."""
 
 import shutil
 import subprocess
@@ -76,8 +76,8 @@ def test_incompatible_modes_are_rows_without_a_node_and_with_their_mass(tmp_path
     np.testing.assert_array_equal(mass.full.toarray(), M.toarray())
 
 
-@pytest.mark.parametrize("kind", ["S4", "S8R", "B32R", "CPS8"])
-def test_shells_and_beams_of_calculix_are_refused_with_their_line(tmp_path, kind):
+@pytest.mark.parametrize("kind", ["M3D4", "B32R", "CPS8"])
+def test_beams_and_plane_elements_of_calculix_are_refused_with_their_line(tmp_path, kind):
     with pytest.raises(FormatError, match=rf"line 65: {kind}: CalculiX computes with a solid in place"):
         refuse_expanded(mesh(tmp_path, kind=kind))
 
@@ -110,9 +110,9 @@ def test_decks_run_by_calculix_have_the_same_body(tmp_path):
     rows = [line.split() for line in (tmp_path / "own.dat").read_text().splitlines()]
     own = [float(row[3]) for row in rows if len(row) == 5 and row[0].isdecimal()]
     np.testing.assert_allclose(found["rigid"], own[6:10], rtol=2e-3)
-    (tmp_path / "shell.inp").write_text(deck(kind="S8", ends=RIGID, extra=(64, 65)), encoding="utf-8")
+    (tmp_path / "membrane.inp").write_text(deck(kind="M3D8", ends=RIGID, extra=(64, 65)), encoding="utf-8")
     (tmp_path / "rigid.yaml").write_text(
-        (tmp_path / "rigid.yaml").read_text().replace("nodes: rigid.inp", "nodes: shell.inp"), encoding="utf-8"
+        (tmp_path / "rigid.yaml").read_text().replace("nodes: rigid.inp", "nodes: membrane.inp"), encoding="utf-8"
     )
-    with pytest.raises(ModelError, match=r"shell.inp:67:1: matrices.nodes: S8: CalculiX computes with a solid"):
+    with pytest.raises(ModelError, match=r"membrane.inp:67:1: matrices.nodes: M3D8: CalculiX computes with a solid"):
         reduce(tmp_path / "rigid.yaml")

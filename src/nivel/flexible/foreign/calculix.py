@@ -1,4 +1,4 @@
-"""Rows that CalculiX makes itself: rotations of rigid groups, incompatible modes of C3D8I, and solids in place of shells."""
+"""Rows that CalculiX makes itself: rotations of rigid groups, incompatible modes of C3D8I, and solids in place of beams."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from nivel.flexible.foreign.matrix import FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh
+from nivel.flexible.foreign.shell_sections import SHELLS
 
 INCOMPATIBLE = "C3D8I"
 # elements that CalculiX replaces by solids whose nodes are in no file
@@ -14,9 +15,9 @@ EXPANDED = re.compile(r"(S\d|M3D|CPS|CPE|CAX|B\d|T\dD|PIPE)")
 
 
 def refuse_expanded(mesh: Mesh) -> None:
-    """Raise FormatError with the line where the mesh has shells or beams."""
+    """Raise FormatError with the line where the mesh has beams, membranes or plane elements."""
     for kind, line in mesh.types.items():
-        if EXPANDED.match(kind):
+        if EXPANDED.match(kind) and kind not in SHELLS:
             raise FormatError(
                 f"{kind}: CalculiX computes with a solid in place of this element, and its matrices have the nodes of that, which no "
                 "file has; model it by solids such as C3D20R or C3D8I, or take matrices of another program",

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from nivel.flexible.foreign.matrix import FormatError, text_lines
 from nivel.flexible.foreign.nastran import read_grids, table
+from nivel.flexible.foreign.shell_sections import SHELLS, Shell, ShellSection, section
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -50,7 +51,8 @@ class Mesh:
     """Numbers (n,) and places (n, 3) of nodes; node sets by name; `elements` numbers of nodes of solids, by type.
 
     only_solids : whether there are no other elements. types : line of the first element of each type. young,
-    poisson, density : of the only material, or None.
+    poisson, density : of the only material, or None. element_sets : numbers of elements by the name of their set in capitals.
+    of_nodes : first keyword that gives normals or thicknesses by nodes, with its line, or None.
     """
 
     numbers: Whole
@@ -64,6 +66,10 @@ class Mesh:
     density: float | None = None
     types: dict[str, int] = field(default_factory=dict)
     rigid: list[RigidGroup] = field(default_factory=list)
+    shells: list[Shell] = field(default_factory=list)
+    sections: list[ShellSection] = field(default_factory=list)
+    element_sets: dict[str, list[int]] = field(default_factory=dict)
+    of_nodes: tuple[str, int] | None = None
 
 
 def read_mesh(path: Path) -> Mesh:
@@ -101,7 +107,8 @@ def _table(path: Path) -> tuple[Whole, Array]:
 
 
 class _Input:
-    """Reads the keywords *NODE, *ELEMENT, *NSET, *ELASTIC, *DENSITY, *RIGID BODY and *COUPLING; others are passed over."""
+    """Reads the keywords *NODE, *ELEMENT, *NSET, *ELSET, *ELASTIC, *DENSITY, *SHELL SECTION, *RIGID BODY and *COUPLING; others are
+    passed over."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -116,6 +123,11 @@ class _Input:
         self.types: dict[str, int] = {}
         self.rigid: list[RigidGroup] = []
         self.coupling = 0
+        self.shells: list[Shell] = []
+        self.section: int | None = None
+        self.of_nodes: tuple[str, int] | None = None
+        self.sections: list[ShellSection] = []
+        self.element_sets: dict[str, list[int]] = {}
 
     def mesh(self) -> Mesh:
         keyword, options = "", {}
@@ -131,7 +143,7 @@ class _Input:
             if keyword == "INSTANCE":
                 raise FormatError(f"*INSTANCE moves its nodes by `{line[:60]}`; write a flat input file", number)
             try:
-                self._data(keyword, options, [part.strip() for part in line.split(",")])
+                self._data(keyword, options, [part.strip() for part in line.split(",")], number)
             except ValueError:
                 raise FormatError(f"this line of *{keyword} cannot be read: `{line[:60]}`", number) from None
         young, poisson = ([*self.values.get("ELASTIC", []), None, None])[:2]
@@ -147,6 +159,10 @@ class _Input:
             density,
             self.types,
             self.rigid,
+            self.shells,
+            self.sections,
+            self.element_sets,
+            self.of_nodes,
         )
 
     def _begin(self, keyword: str, options: dict[str, str], line: int) -> None:
@@ -154,6 +170,8 @@ class _Input:
             raise FormatError("*INCLUDE is not followed; write the mesh into one file", line)
         if keyword == "NODE" and options.get("SYSTEM"):
             raise FormatError("*NODE with SYSTEM gives nodes in axes of their own; write them in global ones", line)
+        if keyword in ("NORMAL", "NODAL THICKNESS"):
+            self.of_nodes = self.of_nodes or (keyword, line)
         self.instances += keyword == "INSTANCE"
         if self.instances > 1:
             raise FormatError(
@@ -163,6 +181,8 @@ class _Input:
         if keyword == "ELEMENT":
             self.types.setdefault(options.get("TYPE", "").upper(), line)
             self.others |= options.get("TYPE", "").upper() not in SOLIDS
+        if keyword == "SHELL SECTION":
+            self.section = line
         self._bind(keyword, options, line)
 
     def _bind(self, keyword: str, options: dict[str, str], line: int) -> None:
@@ -183,7 +203,7 @@ class _Input:
             case "KINEMATIC" if self.coupling:
                 self.rigid.append(RigidGroup(self.coupling, None, keyword, line))
 
-    def _data(self, keyword: str, options: dict[str, str], parts: list[str]) -> None:
+    def _data(self, keyword: str, options: dict[str, str], parts: list[str], line: int) -> None:
         match keyword:
             case "NODE":
                 self.numbers.append(int(parts[0]))
@@ -191,26 +211,56 @@ class _Input:
                 if "NSET" in options:
                     self.sets.setdefault(options["NSET"], []).append(int(parts[0]))
             case "ELEMENT" if options.get("TYPE", "").upper() in SOLIDS:
-                self._element(options["TYPE"].upper(), parts)
+                self._element(options, parts)
+            case "ELEMENT" if options.get("TYPE", "").upper() in SHELLS:
+                self._shell(options, parts, line)
             case "NSET":
-                self._set(options, [part for part in parts if part])
+                _set(self.sets, options.get("NSET", ""), options, [part for part in parts if part])
+            case "ELSET":
+                _set(
+                    self.element_sets,
+                    options.get("ELSET", "").upper(),
+                    options,
+                    [part.upper() for part in parts if part],
+                )
+            case "SHELL SECTION" if self.section is not None:
+                self.sections.append(section(self.section, options, parts[0]))
+                self.section = None
             case "ELASTIC" | "DENSITY" if keyword not in self.values:
                 self.values[keyword] = [float(part) for part in parts if part]
 
-    def _element(self, kind: str, parts: list[str]) -> None:
+    def _element(self, options: dict[str, str], parts: list[str]) -> None:
+        kind = options["TYPE"].upper()
+        if not self.pending:
+            self._in_set(options, int(parts[0]))
         self.pending += [int(part) for part in parts if part]
         if len(self.pending) > SOLIDS[kind]:
             self.elements.setdefault(kind, []).append(self.pending[1 : SOLIDS[kind] + 1])
             self.pending = []
 
-    def _set(self, options: dict[str, str], parts: list[str]) -> None:
-        members = self.sets.setdefault(options.get("NSET", ""), [])
-        if "GENERATE" in options:
-            first, last, step = [int(part) for part in [*parts, "1"][:3]]
-            members += range(first, last + 1, step)
-            return
-        for part in parts:
-            members += [int(part)] if part.isdecimal() else self.sets.get(part, [])
+    def _shell(self, options: dict[str, str], parts: list[str], line: int) -> None:
+        kind = options["TYPE"].upper()
+        self.pending += [int(part) for part in parts if part]
+        if len(self.pending) > SHELLS[kind]:
+            number, *nodes = self.pending[: SHELLS[kind] + 1]
+            self.shells.append(Shell(kind, number, tuple(nodes), line))
+            self._in_set(options, number)
+            self.pending = []
+
+    def _in_set(self, options: dict[str, str], number: int) -> None:
+        if "ELSET" in options:
+            self.element_sets.setdefault(options["ELSET"].upper(), []).append(number)
+
+
+def _set(sets: dict[str, list[int]], name: str, options: dict[str, str], parts: list[str]) -> None:
+    """Add the members on a line to the set."""
+    members = sets.setdefault(name, [])
+    if "GENERATE" in options:
+        first, last, step = [int(part) for part in [*parts, "1"][:3]]
+        members += range(first, last + 1, step)
+        return
+    for part in parts:
+        members += [int(part)] if part.isdecimal() else sets.get(part, [])
 
 
 def _number(options: dict[str, str], key: str, keyword: str, line: int) -> int:

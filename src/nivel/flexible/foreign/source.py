@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh, read_mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.shell_nodes import followers
+from nivel.flexible.foreign.shells import Expansion, expansion
 from nivel.flexible.foreign.solids import blocks_of, first_inverted
 from nivel.flexible.foreign.triplet_files import read_abaqus, read_calculix, read_freedoms, read_matrix_market
 from nivel.flexible.model.mass import from_matrix
@@ -47,17 +50,23 @@ def matrix_model(located: Located) -> tuple[FiniteElementModel, NodeSets]:
     given = located.record.matrices
     assert given is not None
     mesh = _opened(located, "nodes", given.nodes, read_mesh)
+    shells: Expansion | None = None
+    if given.format == "calculix" and mesh.shells:
+        _in_nodes(located, given, lambda: refuse_expanded(mesh))
+        shells = _in_nodes(located, given, lambda: expansion(mesh))
     try:
-        read = _matrices(located, given, mesh)
+        read = _matrices(located, given, mesh, shells)
     except ModelError:
-        if given.format == "calculix":  # nodes of the solids in place of shells stand there many times
+        if given.format == "calculix":  # nodes of the solids in place of beams stand there many times
             _in_nodes(located, given, lambda: refuse_expanded(mesh))
         raise
     if given.format == "calculix":
         read = _in_nodes(located, given, lambda: _of_calculix(read, mesh))
-    _check_nodes(located, mesh, read)
+    if shells is not None:
+        mesh = shells.mesh
+    _check_nodes(located, mesh, read, shells)
     length, mass = LENGTHS[given.units.length], MASSES[given.units.mass]
-    return _model(located, given, mesh, read, length, mass)
+    return _model(located, given, mesh, read, shells, length, mass)
 
 
 def _of_calculix(read: _Read, mesh: Mesh) -> _Read:
@@ -96,8 +105,13 @@ def _opened(located: Located, key: str, name: str, reader: Callable[[Path], Any]
         raise ModelError(located.fault(place, f"`{path}` cannot be read: {error.strerror}")) from None
 
 
-def _matrices(located: Located, given: Matrices, mesh: Mesh) -> _Read:
-    freedoms = None if given.freedoms is None else _opened(located, "freedoms", given.freedoms, read_freedoms)
+def _matrices(located: Located, given: Matrices, mesh: Mesh, shells: Expansion | None) -> _Read:
+    freedoms = None
+    if given.freedoms is not None:
+        reader = partial(read_freedoms, repeated=shells is not None)
+        freedoms = _opened(located, "freedoms", given.freedoms, reader)
+        if shells is not None:
+            freedoms = _in_nodes(located, given, partial(shells.labels, freedoms))
     match given.format:
         case "nastran" | "op4":
             reader = read_dmig if given.format == "nastran" else read_op4
@@ -170,10 +184,10 @@ def _hole(numbers: Whole) -> str:
     return f"; the numbers of the nodes have a hole after {before} (the next is {int(numbers[gaps[0] + 1])}){more}"
 
 
-def _check_nodes(located: Located, mesh: Mesh, read: _Read) -> None:
+def _check_nodes(located: Located, mesh: Mesh, read: _Read, shells: Expansion | None) -> None:
     """Refuse rows and elements of nodes that do not exist, and directions that are none. Raises ModelError."""
     known = set(mesh.numbers.tolist())
-    missing = sorted({node for node, _ in read.labels} - known - internal_nodes(read.labels, mesh))
+    missing = sorted({node for node, _ in read.labels} - known - _inside(read, mesh, shells))
     faults = []
     if missing:
         names = ", ".join(map(str, missing[:8])) + (" …" if len(missing) > 8 else "")
@@ -190,10 +204,22 @@ def _check_nodes(located: Located, mesh: Mesh, read: _Read) -> None:
         raise ModelError(faults)
 
 
+def _inside(read: _Read, mesh: Mesh, shells: Expansion | None) -> set[int]:
+    """Numbers of rows without a node: incompatible modes, and stretches of knots of shells."""
+    stretches = set() if shells is None else {knot.stretch for knot in shells.knots.values()}
+    return internal_nodes(read.labels, mesh) | stretches
+
+
 def _model(
-    located: Located, given: Matrices, mesh: Mesh, read: _Read, length: float, mass_unit: float
+    located: Located,
+    given: Matrices,
+    mesh: Mesh,
+    read: _Read,
+    shells: Expansion | None,
+    length: float,
+    mass_unit: float,
 ) -> tuple[FiniteElementModel, NodeSets]:
-    inside = internal_nodes(read.labels, mesh)
+    inside = _inside(read, mesh, shells)
     used = sorted({node for node, _ in read.labels} - inside)
     place = {node: k for k, node in enumerate(used)}
     freedoms = np.full((len(used), 6), -1, dtype=np.int64)
@@ -206,9 +232,20 @@ def _model(
     K = scale @ read.stiffness.ordered(read.labels) @ scale * mass_unit
     M = scale @ read.mass.ordered(read.labels) @ scale * mass_unit
     _check_matrices(located, sp.csc_array(K), sp.csc_array(M), read.labels)
+    mass = from_matrix(position, freedoms, sp.csc_array(M))
+    motion, stands_for = sp.csr_array(sp.eye_array(len(read.labels))), {}
+    if shells is not None:
+        following = followers(shells, read.labels, position, freedoms, place, length)
+        freedoms = np.concatenate([freedoms, following.freedoms])
+        position = np.concatenate([position, following.position])
+        motion = sp.csr_array(sp.vstack([motion, following.motion]))
+        place |= {node: len(used) + k for k, node in enumerate(following.numbers)}
+        used, stands_for = [*used, *following.numbers], following.stands_for
     dropped = len(mesh.numbers) - len(used)
     notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
-    notes += (f"{len(inside)} incompatible modes of elements C3D8I are rows without a node",) if inside else ()
+    incompatible = len(internal_nodes(read.labels, mesh))
+    notes += (f"{incompatible} incompatible modes of elements C3D8I are rows without a node",) if incompatible else ()
+    notes += () if shells is None else shells.notes
     sets = {
         name: np.array(sorted({place[node] for node in members if node in place}), dtype=np.int64)
         for name, members in mesh.sets.items()
@@ -220,8 +257,9 @@ def _model(
         position=position,
         freedoms=freedoms,
         stiffness=sp.csc_array(K),
-        mass=from_matrix(position, freedoms, sp.csc_array(M)),
-        expansion=sp.csr_array(sp.eye_array(len(read.labels))),
+        mass=mass,
+        expansion=motion,
+        stands_for=stands_for,
         elements=elements,
         triangles=triangles,
         solids=solids,

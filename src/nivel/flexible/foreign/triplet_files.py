@@ -74,9 +74,9 @@ def read_calculix(path: Path, freedoms: tuple[Label, ...]) -> FileMatrix:
     return FileMatrix(from_triplets(i, j, data[:, 2], len(freedoms)), freedoms)
 
 
-def read_freedoms(path: Path) -> tuple[Label, ...]:
+def read_freedoms(path: Path, *, repeated: bool = False) -> tuple[Label, ...]:
     """Node and direction of each row: lines such as ``17.2`` (CalculiX .dof), or a table (.csv) with the columns node and
-    direction (1 … 6, or x, y, z, rx, ry, rz).
+    direction (1 … 6, or x, y, z, rx, ry, rz). repeated : whether a row of the .dof may stand many times, as of nodes of shells.
 
     Raises FormatError.
     """
@@ -91,7 +91,7 @@ def read_freedoms(path: Path) -> tuple[Label, ...]:
         if not node.isdecimal() or direction.strip() not in WORDS:
             raise FormatError(f"a node and a direction, such as `17.2`, was expected, got `{text[:40]}`", number)
         out.append((int(node), WORDS[direction.strip()]))
-    return _each_once(out)
+    return tuple(out) if repeated and out else _each_once(out)
 
 
 def _from_table(path: Path) -> tuple[Label, ...]:

@@ -51,6 +51,8 @@ class FiniteElementModel:
     freedoms : (n, 6) numbers of the freedoms x, y, z, rx, ry, rz of the nodes among all F; -1 where a node has none.
     stiffness : (N, N) and mass: of the N independent freedoms.
     expansion : (F, N) all freedoms from the independent ones: the identity until surfaces are tied to reference nodes.
+    Its first N rows are then the independent ones, if nodes follow others from the start, as those of shells.
+    stands_for : of nodes that follow others, or that others follow: the places of the nodes that are tied in their place.
     names : of nodes, by name → place among the nodes.
     triangles : (t, 3), lines : (l, 2) places of nodes, for pictures. solids : (e, 4 or 10) tetrahedra, for export.
     volume : [m³] of the meshed solid, or None. notes : what was assumed while reading, for the report.
@@ -64,6 +66,7 @@ class FiniteElementModel:
     mass: Mass
     expansion: Sparse
     names: Mapping[str, int] = field(default_factory=dict)
+    stands_for: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
     elements: Elements | None = None
     triangles: Whole = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
     lines: Whole = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))

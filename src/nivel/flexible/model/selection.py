@@ -22,7 +22,19 @@ NodeSets = Mapping[str, Whole]  # places of nodes by the name of the set
 def chosen_nodes(
     model: FiniteElementModel, sets: NodeSets, located: Located, name: str, record: InterfaceRecord
 ) -> Whole | Fault:
-    """Places of the nodes of the interface `name`; a fault where there are none."""
+    """Places of the nodes of the interface `name`; a fault where there are none.
+
+    Of several nodes, those that follow others are replaced by what they stand for: a node of shells by its nodes through the thickness.
+    """
+    found = _chosen(model, sets, located, name, record)
+    if isinstance(found, Fault) or record.node is not None or not model.stands_for:
+        return found
+    return np.unique([own for node in found.tolist() for own in model.stands_for.get(node, (node,))]).astype(np.int64)
+
+
+def _chosen(
+    model: FiniteElementModel, sets: NodeSets, located: Located, name: str, record: InterfaceRecord
+) -> Whole | Fault:
     place = ("interfaces", name)
     if record.node is not None:
         found = _by_word(model, record.node)

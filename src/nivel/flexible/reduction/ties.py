@@ -107,19 +107,22 @@ def _tied(
 ) -> FiniteElementModel:
     if not references:
         return model
-    old = model.expansion.shape[0]
+    old, count = model.expansion.shape
     position = np.concatenate([model.position, np.array(references)])
     added = numbered(np.ones((len(references), 6), dtype=bool)) + old
     freedoms = np.concatenate([model.freedoms, added])
-    total = old + added.size
+    within = np.where(
+        freedoms >= old, freedoms - old + count, freedoms
+    )  # rows: the independent ones, then those of the references
     dependent: dict[int, tuple[Whole, Array]] = {}  # row → columns and values
     for each in attachments:
         if not len(each.tied):
             continue
         rows = _rigid_rows if ties[each.name] == "rigid" else _average_rows
-        dependent.update(rows(position, freedoms, each))
-    expansion = _expansion(total, dependent)
-    own = expansion[:old]
+        dependent.update(rows(position, within, each))
+    independent = _expansion(count + added.size, dependent)
+    own = independent[:count]
+    expansion = sp.csr_array(sp.vstack([model.expansion @ own, independent[count:]]))
     return model.changed(
         node_ids=np.concatenate([model.node_ids, model.node_ids.max() + 1 + np.arange(len(references))]),
         position=position,

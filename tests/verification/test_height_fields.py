@@ -9,6 +9,7 @@ import pytest
 from nivel.errors import ModelError
 from nivel.files import read_machine
 from nivel.machine.bodies.surface import surface_arrays
+from nivel.machine.plausible import remarks
 from simulating import G, machine, simulate
 
 CONTACT = {"type": "contact", "stiffness": 1e5, "exponent": 1, "restitution": 0.5}
@@ -162,6 +163,17 @@ def test_what_is_wrong_with_heights_is_said(tmp_path, content, given, said):
     with pytest.raises(ModelError, match="heights") as error:
         read(tmp_path, "ground.csv", content, given)
     assert said in str(error.value)
+
+
+@pytest.mark.parametrize(("radius", "count"), [(0.2, 0), (0.3, 1)])
+def test_a_ball_that_is_larger_than_a_valley_is_remarked_on(tmp_path, radius, count):
+    """z = 2 y² curves with 1/4 m at its bottom."""
+    (tmp_path / "machine.yaml").write_text(
+        FILE.format("function: 2*y^2, points: [5, 401]").replace("radius: 0.1", f"radius: {radius}"), encoding="utf-8"
+    )
+    found = [each for each in remarks(read_machine(tmp_path / "machine.yaml")) if each.place == "forces.rolls.heights"]
+    assert len(found) == count
+    assert all("curves with a radius of 0.25 m, less than the 0.3 m of `ball`" in each.message for each in found)
 
 
 def test_an_ellipsoid_refuses_heights():

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
-from nivel.machine.bodies.shape import Extrusion, Mesh
+from nivel.machine.bodies.shape import Capsule, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import share_of_hull
 from nivel.machine.circuit_remarks import circuit_remarks
 from nivel.machine.core.record import Record
@@ -48,6 +48,7 @@ def remarks(machine: MachineRecord) -> Iterator[Remark]:
     yield from _of_volumes(machine)
     yield from _unfillable(machine)
     yield from _hollow(machine)
+    yield from _narrow(machine)
     for place, message in circuit_remarks(machine.hydraulics):
         yield Remark(f"hydraulics.{place}", message, math.inf)
 
@@ -122,6 +123,23 @@ def _hollow(machine: MachineRecord) -> Iterator[Remark]:
                 )
                 message = f"`{name}` is concave, and its hull touches, of which it fills {100 * share:.0f} %; {advice}"
                 yield Remark(f"forces.{force.name}", message, math.inf)
+
+
+def _narrow(machine: MachineRecord) -> Iterator[Remark]:
+    """Balls on ground with heights that curves more than they do."""
+    bodies = {body.name: body for body in machine.bodies}
+    for force in machine.forces:
+        if not isinstance(force, Contact) or force.heights is None or force.body is None:
+            continue
+        radius = getattr(bodies[force.body].shape, "radius", None)
+        curvature = force.heights.greatest_curvature
+        if not isinstance(bodies[force.body].shape, Sphere | Capsule) or radius is None or radius * curvature <= 1.0:
+            continue
+        message = (
+            f"a valley of the ground curves with a radius of {1.0 / curvature:.3g} m, less than the {radius:.3g} m of "
+            f"`{force.body}`, which touches one side at a time there, and jumps between them; write smoother heights, or a smaller radius"
+        )
+        yield Remark(f"forces.{force.name}.heights", message, math.inf)
 
 
 def _unfillable(machine: MachineRecord) -> Iterator[Remark]:

@@ -113,6 +113,18 @@ class HeightField(Checked):
             return np.array(self.values, dtype=float)
         return _values_of(self.function, self.size, (int(self.points[0]), int(self.points[1])))
 
+    @property
+    def greatest_curvature(self) -> float:
+        """Of the valleys [1/m], by second differences along x and along y; 0 where there are none."""
+        heights = self.heights
+        found = 0.0
+        for axis in (0, 1):
+            side = self.size[1 - axis] / (heights.shape[axis] - 1)
+            slope, bend = np.gradient(heights, side, axis=axis), np.diff(heights, 2, axis=axis) / side**2
+            inner = slope[1:-1] if axis == 0 else slope[:, 1:-1]
+            found = max(found, float(np.max(bend / (1.0 + inner**2) ** 1.5)))
+        return found
+
 
 @lru_cache(maxsize=16)
 def _values_of(function: str, size: tuple[float, float], points: tuple[int, int]) -> NDArray[np.float64]:

@@ -300,6 +300,15 @@ CASES = {  # what a strip is like: smooth, with nodes off the middle; with a ste
 }
 
 
+def by_calculix(folder, text):
+    """[Hz] of the elastic modes by CalculiX itself; it writes the matrices too."""
+    for name, each in (("deck", text), ("own", text.replace("*FREQUENCY, SOLVER=MATRIXSTORAGE", "*FREQUENCY\n12"))):
+        (folder / f"{name}.inp").write_text(each, encoding="utf-8")
+        subprocess.run(["ccx", name], cwd=folder, check=True, capture_output=True)
+    rows = [line.split() for line in (folder / "own.dat").read_text().splitlines()]
+    return [float(row[3]) for row in rows if len(row) == 5 and row[0].isdecimal()][6:]
+
+
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("kind", tail(["S3", "S4", "S6", "S8", "S8R"], ["S4", "S8R"]))
 def test_frequencies_are_those_of_calculix(tmp_path, kind, case):
@@ -307,12 +316,36 @@ def test_frequencies_are_those_of_calculix(tmp_path, kind, case):
     if shutil.which("ccx") is None:
         pytest.skip("CalculiX, the program ccx, is not installed")
     text = deck(kind, **CASES[case])
-    for name, each in (("deck", text), ("own", text.replace("*FREQUENCY, SOLVER=MATRIXSTORAGE", "*FREQUENCY\n12"))):
-        (tmp_path / f"{name}.inp").write_text(each, encoding="utf-8")
-        subprocess.run(["ccx", name], cwd=tmp_path, check=True, capture_output=True)
-    rows = [line.split() for line in (tmp_path / "own.dat").read_text().splitlines()]
-    own = [float(row[3]) for row in rows if len(row) == 5 and row[0].isdecimal()]
+    own = by_calculix(tmp_path, text)
     found = reduced(tmp_path, "", "modes: 6, method: normal-modes")
-    np.testing.assert_allclose(found.frequencies[:6], own[6:12], rtol=1e-5)
+    np.testing.assert_allclose(found.frequencies[:6], own[:6], rtol=1e-5)
     assert found.stress is not None
     assert len(found.triangles)
+
+
+def test_a_branch_is_that_of_calculix(tmp_path):
+    """A rib on the middle of a strip."""
+    if shutil.which("ccx") is None:
+        pytest.skip("CalculiX, the program ccx, is not installed")
+    rib = ["*NODE", "900, 10., 0., 10.", "901, 10., 10., 10.", "*ELEMENT, TYPE=S4, ELSET=E", "90, 2, 900, 901, 3"]
+    own = by_calculix(tmp_path, deck("S4", cells=(2, 1), size=(20.0, 10.0), more=rib))
+    found = reduced(tmp_path, "", "modes: 6, method: normal-modes")
+    np.testing.assert_allclose(found.frequencies[:6], own[:6], rtol=1e-5)
+    assert pytest.approx(3 * 7850 * 1e-2 * 1e-2 * 1e-3, rel=1e-9) == found.invariants.I1
+
+
+def test_a_rigid_group_of_the_deck_holds_the_nodes_of_shells(tmp_path):
+    """As a hinge, if they are on a line: with the reference node on it frequencies are those of CalculiX; beside it nothing holds it."""
+    if shutil.which("ccx") is None:
+        pytest.skip("CalculiX, the program ccx, is not installed")
+    group = ["*NODE", "500, 0., 10., 0.", "501, 0., 10., 0.", "*RIGID BODY, NSET=ROOT, REF NODE=500, ROT NODE=501"]
+    text = deck("S8R", more=group)
+    own = by_calculix(tmp_path, text)
+    body = reduced(tmp_path, "root: {node: 500}", "modes: 6, method: normal-modes")
+    np.testing.assert_allclose(body.frequencies[:6], own[:6], rtol=1e-5)
+    assert not body.interfaces[0].turns
+    by_calculix(tmp_path, text.replace("500, 0., 10.", "500, -3., 10."))
+    with pytest.raises(
+        ModelError, match=r"RIGID BODY turns about the straight line .* `interfaces: {NAME: {set: ROOT}}`"
+    ):
+        reduced(tmp_path, "root: {node: 500}", "modes: 6")

@@ -38,12 +38,14 @@ class RigidGroup(NamedTuple):
     """Nodes that CalculiX moves as a rigid body, by *RIGID BODY or *COUPLING with *KINEMATIC.
 
     reference : node whose rows are its translations. rotation : node whose rows are its rotations; None: CalculiX makes one.
+    members : name of the set of its nodes; empty where they are those of a surface.
     """
 
     reference: int
     rotation: int | None
     keyword: str
     line: int
+    members: str = ""
 
 
 @dataclass
@@ -196,6 +198,7 @@ class _Input:
                         None if rotation is None else _number(options, "ROT NODE", keyword, line),
                         keyword,
                         line,
+                        options.get("NSET", ""),
                     )
                 )
             case "COUPLING":

@@ -48,6 +48,8 @@ def followers(
     rows: list[dict[int, float]] = []
     stands_for: dict[int, tuple[int, ...]] = {}
     for node, layers in shells.layers.items():
+        if layers[0] not in place:  # held by a rigid group of the deck
+            continue
         bottom, top = freedoms[place[layers[0]], :3], freedoms[place[layers[-1]], :3]
         offset = shells.offsets[node]  # of the node above the middle
         rows += [{int(b): 0.5 - offset, int(t): 0.5 + offset} for b, t in zip(bottom, top, strict=True)]

@@ -70,19 +70,56 @@ class Expansion:
             )
         return tuple(notes)
 
+    def tied(self, labels: Sequence[Label]) -> set[int]:
+        """Nodes of shells that *RIGID BODY or *COUPLING of the deck holds: rows of their lowest nodes through the thickness are missing.
+
+        CalculiX holds the mean of the lowest and the highest, and eliminates the lowest.
+        """
+        if not self.mesh.rigid:
+            return set()
+        total = Counter(labels)
+        return {
+            node
+            for node, layers in self.layers.items()
+            if all(total[node, axis] == len(layers) - 1 for axis in (1, 2, 3))
+        }
+
+    def _refuse_hinges(self, tied: set[int]) -> None:
+        """Raises FormatError for groups that can turn about a straight line of their nodes while the shell stays."""
+        place = {node: self.mesh.places[k] for k, node in enumerate(self.mesh.numbers.tolist())}
+        for group in self.mesh.rigid:
+            members = self.mesh.sets.get(group.members, [])
+            if group.reference not in place or not members or not tied.issuperset(members):
+                continue
+            x = np.array([place[node] for node in members]) - place[members[0]]
+            size = np.linalg.norm(x)
+            on_line = np.linalg.matrix_rank(x, 1e-9 * size) <= 1
+            if (
+                on_line
+                and np.linalg.matrix_rank(np.vstack([x, place[group.reference] - place[members[0]]]), 1e-9 * size) > 1
+            ):
+                raise FormatError(
+                    f"*{group.keyword} turns about the straight line of its nodes of shells, as about a hinge, while the shell stays; "
+                    f"take it out of the deck, and write `interfaces: {{NAME: {{set: {group.members}}}}}` here for a clamped edge, or put "
+                    "its reference node on the line",
+                    group.line,
+                )
+
     def labels(self, labels: Sequence[Label]) -> tuple[Label, ...]:
         """Rows by the nodes of the solids. CalculiX names them all by the node of the shells, from the bottom to the top.
 
         The stretch of a knot is direction 4 of its own number, so that it has the unit of a turn. Raises FormatError.
         """
         total, seen = Counter(labels), Counter[Label]()
+        tied = self.tied(labels)
+        self._refuse_hinges(tied)
         for node, layers in self.layers.items():
             for axis in (1, 2, 3):
-                if total[node, axis] != len(layers):
+                if node not in tied and total[node, axis] != len(layers):
                     raise FormatError(
                         f"node {node} of shells has {total[node, axis]} rows of direction {axis}, and its {len(layers)} nodes through the "
-                        "thickness have one each: it is held or tied in the deck (*BOUNDARY, *RIGID BODY, *COUPLING, *EQUATION, "
-                        "*TIE), or the matrices are of another deck; leave that out of the deck, and tie its nodes by `interfaces` here"
+                        "thickness have one each: it is held or tied in the deck (*BOUNDARY, *EQUATION, *TIE), or the matrices are of "
+                        "another deck; leave that out of the deck, and tie its nodes by `interfaces` here"
                     )
         turns = {knot.rotation: node for node, knot in self.knots.items()}
         stretches = {knot.stretch for knot in self.knots.values()}
@@ -93,7 +130,7 @@ class Expansion:
         out = []
         for node, axis in labels:
             if node in self.layers:
-                out.append((self.layers[node][seen[node, axis]], axis))
+                out.append((self.layers[node][seen[node, axis] + (node in tied)], axis))
                 seen[node, axis] += 1
             elif node in turns:
                 out.append((turns[node], axis + 3))

@@ -25,6 +25,8 @@ TEXTS = {
     "interface",
     "label",
     "colour",
+    "parts",
+    "function",  # of a place, with what it names put in
 }  # texts that name no element
 
 

@@ -149,7 +149,7 @@ def test_a_pilot_relief_valve_opens_by_the_flow_of_its_pilot(p):
     assert mass_flow(pilot, x, 2 * BAR) == pytest.approx(mass_flow(orifice, p * BAR, x), rel=1e-6, abs=1e-9)
     opening = step((p - x / BAR - 2) / 3)
     assert flow == pytest.approx(K * opening * root((p - 2) * BAR), rel=1e-5, abs=1e-12)
-    assert (flow > 0.0) == (p > 105)
+    assert (flow > 1e-12) == (p > 105)  # closed but for what the iteration leaves
 
 
 @pytest.mark.parametrize("a", [60, 84, 95])

@@ -50,17 +50,16 @@ def rated(litres, drop):
 
 
 def rates(t, y):
-    """Of the pressures in feed, supply, accumulator, A and B [bar], spool and its speed, setting and its speed, stroke and speed."""
-    feed, supply, store, a, b = y[:5] * BAR
-    spool, spooling, setting, swinging, s, v = y[5:]
+    """Of the pressures in supply, accumulator, A and B [bar], spool and its speed, setting and its speed, stroke and speed."""
+    supply, store, a, b = y[:4] * BAR
+    spool, spooling, setting, swinging, s, v = y[4:]
     command = np.interp(t, [0.3, 0.6, 1.1], [0.0, 0.55, 0.55])
-    allowed = np.interp(feed - TANK, [200 * BAR, 210 * BAR], [1.0, 0.0])
+    allowed = np.interp(supply - TANK, [200 * BAR, 210 * BAR], [1.0, 0.0])
     omega, swash = 24 * math.pi, 12 * math.pi
     x = TURNING * setting
     side = x / math.hypot(x, 1.0)
-    suction = 0.5 * (law(TANK)[0] + law(feed)[0]) + 0.5 * (law(TANK)[0] - law(feed)[0]) * side
-    pumped = suction * D * x - 0.5 * (law(feed)[0] + law(TANK)[0]) * LEAK * (feed - TANK)
-    checked = flow(rated(120, 3) * step((feed - supply - 0.5 * BAR) / (3 * BAR)), feed, supply)
+    suction = 0.5 * (law(TANK)[0] + law(supply)[0]) + 0.5 * (law(TANK)[0] - law(supply)[0]) * side
+    pumped = suction * D * x - 0.5 * (law(supply)[0] + law(TANK)[0]) * LEAK * (supply - TANK)
     into = flow(rated(400, 4), supply, store)
     edge = rated(160, 10) * ramp(spool - 0.03) / (0.97 - 0.01)
     to_a, from_b = flow(edge, supply, a), flow(edge, b, TANK)
@@ -74,8 +73,7 @@ def rates(t, y):
     friction = 2e3 + 0.01 * WHOLE * math.hypot(a - b, BAR)
     force = (a - PA) * WHOLE - (b - PA) * RING - friction * math.tanh(v / 0.01) - 20e3 * v
     return [
-        rate(feed, pumped - checked, 1e-3),
-        rate(supply, checked - into - to_a, 3e-3),
+        rate(supply, pumped - into - to_a, 3e-3),
         rate(store, into, oil, 0.0, 25e-3 * left / (1.3 * store)),
         rate(a, to_a, 2e-3 + WHOLE * s, WHOLE * v),
         rate(b, -from_b, 2e-3 + RING * (0.6 - s), -RING * v),
@@ -94,13 +92,13 @@ def test_the_press_moves_as_by_its_equations_written_anew():
     result = machine.simulate(duration=END, integrator="radau", tolerance=1e-9, output_interval=0.02, verify=False)
     t = np.asarray(result.time)
     names = [f"hydraulics.{each}" for each in (
-        "feed.pressure", "supply.pressure", "store.pressure", "ram.pressure_A", "ram.pressure_B", "valve.position",
+        "supply.pressure", "store.pressure", "ram.pressure_A", "ram.pressure_B", "valve.position",
         "pump.setting", "ram.position", "ram.speed")]  # fmt: skip
     found = np.array([history(result, name) for name in names])
     first = found[:, 0]
-    y0 = [*(first[:5] / BAR), first[5], 0.0, first[6], 0.0, first[7], 0.0]
+    y0 = [*(first[:4] / BAR), first[4], 0.0, first[5], 0.0, first[6], 0.0]
     solved = solve_ivp(rates, (0, END), y0, "Radau", t_eval=t, rtol=1e-9, atol=1e-9, max_step=0.01)
-    exact = solved.y[[0, 1, 2, 3, 4, 5, 7, 9, 10]] * np.array([*[BAR] * 5, 1, 1, 1, 1])[:, None]
+    exact = solved.y[[0, 1, 2, 3, 4, 6, 8, 9]] * np.array([*[BAR] * 4, 1, 1, 1, 1])[:, None]
     for name, one, other in zip(names, found, exact, strict=True):
         assert np.max(np.abs(one - other)) < 1e-5 * np.ptp(other), name
 

@@ -19,7 +19,7 @@ KINKS = [0.0, 1e-9, -1e-9, 0.5, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 2.0, -3.0]
         step,
         lambda x: root_flow(x * 1e5, 0.5e5, 0),
         lambda x: maximum_within(x, 1.0, 0.1),
-        lambda x: loss(np.array([1.0, 1.0, 1.0, 1.0]), 1.0, x),
+        lambda x: loss(np.array([1.0, 1.0, 1.0, 1.0]), 1.0, 1.0, x),
         lambda x: reduced_flow(np.array([0.0, 0.3]), 1.0, 1.0 - 0.7 * (x + 0.1), 0),
     ],
     ids=["ramp", "step", "root", "maximum", "pipe", "gas"],

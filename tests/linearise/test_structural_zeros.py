@@ -98,15 +98,15 @@ def test_a_closed_free_ring_is_stable():
 
 
 def test_a_ring_that_is_only_free_as_a_whole_is_no_mechanism():
-    """Alone it rests as drawn; squeezed by a spring it has an equilibrium whose place nothing determines."""
+    """Alone it rests as drawn; squeezed by a spring it has an equilibrium whose place nothing determines: it stays about where it is."""
     ring = free_ring(20e-3, 1.0, 4)
     trust = machine(ring).statics(duration=0, verify=False).trust
     assert trust.verdict == "amber"
     assert "nothing holds the machine as a whole in 6 motions" in str(trust)
     ends = [{"body": "upper.start"}, {"body": "upper.end"}]
     spring = {"type": "spring-damper", "markers": ends, "stiffness": 1000.0, "free_length": 1.9}
-    with pytest.raises(nivel.SolveError, match="nothing holds the machine as a whole"):
-        machine({**ring, "forces": {"spring": spring}}).statics(duration=0, verify=False)
+    squeezed = machine({**ring, "forces": {"spring": spring}}).statics(duration=0, verify=False)
+    assert "nothing holds the machine as a whole in 6 motions" in str(squeezed.trust)
 
 
 def test_a_closed_free_ring_of_many_elements_is_stable_in_statics_too():

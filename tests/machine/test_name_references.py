@@ -172,15 +172,15 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"forces": ({**CONTACT, "body": "plain", "plane": "base"},)},
-            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, capsule, box, cylinder, extrusion or mesh",
+            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "body": "pipe", "plane": "base"},)},
-            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, box, cylinder, extrusion or mesh",
+            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "bodies": ("rod", "pipe")},)},
-            "forces.c.bodies.1: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, box, cylinder, extrusion",
+            "forces.c.bodies.1: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, extrusion",
         ),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "tip"},)}, "forces.c.plane: the plane is on `rod` itself"),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "flor"},)}, "forces.c.plane: there is no marker `flor`"),

@@ -50,7 +50,7 @@ def test_steps_make_the_motion_of_a_run_to_the_last_bit():
     np.testing.assert_array_equal(sim.result().array("position"), run.array("position")[:201])
 
 
-@pytest.mark.parametrize("integrator", ["rk4", "am4", "ros2", "generalised-alpha"])
+@pytest.mark.parametrize("integrator", ["rk4", "am4", "ros2"])
 def test_steps_take_no_notice_of_how_many_follow(integrator):
     """What is iterated stops at the same digit in a simulation without an end, in a short run and in a long one."""
     machine = nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml")

@@ -229,10 +229,11 @@ class Unknowns:
         widths = self.widths()
         _, own = self.matrix()
         directions = np.diag(widths)
-        rng = np.random.default_rng([len(widths), self.here.rows])
         if columns and not FULL and len(widths) > columns:
+            rng = np.random.default_rng([len(widths), self.here.rows])
             directions = directions[:, rng.choice(len(widths), columns, replace=False)]
         if count and not FULL and len(widths) > count:
+            rng = np.random.default_rng(len(widths))
             signs = rng.choice([-1.0, 1.0], (len(widths), count))
             directions = 0.25 * widths[:, None] * signs * rng.uniform(0.5, 1.0, signs.shape)
         expected = (

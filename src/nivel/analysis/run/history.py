@@ -63,7 +63,7 @@ WINDOWS = 256
 # Stiction stops a joint within this many steps, and within more where a method would not be stable: 1/τ times a step is this share of
 # what it holds.
 STICK_STEPS, STICK_SHARE = 2.0, 0.8
-# So many fixed steps are a time in which a machine moves by its own length, at least, whatever the duration of the run.
+# Fixed steps that make a time in which a machine moves by its own length, at least.
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
 TORN = 0.1
@@ -95,7 +95,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         scratch=np.zeros_like(y),
         trial=np.zeros_like(y),
         # a run of fixed steps takes no notice of how many more follow
-        scale=_scales(system, y, LONG * settings.step if settings.steps else settings.duration),
+        scale=_scales(system, y, min(settings.duration, LONG * settings.step) if settings.steps else settings.duration),
         raised=_raised(system, y).astype(np.uint32),
         stages=np.zeros((facts.stages, len(y))),
         numbers=numbers,

@@ -58,7 +58,8 @@ def _fits(its: Dimension, wanted: Dimension) -> bool:
 
 def _read(value: Any, info: ValidationInfo) -> float:
     data = info.data or {}
-    exponent = data.get("exponent", _HERTZ)
+    exponent = data.get("exponent")
+    exponent = _HERTZ if exponent is None else exponent
     kind = kind_for(data.get("coordinate"), COORDINATE) if "coordinate" in data else COORDINATE[0]
     pairs = tuple(pair for pair in zip(COORDINATE_EFFORT, COORDINATE, strict=True) if pair[1] in kind)
     try:

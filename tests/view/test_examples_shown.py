@@ -25,7 +25,14 @@ BEAMS = {
     "telescopic-boom": 0.5,
     "three-models": 0.4,
 }
-FLEXIBLE = {"crane": 1.0, "lever-spring": 0.2, "pendulum": 0.5, "slider-crank": 0.1, "spinning-blade": 0.5, "swing": 0.5}
+FLEXIBLE = {
+    "crane": 1.0,
+    "lever-spring": 0.2,
+    "pendulum": 0.5,
+    "slider-crank": 0.1,
+    "spinning-blade": 0.5,
+    "swing": 0.5,
+}
 BESIDE = """
 format: 1
 gravity: [0, 0, -9.81]

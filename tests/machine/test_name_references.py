@@ -172,11 +172,13 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"forces": ({**CONTACT, "body": "plain", "plane": "base"},)},
-            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
+            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, "
+            "extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "body": "pipe", "plane": "base"},)},
-            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
+            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, capsule, ellipsoid, box, cylinder, "
+            "extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "bodies": ("rod", "pipe")},)},

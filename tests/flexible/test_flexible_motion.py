@@ -395,7 +395,8 @@ def test_modes_that_leave_no_mass_to_the_frame_are_told(files, tmp_path):
         bar(width=0.01, height=0.01, elements=32, reduction="modes: 20, reference: root, stiffening: true")
     )
     write_body(body, tmp_path / "bar.nc")
-    r = run(pendulum((tmp_path, {}), "bar"), integrator="radau", tolerance=1e-6)
+    # with a tolerance of 1e-6 round-off decides whether the last step ends there or right before it
+    r = run(pendulum((tmp_path, {}), "bar"), integrator="radau", tolerance=1e-4)
     assert r.finished.outcome == "failed"
     message, advice, _ = r.finished.failure
     assert "the modes of bar take up all the mass" in message

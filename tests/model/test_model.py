@@ -184,6 +184,11 @@ def test_help_says_what_each_field_takes_in_words(record):
     assert "(*, name: text" in text
 
 
+def test_help_is_in_words_after_a_package_has_added_a_type_of_joint():
+    nivel.Joint.model_rebuild(force=True)
+    assert "Annotated" not in str(inspect.signature(nivel.Joint))
+
+
 def test_a_body_is_shown_as_it_would_be_written():
     assert str(nivel.Body(name="ball", mass="2 kg", point_mass=True)) == "Body(name='ball', mass=2.0, point_mass=True)"
     assert "mass: a mass in kg = None" in str(inspect.signature(nivel.Body))

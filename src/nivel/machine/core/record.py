@@ -100,7 +100,19 @@ class Record(BaseModel, metaclass=RecordClass):
         own = {name for each in type(self).__mro__ if issubclass(each, Record) for name in vars(each)}
         return [
             *type(self).model_fields,
-            *sorted(own - {"problems", "lines_beside", "tagged", "collection", "always", "model_config", "usual"}),
+            *sorted(
+                own
+                - {
+                    "problems",
+                    "lines_beside",
+                    "tagged",
+                    "collection",
+                    "always",
+                    "model_config",
+                    "usual",
+                    "model_rebuild",
+                }
+            ),
         ]
 
     def __str__(self) -> str:
@@ -120,6 +132,13 @@ class Record(BaseModel, metaclass=RecordClass):
         """Help and editors show what each field takes, in words; found out when somebody asks."""
         super().__pydantic_init_subclass__(**kwargs)
         cls.__signature__ = PlainSignature()  # type: ignore[assignment]
+
+    @classmethod
+    def model_rebuild(cls, **given: Any) -> bool | None:
+        """As pydantic has it, which puts its own signature in the place of the one in words."""
+        done = super().model_rebuild(**{"_parent_namespace_depth": 3, **given})
+        cls.__signature__ = PlainSignature()  # type: ignore[assignment]
+        return done
 
     @model_validator(mode="wrap")
     @classmethod

@@ -18,6 +18,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipj
 
 import nivel
+from lanes import tail
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.machine import MachineRecord
 from nivel.machine.forces import FORCES as WORDS
@@ -515,7 +516,7 @@ for integrator in ("midpoint", "implicit-euler"):
 """
 
 
-@pytest.mark.parametrize("coordinates", COORDINATES)
+@pytest.mark.parametrize("coordinates", tail(COORDINATES, ["relative"]))
 def test_the_integrators_of_the_page_converge_with_their_orders(with_integrators, coordinates):
     (with_integrators / "swing.yaml").write_text(SWING.replace("DAMPING", "4 N*s/m"), encoding="utf-8")
     places = [float(line) for line in run(with_integrators, "-c", INTEGRATE, coordinates).split()]

@@ -150,6 +150,7 @@ def test_a_signal_that_ends_programs_completes_the_recording(tmp_path, number):
     assert f"recording: {run.target}" in run.said.read_text()
 
 
+@pytest.mark.full
 def test_a_closed_terminal_completes_the_recording(tmp_path):
     with recording(tmp_path, terminal=True) as run:
         processes = run.processes()

@@ -47,9 +47,10 @@ def test_three_rows_of_each_window_are_left_out(coordinates):
     assert control.rank[PIVOTED] == 0
 
 
-def test_multipliers_in_frames_are_those_of_least_length():
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_multipliers_in_frames_are_those_of_least_length(coordinates):
     """λ = D⁻¹ (C_qᵀ D⁻¹)⁺ f with D² = diag(C_q M⁻¹ C_qᵀ), by NumPy from the bodies' masses; f = C_qᵀ λ is what the machine needs."""
-    machine = windows(3, coordinates="absolute")
+    machine = windows(3, coordinates=coordinates)
     result = run(machine)
     prepared = prepare(machine)
     motion = prepared.absolute

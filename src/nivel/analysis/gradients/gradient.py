@@ -75,7 +75,7 @@ class Varied:
         prepared = prepare(plan.methods) if values else self.prepared
         sink = Memory(self.settings.frames + 1)
         sink.begin(self._header(plan, prepared))
-        finished = march(prepared, self.settings, [sink])
+        finished = march(prepared, self.settings, [sink], shared=False)  # as their slopes are
         result = sink.close({"outcome": finished.outcome, "events": to_json(finished.events)})
         if finished.failure is not None:
             message, advice, at = finished.failure

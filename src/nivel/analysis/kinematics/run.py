@@ -19,6 +19,7 @@ from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.preparation.shared_loads import sharing
 from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
@@ -115,13 +116,13 @@ def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: List
     kernels, history = prepared.motion.kernels, Handle(run)
     correct = import_module(prepared.path.correction).correct
     evaluate, correct, machine = kernels.evaluate.address, correct.address, prepared.motion.handle
-    finished = RunOutcome("done")
+    finished, sinks = RunOutcome("done"), sharing(prepared, [sink])
     begin = time.perf_counter()
     status, loop_seconds = march_in_chunks(
         lambda: follow_positions(evaluate, correct, machine.address, history.address),
         system,
         run,
-        [sink],
+        sinks,
         finished,
         listener.progress,
         None,
@@ -130,7 +131,7 @@ def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: List
         finished.outcome = "failed"
         finished.failure = _failure(prepared, settings, run, status)
         if status != CONTRADICTION:
-            keep_last(prepared.motion, run, [sink])
+            keep_last(prepared.motion, run, sinks)
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),

@@ -60,6 +60,8 @@ OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.sli
 PASSING = "nivel.kernels.residual.element_crossing"
 # modules, besides those of residuals and forces, that exact derivatives may need on dual numbers
 WITH_DERIVATIVES = (MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS)
+# the loads of redundant joints in frames, known only when a machine is assembled
+SHARED_LOADS = "nivel.motion.shared_loads"
 # what completes the frames of runs in relative coordinates
 COMPLETIONS = (
     "nivel.kernels.tree.tree_outputs",
@@ -221,6 +223,7 @@ def all_entries() -> list[Entry]:
         STATICS,
         TANGENT_ENTRIES,
         OUTPUT,
+        SHARED_LOADS,
     ]
     families = dict.fromkeys(
         [

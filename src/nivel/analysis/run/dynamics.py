@@ -23,6 +23,7 @@ from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.preparation.shared_loads import sharing
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.progress.pacing import Pacing
@@ -130,14 +131,16 @@ def march(
     chunk_steps: int | None = None,
     pacing: Pacing | None = None,
     loop: Loop | None = None,
+    shared: bool = True,
 ) -> RunOutcome:
     """Run `prepared` and give every frame to all `sinks` (already begun).
 
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
     the result does not depend on it. pacing : accompanies the run from chunk to chunk. loop : at its start; by default a new one.
+    shared : redundant joints share their loads.
     """
     system, loop = prepared.motion.system, loop or start_loop(prepared, settings)
-    run = loop.history.record
+    run, sinks = loop.history.record, sharing(prepared, sinks) if shared else sinks
     finished, narrow = RunOutcome("done"), NarrowFeatures.of(prepared, len(run.ends))
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None

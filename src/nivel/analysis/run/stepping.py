@@ -19,6 +19,7 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.preparation.shared_loads import SharedLoads
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.carried_state import Structure, carry_over, refuse_other_structure, structure_of
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
@@ -153,6 +154,7 @@ class Simulation:
         self._y, self._previous = self._run.y.data, self._run.previous.data
         self._feeds_back = bool(system.record.control.stabilise[:2].any())
         layout = self._prepared.motion.system.layout
+        self._loads = SharedLoads.of(self._prepared) if self._prepared.motion.system.tree_names else None
         self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
         motion = self._prepared.motion
@@ -427,6 +429,8 @@ class Simulation:
             feedback[:] = kept
         self._numbers[0] = self._write.number.value = time
         self._write()
+        if self._loads is not None:
+            self._loads.share(self._frame)
         self._observed = time
 
     @property
@@ -450,7 +454,10 @@ class Simulation:
     def _take_frames(self) -> None:
         filled = self._counter[FRAMES]
         if filled and self._recorded:
-            self._memory.take(self._run.frames[:filled])
+            frames = self._run.frames[:filled]
+            if self._loads is not None:
+                self._loads.share(frames)
+            self._memory.take(frames)
         self._counter[FRAMES] = 0
 
     # --- keeping ---

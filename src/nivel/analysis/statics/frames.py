@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.analysis.preparation.shared_loads import SharedLoads
 from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
 from nivel.kernels.output.observe import observe
@@ -66,10 +67,10 @@ class Facts:
 
 
 class FrameWriter:
-    """Frames of the equilibria of a machine; modes : number of vibrations in each."""
+    """Frames of the equilibria of a machine; modes : number of vibrations in each. loads : what shares those of redundant joints."""
 
-    def __init__(self, equations: StaticEquations, modes: int) -> None:
-        self.equations, self.modes = equations, modes
+    def __init__(self, equations: StaticEquations, modes: int, loads: SharedLoads | None = None) -> None:
+        self.equations, self.modes, self._loads = equations, modes, loads
         self._full = equations.system.layout
         kept = [variable for variable in self._full.variables if not _is_of_motion(variable.name)]
         self._columns = np.array([k for each in kept for k in range(each.columns.start, each.columns.stop)], dtype=int)
@@ -79,6 +80,9 @@ class FrameWriter:
     def frame(self, state: Rest, facts: Facts) -> Array:
         """The frame (1, width) of an equilibrium."""
         full = self._observed(state, np.zeros(self.equations.n))
+        full[0] = state.t
+        if self._loads is not None:
+            self._loads.share(full[None])
         own = [facts.path, facts.residual, facts.round_off, float(facts.unstable), float(facts.iterations)]
         out = np.concatenate([[state.t], full[self._columns], own])
         if self.modes:

@@ -17,6 +17,7 @@ from nivel.analysis.plan.refusals import refuse_rough_motions
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.broken_function import broken_function
 from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
+from nivel.analysis.preparation.shared_loads import SharedLoads
 from nivel.analysis.progress.interrupt import interruptible, terminable
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
@@ -139,7 +140,7 @@ def statics(
     start = _start(equations, prepared)
     if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
         settings = settings.replace(duration=0.0, arc_length=False)
-    writer = FrameWriter(equations, settings.modes)
+    writer = FrameWriter(equations, settings.modes, SharedLoads.of(prepared))
     sink.begin(Header(writer.layout, statics_attributes(machine, source, prepared, settings)))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     begin = time.perf_counter()

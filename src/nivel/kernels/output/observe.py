@@ -88,7 +88,7 @@ def _write_bodies(machine, frame):
 
 
 @stage
-def _write_reactions(machine, frame):
+def write_reactions(machine, frame):
     """Force and torque of each joint on its first body at its first marker: -Σ λ (f_i, n_i), global axes, then marker axes."""
     record = record_at(machine)
     joints, constraints, markers = record.joints, record.constraints, record.markers
@@ -190,7 +190,7 @@ def observe(machine, t, y, frame):
     spread_multipliers(machine)
     call_hook(machine, COMPLETE, 0, t)
     _write_bodies(machine, frame)
-    _write_reactions(machine, frame)
+    write_reactions(machine, frame)
     _write_joint_coordinates(machine, t, frame)
     _write_constraints(machine, frame)
     _write_energies(machine, y, frame)

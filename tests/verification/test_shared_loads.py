@@ -1,0 +1,83 @@
+"""Loads of redundant hinges: shared by least norm in all coordinates and analyses."""
+
+import numpy as np
+import pytest
+
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.run.stepping import Simulation
+from nivel.api import Machine
+from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, SimulationSettings
+from running import run
+
+# N: iterations leave a share of 1e-9
+EXACT = 1e-6
+MASS, WIDTH, INERTIA, GRAVITY = 30.0, 0.5, 2.0, 9.81
+HEIGHTS = {"two": (-0.8, 0.8), "three": (-0.8, 0.1, 0.7)}
+
+
+def door(heights, **settings):
+    """A door on hinges of one vertical axis, its centre of mass WIDTH beside it and at height zero."""
+    return MachineRecord(
+        name="door",
+        gravity=(0.0, 0.0, -GRAVITY),
+        bodies=(Body(name="door", mass=MASS, inertia=(3.0, INERTIA, 1.0), position=(WIDTH, 0.0, 0.0)),),
+        joints=tuple(
+            Joint(name=f"h{k}", type="revolute", bodies=("ground", "door"), point=(0.0, 0.0, h), axis=(0.0, 0.0, 1.0))
+            for k, h in enumerate(heights)
+        ),
+        simulation=SimulationSettings(**{"duration": 2e-3, "step": 1e-3, "output_interval": 1e-3, **settings}),
+    )
+
+
+def shares(heights, spin=0.0):
+    """Forces (n, 3) and torques (n, 3) on the ground in axes of the door: least Σ D λ² with D = C_q M⁻¹ C_qᵀ of each row.
+
+    Vertical forces carry the weight alike. The moment m g a about y is carried by forces F_k at heights h_k, D_k = 1/m + h_k²/J, and by
+    torques N, D = 1/J: Σ h_k F_k + n N = m g a and Σ F_k = m a ω², so D_k F_k = α h_k + β and N = α J.
+    """
+    h, n = np.array(heights), len(heights)
+    D = 1.0 / MASS + h**2 / INERTIA
+    A = np.array([[np.sum(h * h / D) + n * INERTIA, np.sum(h / D)], [np.sum(h / D), np.sum(1.0 / D)]])
+    alpha, beta = np.linalg.solve(A, [MASS * GRAVITY * WIDTH, MASS * WIDTH * spin**2])
+    forces, torques = np.zeros((n, 3)), np.zeros((n, 3))
+    forces[:, 0], forces[:, 2] = (alpha * h + beta) / D, -MASS * GRAVITY / n
+    torques[:, 1] = alpha * INERTIA
+    return forces, torques
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "generalised-alpha"])
+@pytest.mark.parametrize("coordinates", ["absolute", "independent", "relative"])
+@pytest.mark.parametrize("heights", HEIGHTS.values(), ids=HEIGHTS)
+def test_hinges_of_a_door_share_its_weight(heights, coordinates, integrator):
+    result = run(door(heights, coordinates=coordinates, integrator=integrator))
+    forces, torques = shares(heights)
+    for frame in range(len(result.time)):
+        np.testing.assert_allclose(result.joint_force[frame], forces, atol=EXACT)
+        np.testing.assert_allclose(result.joint_torque[frame], torques, atol=EXACT)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_they_share_it_in_equilibria_and_step_by_step(coordinates):
+    heights = HEIGHTS["three"]
+    record = door(heights, coordinates=coordinates)
+    forces, torques = shares(heights)
+    # a spring holds it where it hangs
+    spring = JointSpringDamper(name="spring", coordinate="h0.angle", stiffness=10.0)
+    rest = Machine.from_record(record.replace(forces=(spring,))).statics(coordinates=coordinates)
+    np.testing.assert_allclose(rest.array("joint_force")[-1], forces, atol=EXACT)
+    np.testing.assert_allclose(rest.array("joint_torque")[-1], torques, atol=EXACT)
+    simulation = Simulation(plan_run(record), record=True)
+    simulation.step()
+    np.testing.assert_allclose(simulation["joint_force"], forces, atol=EXACT)
+    np.testing.assert_allclose(simulation.result().array("joint_force")[-1], forces, atol=EXACT)
+
+
+def test_they_share_the_centripetal_force_of_a_door_that_is_driven():
+    """Kinematics, in relative coordinates, from a position over a whole turn: rows, whose length is least, have axes of the ground."""
+    heights, spin = HEIGHTS["three"], 4.0 * np.pi
+    record = door(heights).replace(drivers=(Driver(name="motor", coordinate="h0.angle", speed=spin),))
+    result = Machine.from_record(record).kinematics(duration=0.5, positions=5)
+    forces, torques = shares(heights, spin)
+    for frame in (0, -1):
+        np.testing.assert_allclose(result.array("joint_force")[frame], forces, atol=1e-9 * MASS * spin**2)
+        np.testing.assert_allclose(result.array("joint_torque")[frame], torques, atol=1e-9 * MASS * spin**2)

@@ -49,6 +49,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         taken = Path(folder) / "seconds.json"
         own["NIVEL_TESTS_SECONDS"] = str(taken)
+        if os.environ.get("PYTHONDONTWRITEBYTECODE"):
+            # some hundred processes start: each would translate the package and its libraries anew
+            os.environ |= {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(Path(folder) / "bytecode")}
         tests = [
             "pytest",
             "-p",

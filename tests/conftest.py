@@ -1,6 +1,7 @@
 """Settings that all tests share."""
 
 import functools
+import gc
 import os
 
 import numpy as np
@@ -13,6 +14,17 @@ settings.load_profile("nivel")
 
 
 PLAIN = os.environ.get("NUMBA_DISABLE_JIT") == "1"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection(session):
+    """All that is collected stays to the end: the search for garbage would look through it again and again."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(tryfirst=True)

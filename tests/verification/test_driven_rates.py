@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from nivel.errors import ModelError
+from nivel.machine.units.expression import Expression
+from nivel.system.laws.integrated import integrated
 from simulating import hinge, simulate, slide, wheel
 
 METHODS = pytest.mark.parametrize(
@@ -156,3 +158,36 @@ def test_a_cam_follows_a_periodic_curve_over_turns():
 def test_a_periodic_table_that_does_not_close_is_refused():
     with pytest.raises(ModelError, match="ends with the value with which it begins; got 0 and 3"):
         driven({}, value={"times": [0, 1, 2, 3], "values": [0, 1, 2, 3], "interpolation": "periodic"})
+
+
+@pytest.mark.parametrize(
+    ("speed", "way"),
+    [
+        # a trapezium with rounded flanks: 0.03 s up, 0.04 s at 1 rad/s, 0.03 s down; a triangle; ∫ exp(-(t/b)²) dt = b √π
+        ("step(time, 50.03, 0, 50.06, 1) - step(time, 50.10, 0, 50.13, 1)", 0.07),
+        ("lookup(time, linear, 0, 0, 50.03, 0, 50.05, 1, 50.07, 0)", 0.02),
+        ("exp(-((time - 50.03)/0.02)^2)", 0.02 * np.sqrt(np.pi)),
+    ],
+    ids=["steps", "curve", "bell"],
+)
+def test_a_short_pulse_of_speed_in_a_long_run_counts(speed, way):
+    """Of nine places in every sixteenth of the run none lay in a pulse of 0.1 s in 100 s."""
+    points, pieces = integrated(Expression(speed), 1, 100.0)
+    at = np.searchsorted(points, 60.0) - 1
+    assert np.polyval(pieces[at][::-1], 60.0 - points[at]) == pytest.approx(way, abs=1e-11)
+
+
+def test_at_a_corner_the_effort_is_that_beyond_it():
+    # J α + no load, α = 2, from 0.5 s on -6 rad/s²; between the pieces it was anything between both
+    _, _, effort = driven({"integrator": "rk4", "step": "1 ms"}, acceleration="if(time < 0.5, 2, -6)")
+    assert effort == pytest.approx(J * np.where(T < 0.5, 2.0, -6.0), abs=1e-9)
+
+
+def test_a_speed_that_is_too_fast_for_the_run_is_refused():
+    with pytest.raises(ModelError, match="varies too fast to be integrated"):
+        integrated(Expression("sin(1e6*time)"), 1, 1000.0)
+
+
+def test_a_speed_that_jumps_between_two_levels_is_refused_where_it_jumps():
+    with pytest.raises(ModelError, match=r"jumps at t = 50\.03 s"):
+        integrated(Expression("if(time > 50.03 and time < 50.04, 1, 0)"), 1, 100.0)

@@ -1,7 +1,7 @@
 """Motions from speeds and accelerations over time: piecewise polynomials of the way, integrated once or twice.
 
 Tables of straight lines and cubic ones are integrated exactly. Other functions are replaced by polynomials through Lobatto's points on
-pieces that are halved until they agree with the function between these points as well.
+pieces between their corners, halved until they agree with the function at many places between these points as well.
 """
 
 from __future__ import annotations
@@ -20,12 +20,20 @@ from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.bounds import values_of
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.tree import TIME, ExpressionError
+from nivel.machine.units.sides import marks
+from nivel.machine.units.tree import TIME, ExpressionError, Lookup, Node, Time
 
 Array = NDArray[np.float64]
 COEFFICIENTS = 6
 # of a polynomial against its function, as a share of its largest value; halvings at most; beyond the run the motion goes on so long [s]
 AGREES, HALVINGS, BEYOND = 1e-11, 40, 1e9
+# What passes zero at a corner is looked at so often; corners at most of one of them, and pieces at most.
+LOOKS, CORNERS, PIECES = 8192, 4096, 1_000_000
+# Corners nearer to each other, as a share of the run, are one.
+APART = 1e-12
+# Polynomials are compared with the function at so many places on each of PARTS equal parts of the run, and at half as many on halves of
+# these: no short pulse lies between them.
+PLACES, PARTS = 1024, 16
 # What is known of a function is known past the end of the run as well, by this factor: its last instant has what is prescribed there.
 PAST = 1.01
 # A change of a speed within a piece that cannot be halved further is a jump if it is more than this share of its largest value.
@@ -36,6 +44,8 @@ LOBATTO = {
     5: np.array([0.0, 0.5 - np.sqrt(3.0 / 28.0), 0.5, 0.5 + np.sqrt(3.0 / 28.0), 1.0]),
 }
 BETWEEN = np.array([0.08, 0.37, 0.61, 0.93])
+# of the distance of two numbers at the end of the run: ends of pieces are looked at so far within them, where a jump is not yet or is done
+WITHIN = 4.0
 
 
 def integrated(function: TimeFunction, times: int, end: float, speed: float = 0.0) -> tuple[Array, Array]:
@@ -101,34 +111,92 @@ def _sampled(function: TimeFunction, times: int, end: float) -> tuple[Array, Arr
     value = _values(function)
     nodes = LOBATTO[COEFFICIENTS - times]
     powers = np.arange(len(nodes))
-    largest = max(float(np.abs(value(np.linspace(0.0, end, 65))).max()), 1e-300)
     inverse = np.linalg.inv(np.vander(nodes, increasing=True)).T
-    between = np.vander(BETWEEN, len(nodes), increasing=True).T
-    bounds = np.linspace(0.0, end, 17)
+    within = WITHIN * np.spacing(end)
+    largest = float(np.abs(value(np.array([0.0, end]))).max())
+    bounds = _bounds(function, end)
     begin, stop = bounds[:-1], bounds[1:]
-    points, pieces = [np.zeros(1)], []
+    points, pieces, edges = [np.zeros(1)], [], []
     for depth in range(HALVINGS + 1):
         h = (stop - begin)[:, None]
-        found = value(begin[:, None] + h * nodes)
+        at = begin[:, None] + h * nodes
+        at[:, 0], at[:, -1] = begin + within, stop - within
+        found = value(at)
         c = found @ inverse
-        missed = np.abs(c @ between - value(begin[:, None] + h * BETWEEN)).max(axis=1)
-        agrees = missed <= AGREES * largest
+        between = BETWEEN if PLACES >> depth <= len(BETWEEN) else _places(PLACES >> depth)
+        true = value(begin[:, None] + h * between)
+        largest = max(largest, float(np.abs(found).max()), float(np.abs(true).max()))
+        missed = np.abs(c @ np.vander(between, len(nodes), increasing=True).T - true).max(axis=1)
+        # a time that is rounded moves the value by its slope
+        agrees = missed <= AGREES * largest + 4.0 * within * np.ptp(found, axis=1) / h[:, 0]
         if depth == HALVINGS:
-            jumps = ~agrees & (np.abs(found[:, -1] - found[:, 0]) > JUMP * largest)
-            if times == 1 and jumps.any():
-                message = f"the speed jumps at t = {begin[jumps].min():.6g} s; give it a ramp, e.g. with `step`"
-                raise ModelError(Fault("", 0, 0, "", message))
             agrees[:] = True
         points.append(stop[agrees])
         pieces.append(c[agrees] / h[agrees] ** powers)
+        edges.append(found[agrees][:, [0, -1]])
         begin, stop = begin[~agrees], stop[~agrees]
         middle = 0.5 * (begin + stop)
         begin, stop = np.concatenate([begin, middle]), np.concatenate([middle, stop])
         if not len(begin):
             break
+        if sum(map(len, pieces)) + len(begin) > PIECES:
+            message = f"it varies too fast to be integrated over {end:.6g} s; give a table of its values"
+            raise ModelError(Fault("", 0, 0, "", message))
     ends = np.concatenate(points)
     order = np.argsort(ends[1:])
-    return np.append(0.0, ends[1:][order]), np.vstack(pieces)[order]
+    ends = np.append(0.0, ends[1:][order])
+    if times == 1:
+        _refuse_jumps(ends, np.vstack(edges)[order], JUMP * largest)
+    return ends, np.vstack(pieces)[order]
+
+
+def _places(count: int) -> Array:
+    """Places on [0, 1] without a common distance: a wave that is zero at all of them is rare."""
+    return np.mod(np.arange(1, count + 1) * 0.6180339887498949, 1.0)
+
+
+def _refuse_jumps(ends: Array, edges: Array, most: float) -> None:
+    """Raises ModelError where a speed jumps: from one piece to the next, or within one that cannot be halved further."""
+    between = np.append(np.abs(edges[1:, 0] - edges[:-1, 1]) > most, False)
+    short = np.diff(ends) < 2.0 * (ends[-1] / PARTS) * 2.0**-HALVINGS
+    inside = short & (np.abs(edges[:, 1] - edges[:, 0]) > most)
+    if (between | inside).any():
+        when = min([*ends[1:][between], *ends[:-1][inside]])
+        raise ModelError(Fault("", 0, 0, "", f"the speed jumps at t = {when:.6g} s; give it a ramp, e.g. with `step`"))
+
+
+def _bounds(function: TimeFunction, end: float) -> Array:
+    """Ends of the first pieces [s]: corners and jumps, and equal parts of the run."""
+    corners = _corners(function, end)
+    parts = np.linspace(0.0, end, PARTS + 1)
+    if not len(corners):
+        return parts
+    far = np.abs(parts[1:-1, None] - corners).min(axis=1) > end / LOOKS
+    bounds = np.unique([0.0, end, *parts[1:-1][far], *corners])
+    return np.append(bounds[:-1][np.diff(bounds) > APART * end], end)
+
+
+def _corners(function: TimeFunction, end: float) -> Array:
+    """Where between 0 and `end` a function has a corner or jumps [s]."""
+    found = [np.empty(0)]
+    if isinstance(function, Expression | Table):
+        grid = np.linspace(0.0, end, LOOKS + 1)
+        for mark in marks(function):
+            above = values_of(mark, {TIME: grid}) >= 0.0
+            k = np.flatnonzero(above[1:] != above[:-1])
+            if 0 < len(k) <= CORNERS:
+                found.append(_passed(mark, grid[k], grid[k + 1], above[k]))
+    corners = np.unique(np.concatenate(found))
+    return corners[(corners > APART * end) & (corners < (1.0 - APART) * end)]
+
+
+def _passed(mark: Node, low: Array, high: Array, above: NDArray[np.bool_]) -> Array:
+    """Where `mark` passes zero between `low` and `high`, by halving. above : whether it is not below zero at `low`."""
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        same = (values_of(mark, {TIME: middle}) >= 0.0) == above
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return high
 
 
 def _values(function: TimeFunction) -> Callable[[Array], Array]:
@@ -141,8 +209,9 @@ def _values(function: TimeFunction) -> Callable[[Array], Array]:
 
 def _evaluated(function: TimeFunction, t: Array) -> Array:
     """Raises ModelError where the function has no finite value."""
-    if isinstance(function, Expression):
-        out = values_of(function.tree, {TIME: t.ravel()}).reshape(t.shape)
+    tree = _tree(function)
+    if tree is not None:
+        out = values_of(tree, {TIME: t.ravel()}).reshape(t.shape)
         if np.isfinite(out).all():
             return out
     value = partial(evaluate, function.tree) if isinstance(function, Expression) else function
@@ -157,6 +226,13 @@ def _evaluated(function: TimeFunction, t: Array) -> Array:
         when = float(t[~np.isfinite(out)][0])
         raise ModelError(Fault("", 0, 0, "", f"there is no finite value at t = {when:.6g} s"))
     return out
+
+
+def _tree(function: TimeFunction) -> Node | None:
+    """A function of time as an expression."""
+    if isinstance(function, Table) and not _is_exact(function):
+        return Lookup(Time(), function.interpolation, tuple(function.times), tuple(function.values))
+    return function.tree if isinstance(function, Expression) else None
 
 
 def _constant(value: float, t: Array) -> Array:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import force_zoo
 from nivel.errors import ModelError
@@ -302,7 +303,7 @@ def test_without_an_integrator_play_is_known_before_it_is_used_up(kind):
         "shaft": {"type": "shaft", **ends, "stiffness": 1e6, "damping": 30, "backlash": 0.01},
         "chain": {"type": "belt-drive", **ends, "radii": [0.1, 0.1], "stiffness": 1e7, "damping": 3e3, "slack": 5e-4},
     }
-    result = simulate(shafts({"it": forces[kind]}, (2.0, 0.0)), duration=0.1)
+    result = simulate(shafts({"it": forces[kind]}, (2.0, 0.0)), duration=0.1, tolerance=1e-8)
     assert result.settings["integrator"] == "radau"
     assert balance(result) < 1e-3 * 0.5 * 0.02 * 4.0
     # angular momentum stays, and the blow is soon over
@@ -350,3 +351,32 @@ def test_a_second_loss_of_a_coupling_is_refused():
 def test_what_is_wrong_is_said_where_it_stands(force, said):
     with pytest.raises(ModelError, match=said):
         simulate(shafts({"f": force}), duration=0.01)
+
+
+@pytest.mark.parametrize(
+    "method", [{"step": 1e-4}, {"integrator": "dopri5", "tolerance": 1e-9}, {"integrator": "radau", "tolerance": 1e-8}]
+)
+def test_a_chain_pulls_when_its_slack_is_gone_and_not_before(method):
+    """J₁ ω̇₁ = -r₁ F, J₂ ω̇₂ = r₂ F, F = max(0, k (e - s) + d ė) for e = r₁ φ₁ - r₂ φ₂ > s, and against it at e < -s. The damper pulled
+    before. A fixed step is late by itself at most: d ė r₁/J₁ h."""
+    k, d, slack, r1, r2 = 2e4, 60.0, 2e-3, 0.1, 0.2
+
+    def pull(e, speed):
+        return max(0.0, k * (e - slack) + d * speed) if e > slack else 0.0
+
+    def motion(_, y):
+        e, speed = r1 * y[0] - r2 * y[1], r1 * y[2] - r2 * y[3]
+        force = pull(e, speed) - pull(-e, -speed)
+        return [y[2], y[3], -r1 * force / 0.02, r2 * force / 0.05]
+
+    chain = {"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [r1, r2], "stiffness": k, "damping": d}
+    result = simulate(
+        shafts({"c": {**chain, "slack": slack}}, (3.0, 0.0)), duration=0.2, output_interval=1e-3, **method
+    )
+    found = solve_ivp(motion, (0, 0.2), [0, 0, 3, 0], t_eval=result.time, rtol=1e-10, atol=1e-12, max_step=1e-4)
+    e, tension = r1 * found.y[0] - r2 * found.y[1], result.array("force.c.first_tension")
+    assert np.ptp(e) > 2.0 * slack
+    assert tension[e < slack - 1e-6].max() == 0.0
+    np.testing.assert_allclose(
+        rates(result), found.y[2:], atol=d * 0.3 * r1 / 0.02 * 1e-4 if "step" in method else 1e-5
+    )

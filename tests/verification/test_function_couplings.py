@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline
 
 from simulating import G, hinge, machine, simulate, slide, solid, wheel
 
+COS_30, ELLIPSE = np.cos(np.pi / 6), 1.4 / 0.6
 M1, M3, ARM, J = 1.0, 3.0, 0.2, 0.05
 
 
@@ -146,3 +147,39 @@ def test_from_start_the_difference_as_placed_is_kept():
     sections["couplings"]["knee"]["from_start"] = True
     r = simulate(sections, duration=0.01, step=1e-3)
     np.testing.assert_allclose(r.array("s.displacement"), 0.1 * r.array("k.angle"), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "methods",
+    [{"coordinates": "relative"}, {"coordinates": "absolute"}, {"integrator": "radau"}],
+    ids=lambda m: next(iter(m.values())),
+)
+@pytest.mark.parametrize(
+    ("value", "slope"),
+    [
+        # the angle behind a universal joint at 30°; a pair of elliptic gears of eccentricity 0.4
+        (
+            "atan2(cos(30 deg)*sin(a.angle), cos(a.angle))",
+            lambda a: COS_30 / (np.cos(a) ** 2 + (COS_30 * np.sin(a)) ** 2),
+        ),
+        (
+            "-2*atan(1.4/0.6*tan(a.angle/2))",
+            lambda a: -ELLIPSE / (np.cos(a / 2) ** 2 + (ELLIPSE * np.sin(a / 2)) ** 2),
+        ),
+    ],
+    ids=["universal", "elliptic"],
+)
+def test_inverse_tangents_go_on_over_turns(methods, value, slope):
+    """ω (J₁ + J₂ b'²)^½ is constant, and b grows by b' ω. Where the inverse tangent came back, energy was lost, or the run stopped."""
+    sections = {
+        "gravity": [0, 0, 0],
+        "bodies": {"one": wheel(0.02), "two": wheel(0.05)},
+        "joints": {"a": hinge("ground", "one", start_rates={"angle": 6}), "b": hinge("ground", "two")},
+        "couplings": {"pair": {"type": "function", "coordinate": "b", "value": value}},
+    }
+    r = simulate(sections, duration=3, step=1e-3, output_interval=5e-3, tolerance=1e-9, **methods)
+    a, w = r.array("a.angle"), r.array("a.angle.rate")
+    assert a[-1] > 4.0 * np.pi
+    np.testing.assert_allclose(r.array("b.angle.rate"), slope(a) * w, rtol=1e-8)
+    np.testing.assert_allclose((0.02 + 0.05 * slope(a) ** 2) * w**2, (0.02 + 0.05 * slope(0.0) ** 2) * 36.0, rtol=1e-6)
+    assert np.abs(np.diff(r.array("b.angle"))).max() < 0.2

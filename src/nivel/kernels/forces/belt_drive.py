@@ -1,10 +1,10 @@
 """Elastic belts, chains and freewheels between two joint coordinates: two strands that never push, and a slip between given ends.
 
-With the way e of one rim against the other, the slip x and z = e - x, y = k z + d ż, the strands pull with T₁ = max(0, T₀ + y) and
-T₂ = max(0, T₀ - y), of which the effort T₁ - T₂ is left. z and y/k stay between LOW and HIGH: at an end the belt slips. x is that of the
-last accepted state, and z what is left of e - x between the ends (the return mapping of plasticity: exact where e turns back at no time
-within a step; where steps are chosen one ends there). Of Euler and Eytelwein, T₁ = m T₂ with m = exp(μ φ), the end is
-k z = T₀ (m - 1)/(m + 1).
+With the way e of one rim against the other, the slip x and z = e - x, y = k z + d ż, the strands pull with T₁ = max(0, T₀ + y) while they
+are taut, T₀ + k z > 0, and T₂ = max(0, T₀ - y) while T₀ - k z > 0; the effort T₁ - T₂ is left. z and y/k stay between LOW and HIGH: at
+an end the belt slips. x is that of the last accepted state, and z what is left of e - x between the ends (the return mapping of
+plasticity: exact where e turns back at no time within a step; where steps are chosen one ends there). Of Euler and Eytelwein, T₁ = m T₂
+with m = exp(μ φ), the end is k z = T₀ (m - 1)/(m + 1).
 """
 
 from __future__ import annotations
@@ -44,11 +44,21 @@ def watch(elements, k, place, value):
     elements.proposal[k, place] = 1.0 if real(value) > 0.0 else 0.0
 
 
+@leaf
+def tension(elastic, whole, remembered, held):
+    """Tension of a strand, of its spring and `whole`: none where it is slack, and it never pushes. held : it pulls or not as in the last
+    accepted state, so that steps can end where that changes."""
+    if held:
+        return whole if remembered > 0.0 else 0.0 * whole
+    return maximum(whole, 0.0) if real(elastic) > 0.0 else 0.0 * whole
+
+
 @family
 def apply(machine, number, t):
     """Efforts, slips and their power."""
     record = record_at(machine)
     elements, coordinates, control, value = record.elements, record.coordinates, record.control, record.outputs.value
+    followed = record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         n, q, out = elements.number[k], elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
         way, rate = coordinates.value[q], coordinates.rate[q]
@@ -67,10 +77,12 @@ def apply(machine, number, t):
         watch(elements, k, AT_LOW, below)
         y = stiffness * z + n[DAMPING] * stretching
         y = minimum(maximum(y, stiffness * n[LOW]), stiffness * n[HIGH])
-        pull, back = maximum(pretension + y, 0.0), maximum(pretension - y, 0.0)
         first, second = maximum(pretension + stiffness * z, 0.0), maximum(pretension - stiffness * z, 0.0)
-        watch(elements, k, PULLS, pretension + y)
-        watch(elements, k, PULLS_BACK, pretension - y)
+        held = followed == 1 and n[HIGH] == np.inf
+        pull = tension(pretension + stiffness * z, pretension + y, elements.memory[k, PULLS], held)
+        back = tension(pretension - stiffness * z, pretension - y, elements.memory[k, PULLS_BACK], held)
+        watch(elements, k, PULLS, minimum(pretension + stiffness * z, pretension + y))
+        watch(elements, k, PULLS_BACK, minimum(pretension - stiffness * z, pretension - y))
         effort = pull - back
         control.stored[0] += 0.5 * (first * first + second * second) / stiffness
         control.power[1] += effort * rate - (first - second) * stretching

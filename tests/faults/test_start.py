@@ -66,3 +66,29 @@ def test_an_equilibrium_that_snapped_through_is_a_line(tmp_path, stiffness, verd
     lines = [item for item in result.trust.items if item.name == "start"]
     assert [item.verdict for item in lines] == (["amber"] if verdict == "amber" else [])
     assert all("snapped through" in item.text and item.row == "bar" for item in lines)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_a_ball_begins_at_rest_on_a_plane_with_friction(friction):
+    """K δ^1.5 = m g, and no effort of friction: the machine of the equilibrium has none, and rows of another number."""
+    record = machine(
+        {
+            "gravity": [0, 0, -9.81],
+            "bodies": {"ball": {"shape": {"type": "sphere", "radius": 0.3}, "mass": 20, "position": [0, 0, 0.3]}},
+            "joints": {"p": {"type": "planar", "bodies": ["ground", "ball"], "point": [0, 0, 0.3], "axis": [0, 1, 0]}},
+            "forces": {
+                "road": {
+                    "type": "contact",
+                    "body": "ball",
+                    "plane": {"body": "ground", "axis": [0, 0, 1]},
+                    "stiffness": 1e6,
+                }
+                | {"restitution": 0.3, "friction": friction}
+            },
+            "simulation": {"duration": 0.05, "start": "equilibrium", "free": ["p.x", "p.angle"]},
+        }
+    )
+    result = record.simulate(verify=False)
+    depth = (20 * 9.81 / 1e6) ** (2 / 3)
+    assert result.array("ball.position")[:, 2] == pytest.approx(0.3 - depth, abs=1e-9)
+    assert abs(result.array("ball.velocity")).max() < 1e-8

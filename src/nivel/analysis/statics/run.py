@@ -105,9 +105,10 @@ def prepare_statics(
     refuse_with_states(machine, settings)
     neutral, coordinates = for_statics(machine, settings)
     refuse_rough_motions(neutral)
-    held = len(neutral.drivers) > len(machine.drivers)  # drivers that hold what is free are not in what was built
+    # drivers that hold what is free are not in what was built, and friction of contacts is not in what is at rest
+    others = len(neutral.drivers) > len(machine.drivers) or neutral.forces != machine.forces
     methods = methods_of(neutral, "newton-euler", coordinates)
-    prepared = prepare(methods, None if held else given, ResidualOptions(shifted=True))
+    prepared = prepare(methods, None if others else given, ResidualOptions(shifted=True))
     motion = prepared.motion
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
     # multipliers of equilibria are those of the residual, and S in the record is of another state

@@ -43,7 +43,10 @@ class Settled:
         system = motion.system
         y = np.zeros_like(assembly.y)
         y[: system.positions] = self.q[: system.positions]
-        system.record.coordinates.reference[:] = self.reference
+        # coordinates of joints come first; friction, which statics leaves out, may measure others behind them
+        reference = system.record.coordinates.reference
+        shared = min(len(reference), len(self.reference))
+        reference[:shared] = self.reference[:shared]
         _, rate = motion.evaluate(0.0, y)
         constraints = system.record.constraints
         moving = np.abs(constraints.Cdot / constraints.scale)[: system.machine_rows] > AT_REST
@@ -58,7 +61,7 @@ class Settled:
             raise ModelError(faults)
         count = system.body_count
         refuse_moving(self.machine, rate[system.positions :][: 6 * count].reshape(count, 6), system.size)
-        return replace(assembly, y=y, reference=self.reference.copy(), velocity_change=(), followed=())
+        return replace(assembly, y=y, reference=reference.copy(), velocity_change=(), followed=())
 
 
 SETTINGS = StaticsSettings(duration=0.0, step=1.0, coordinates="absolute")

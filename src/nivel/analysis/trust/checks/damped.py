@@ -39,7 +39,7 @@ def look(run: Run) -> Damped | None:
     k = int(np.argmin(errors))
     lost, lost_other = -float(errors[k]), -float(others[k])
     finer, coarser = (lost, lost_other) if longer else (lost_other, lost)
-    scale = largest_energy(result, run.scales.size)[0]
+    scale = largest_energy(result, run.scales.size, at_rest=run.scales.at_rest)[0]
     if not (lost > LOSS * scale and finer > STAYS * coarser):
         return None
     return Damped(lost, lost_other, run.plan.settings.integrator, longer)

@@ -129,6 +129,8 @@ def test_own_numbers_hold_a_joint_together_where_the_others_drift():
         ({"stabilisation": "baumgarte", "baumgarte": {"alpha": 3}}, "takes `alpha` and `beta`, both or none"),
         ({"coordinates": "relative", "stabilisation": "baumgarte", "baumgarte": {"rows": {"pivot": {"alpha": 1, "beta": 1}}}},
          "`pivot` is no constraint in relative coordinates"),
+        ({"coordinates": "relative", "independent": ["rod.about_z"]}, "`independent` needs `coordinates: independent`; it is `relative`"),
+        ({"cut": ["pivot"], "independent": ["rod.about_z"]}, "`independent` and `cut` are for different coordinates"),
         ({"coordinates": "independent", "independent": ["rod.about_q"]}, "the velocity `about_q` is not known"),
         ({"coordinates": "independent", "independent": ["rods.about_z"]}, "the body `rods` is not known"),
         ({"coordinates": "independent", "independent": ["rod.about_z", "rod.x"]}, "2 velocities are named, and the machine has 1 degree"),
@@ -138,6 +140,13 @@ def test_own_numbers_hold_a_joint_together_where_the_others_drift():
 def test_what_cannot_be_is_said(settings, said):
     with pytest.raises(ModelError, match=said):
         pendulum(**settings).simulate(verify=False)
+
+
+def test_velocities_that_are_named_make_coordinates_independent():
+    """Without `coordinates` they had no effect, and nothing said so."""
+    machine = pendulum(independent=["rod.about_z"])
+    assert machine.simulate(verify=False).settings["coordinates"] == "independent"
+    assert machine.simulate(verify=False, coordinates="absolute").settings["coordinates"] == "absolute"
 
 
 def pendulum(**settings):

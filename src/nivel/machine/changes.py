@@ -21,6 +21,9 @@ def changed(settings: SimulationSettings, changes: Mapping[str, Any]) -> Simulat
     # own Baumgarte coefficients belong to the stabilisation they were given with
     if words.get("stabilisation", "baumgarte") != "baumgarte" and settings.baumgarte is not None:
         changes.setdefault("baumgarte", None)
+    # velocities that are kept as unknowns belong to independent coordinates
+    if words.get("coordinates", "independent") not in ("auto", "independent") and settings.independent:
+        changes.setdefault("independent", ())
     # rotation coordinates belong to lagrange in absolute coordinates
     if (words.get("formulation", "lagrange"), words.get("coordinates", "absolute")) != ("lagrange", "absolute"):
         changes.setdefault("rotations", "euler-parameters")

@@ -1,6 +1,7 @@
 """Choice of coordinates for `coordinates: auto`: the ones in which an evaluation of its equations costs least.
 
-Joints named in `cut` are a wish about relative coordinates: where these are possible, they are taken.
+Joints named in `cut` are a wish about relative coordinates: where these are possible, they are taken. Velocities named in `independent`
+are one about independent coordinates.
 
 Counted are, in relative coordinates, the bodies of the tree and the rows that are left with the joint velocities on their way to the
 ground; in absolute ones the rows with the bodies that they touch; and in both the entries of S. Weights are nanoseconds, fitted to
@@ -42,13 +43,15 @@ def with_integrator(machine: MachineRecord) -> MachineRecord:
 
 
 def choose_coordinates(machine: MachineRecord) -> str:
-    """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, else the ones
-    that cost least, of those that its formulation knows.
+    """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, independent
+    where velocities are named in `independent`, else the ones that cost least, of those that its formulation knows.
     """
     machine = with_nodes(machine)
     settings = machine.simulation
     if settings.coordinates != "auto":
         return settings.coordinates
+    if settings.independent:
+        return "independent"
     if settings.formulation == "lagrange" or not machine.joints:
         return "absolute"
     if settings.cut:

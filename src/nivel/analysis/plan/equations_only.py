@@ -22,6 +22,7 @@ def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -
         stabilisation="direct",
         rotations="euler-parameters",
         baumgarte=None,
+        independent=(),
         start=start,
         step_control="own",
     )

@@ -102,6 +102,7 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
         stabilisation="direct",
         rotations="euler-parameters",
         baumgarte=None,
+        independent=(),
         start="as-given",
         duration=duration,
         step=min(settings.interval, duration),

@@ -201,6 +201,12 @@ class SimulationSettings(Checked):
             messages.append(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
             messages.append(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
+        if self.independent and self.coordinates not in ("auto", "independent"):
+            messages.append(f"`independent` needs `coordinates: independent`; it is `{self.coordinates}`")
+        if self.independent and self.cut and self.coordinates == "auto":
+            messages.append(
+                "`independent` and `cut` are for different coordinates: write `coordinates: independent` or `relative`"
+            )
         own = self.baumgarte
         if own is not None and (own.alpha is None) != (own.beta is None):
             messages.append("`baumgarte` takes `alpha` and `beta`, both or none")

@@ -31,7 +31,8 @@ class Checked(np.ndarray):
             _check(self.shape, key)
         found = _get(self, key)
         if type(found) is np.void:
-            return Dual(found["value"], found["slopes"].copy())
+            slopes = found["slopes"]
+            return Dual(found["value"], slopes.copy() if np.count_nonzero(slopes) else NONE)
         return int(found) if type(found) in UNSIGNED else found
 
     def __setitem__(self, key, value):

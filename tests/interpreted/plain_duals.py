@@ -1,13 +1,16 @@
 """Dual numbers of plain Python, as compiled kernels have them: see `nivel.native.duals`."""
 
 import math
+import operator
 from types import SimpleNamespace
 
 import numpy as np
 
 from nivel.native.duals import LANES
 
+# slopes that are known to be null: they need no arithmetic
 NONE = np.zeros(LANES)
+NONE.flags.writeable = False
 
 
 class Dual:
@@ -30,7 +33,15 @@ class Dual:
 
 
 def value(x):
-    return x.real if isinstance(x, Dual) else x
+    return x.real if type(x) is Dual else x
+
+
+def parts(x):
+    return (x.real, x.slopes) if type(x) is Dual else (x, NONE)
+
+
+def finite(along):
+    return along if math.isfinite(along) else 0.0
 
 
 def of(function, *slopes):
@@ -40,20 +51,28 @@ def of(function, *slopes):
         values = [value(x) for x in operands]
         total = NONE
         for x, slope in zip(operands, slopes, strict=True):
-            if isinstance(x, Dual):
-                along = slope(*values)
-                total = total + (along if np.isfinite(along) else 0.0) * x.slopes
+            if type(x) is Dual and x.slopes is not NONE:
+                total = total + finite(slope(*values)) * x.slopes
         return Dual(function(*values), total)
 
     return on_duals
 
 
 def sum_of(x, y):
-    return Dual(value(x) + value(y), getattr(x, "slopes", NONE) + getattr(y, "slopes", NONE))
+    (a, p), (b, q) = parts(x), parts(y)
+    return Dual(a + b, q if p is NONE else p if q is NONE else p + q)
 
 
 def difference(x, y):
-    return Dual(value(x) - value(y), getattr(x, "slopes", NONE) - getattr(y, "slopes", NONE))
+    (a, p), (b, q) = parts(x), parts(y)
+    return Dual(a - b, p if q is NONE else p - q)
+
+
+def product(x, y):
+    (a, p), (b, q) = parts(x), parts(y)
+    if q is NONE:
+        return Dual(a * b, NONE if p is NONE else finite(b) * p)
+    return Dual(a * b, finite(a) * q if p is NONE else finite(b) * p + finite(a) * q)
 
 
 def chosen(further):
@@ -66,8 +85,8 @@ def chosen(further):
     return choose
 
 
-def compared(ufunc):
-    return lambda *operands: ufunc(*(value(x) for x in operands))
+def compared(function):
+    return lambda *operands: function(*(value(x) for x in operands))
 
 
 def stepped(ufunc):
@@ -77,7 +96,7 @@ def stepped(ufunc):
 FUNCTIONS = {
     np.add: sum_of,
     np.subtract: difference,
-    np.multiply: of(np.multiply, lambda x, y: y, lambda x, y: x),
+    np.multiply: product,
     np.true_divide: of(np.true_divide, lambda x, y: 1.0 / y, lambda x, y: -x / y / y),
     np.power: of(
         np.float_power, lambda x, y: y * np.float_power(x, y - 1.0), lambda x, y: np.log(x) * np.float_power(x, y)
@@ -102,7 +121,12 @@ FUNCTIONS = {
     np.arctan: of(np.arctan, lambda x: 1.0 / (1.0 + x * x)),
     np.tanh: of(np.tanh, lambda x: 1.0 - np.tanh(x) ** 2),
     **{each: stepped(each) for each in (np.floor, np.ceil, np.sign)},
-    **{each: compared(each) for each in (np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal)},
+    np.less: compared(operator.lt),
+    np.less_equal: compared(operator.le),
+    np.equal: compared(operator.eq),
+    np.greater: compared(operator.gt),
+    np.greater_equal: compared(operator.ge),
+    np.not_equal: compared(operator.ne),
     **{each: compared(each) for each in (np.isnan, np.isfinite)},
 }
 OPERATORS = {

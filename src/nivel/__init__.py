@@ -61,6 +61,8 @@ if TYPE_CHECKING:
     from nivel.machine import Shaft as Shaft
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
+    from nivel.machine import SpringNode as SpringNode
+    from nivel.machine import SpringSeries as SpringSeries
     from nivel.machine import State as State
     from nivel.machine import Stop as Stop
     from nivel.machine import Table as Table
@@ -117,6 +119,8 @@ _HOME = {
     "Servo": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
+    "SpringNode": "nivel.machine",
+    "SpringSeries": "nivel.machine",
     "State": "nivel.machine",
     "Stop": "nivel.machine",
     "Table": "nivel.machine",
@@ -170,6 +174,8 @@ __all__ = [
     "SimulationSettings",
     "SolveError",
     "SpringDamper",
+    "SpringNode",
+    "SpringSeries",
     "State",
     "Stop",
     "Table",

@@ -24,6 +24,8 @@ from nivel.machine import (
     Rope,
     Servo,
     SpringDamper,
+    SpringNode,
+    SpringSeries,
     Stop,
     ThreeAxisSpring,
     TimeFunction,
@@ -163,6 +165,17 @@ def _rope(force: Rope, scene: Scene) -> Changes:
     return {"points": tuple(scene.placement.point(point) for point in force.points or ()), **changes}
 
 
+def _spring_node(force: SpringNode, scene: Scene) -> Changes:
+    node = {"node": scene.placement.point(force.node)}
+    if force.markers is not None:
+        return {**node, "markers": tuple(scene.end(each) for each in force.markers)}
+    return {**node, "points": tuple(scene.placement.point(point) for point in force.points or ())}
+
+
+def _spring_series(force: SpringSeries, scene: Scene) -> Changes:
+    return placed_ends(force, scene, with_axes=False)
+
+
 def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, scene: Scene) -> Changes:
     """What acts on a joint coordinate keeps its numbers, unless the coordinate counts the other way."""
     fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed"), "Servo": ("target",)}.get(
@@ -245,6 +258,8 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     ThreeAxisSpring: _three_axis_spring,
     Contact: _contact,
     Rope: _rope,
+    SpringNode: _spring_node,
+    SpringSeries: _spring_series,
     DriveLine: _of_drive_line,
     BeltDrive: _of_belt,
     Brake: _of_brake,

@@ -40,7 +40,7 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
     ends = frame.pixels(ends_in_space(force, poses))
     (x1, y1), (x2, y2) = ((float(x), float(y)) for x, y in ends)
     match force["type"]:
-        case "spring-damper":
+        case "spring-damper" | "spring-series":
             sign = spring_sign((x1, y1), (x2, y2), frame.sign)
         case "torsional-spring-damper":
             sign = coil_sign(x1, y1, frame.sign)

@@ -106,6 +106,8 @@ def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
             damped = any(record.get(word) for word in ("damping", "damping_table", "damping_law"))
             sprung = any(record.get(word) for word in ("stiffness", "table", "law", "preload")) or not damped
             return "spring-damper" if damped and sprung else "damper" if damped else "spring"
+        case "spring-series":
+            return "spring-damper" if any(record.get("damping") or ()) else "spring"
         case "torsional-spring-damper":
             return "coil"
         case "pair-force" | "cylinder":

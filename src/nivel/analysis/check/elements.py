@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope
+from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope, SpringNode
 from nivel.machine.hydraulics import Component
 from nivel.machine.joints.coupling import Coupling, FunctionCoupling
 from nivel.machine.joints.driver import Driver
@@ -93,7 +93,7 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
         return bodies[end] if isinstance(end, str) else end.body
 
     match force:
-        case Between() | BetweenMarkers() | Rope():
+        case Between() | BetweenMarkers() | Rope() | SpringNode():
             return " and ".join(body(end) for end in force.ends)
         case PointForce(marker=str() as marker):
             return bodies[marker]

@@ -11,7 +11,7 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
-from nivel.machine.forces import FORCES, Between, PointForce, Rope
+from nivel.machine.forces import FORCES, Between, PointForce, Rope, SpringNode
 from nivel.machine.joints.joint import JOINT_WORDS
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def problems_of_points(machine: MachineRecord) -> Iterator[Problem]:
     for at, force in enumerate(machine.forces):
         if isinstance(force, PointForce) and force.body is not None:
             yield from _off(force.body, force.position or (0.0, 0.0, 0.0), origins, ("forces", at, "position"))
-        if isinstance(force, Between | Rope):
+        if isinstance(force, Between | Rope | SpringNode):
             yield from _off_points(force.markers, force.bodies, force.points, origins, ("forces", at))
     for at, sensor in enumerate(machine.sensors):
         for form in ("distance", "angle"):

@@ -29,6 +29,8 @@ from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.shaft import Shaft
 from nivel.machine.forces.spring_damper import SpringDamper
+from nivel.machine.forces.spring_node import SpringNode
+from nivel.machine.forces.spring_series import SpringSeries
 from nivel.machine.forces.sticking import holds_by_capacity, is_sticking
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
@@ -40,6 +42,8 @@ FORCES: list[type[ForceElement]] = [
     PointForce,
     Torque,
     SpringDamper,
+    SpringSeries,
+    SpringNode,
     TorsionalSpringDamper,
     JointSpringDamper,
     Stop,
@@ -117,6 +121,8 @@ __all__ = [
     "ServoMotor",
     "Shaft",
     "SpringDamper",
+    "SpringNode",
+    "SpringSeries",
     "Stop",
     "ThreeAxisSpring",
     "Torque",

@@ -39,8 +39,8 @@ from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
 MASSLESS = (
-    "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational; two springs in series "
-    "are one, with 1/stiffness the sum of both; a node of several springs is `{point_mass: true, mass: 1 mg}`"
+    "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational; springs and dampers in "
+    "series are a force, `type: spring-series`, and so is a node without mass where springs meet, `type: spring-node`"
 )
 FAULT = "nivel"  # type of the validation errors that carry a finished sentence
 REPORTED = "nivel_reported"  # type of those that follow from a fault reported elsewhere

@@ -50,8 +50,16 @@ def process(folder, *arguments, **options):
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300, **options)
 
 
-def test_a_run_into_a_log_says_what_it_does_in_plain_lines(folder):
-    done = process(folder, "run", "pendulum.yaml")
+@pytest.fixture(scope="module")
+def logged(tmp_path_factory):
+    """A folder with a run by a process of its own, and what that said."""
+    folder = tmp_path_factory.mktemp("logged")
+    (folder / "pendulum.yaml").write_text(PENDULUM)
+    return folder, process(folder, "run", "pendulum.yaml")
+
+
+def test_a_run_into_a_log_says_what_it_does_in_plain_lines(logged):
+    folder, done = logged
     lines = done.stderr.splitlines()
     stages = ("preparing", "running", "verifying with", "writing the report", "ended after", "pendulum: completed")
     places = [next(k for k, line in enumerate(lines) if line.startswith(stage)) for stage in stages]
@@ -63,17 +71,16 @@ def test_a_run_into_a_log_says_what_it_does_in_plain_lines(folder):
 
 def test_sentences_of_a_log_are_whole_lines(folder):
     """A terminal of 80 columns folds them; a file does not, so that they can be searched for."""
-    process(folder, "run", "pendulum.yaml")
-    done = process(folder, "run", "pendulum.yaml", "--force", "--integrator", "euler", "--step", "10 ms")
+    done = process(folder, "run", "pendulum.yaml", "--no-report", "--integrator", "euler", "--step", "10 ms")
     sentences = [line for line in done.stderr.splitlines() if line.startswith("  ●")]
     assert sentences
     assert all(line.endswith(")") for line in sentences), done.stderr
     assert max(map(len, sentences)) > 80
 
 
-@pytest.mark.parametrize("call", [nivel, process])
-def test_result_and_report_stand_beside_each_other(folder, call):
-    done = call(folder, "run", "pendulum.yaml")
+@pytest.mark.parametrize("call", ["in this process", "in its own"])
+def test_result_and_report_stand_beside_each_other(folder, logged, call):
+    folder, done = logged if call == "in its own" else (folder, nivel(folder, "run", "pendulum.yaml"))
     assert done.returncode == 0, done.stderr
     assert done.stdout == ""
     assert (folder / "pendulum.nc").exists()

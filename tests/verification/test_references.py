@@ -6,6 +6,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 from references import andrews, four_bar, heavy_top, one_dof, pendulum, slider_crank
+from references.solution import Solution
 
 LINKAGES = pytest.mark.parametrize("machine", [slider_crank, four_bar], ids=["slider-crank", "four-bar"])
 DURATION = {slider_crank: 8.0, four_bar: 4.0}
@@ -112,6 +113,17 @@ def test_a_tighter_tolerance_gives_the_same_motion(machine, motions):
     tight = machine.solve(_times(machine), rtol=3e-14, atol=1e-15)
     assert np.allclose(motions[machine].position, tight.position, rtol=0, atol=1e-9)
     assert np.allclose(motions[machine].rotation, tight.rotation, rtol=0, atol=1e-9)
+
+
+def test_a_solution_is_the_same_in_whatever_order_it_is_asked_for():
+    """y'' = -y: what was computed for later times serves earlier ones."""
+    there, early, late = (Solution(lambda _, y: (y[1], -y[0]), 0.0, (0, 1), rtol=1e-12, atol=1e-13) for _ in range(3))
+    times, more = np.linspace(0, 1, 11), np.linspace(0, 9, 19)
+    early(times), late(more)
+    np.testing.assert_array_equal(early(more), there(more))
+    np.testing.assert_array_equal(late(times), early(times))
+    np.testing.assert_allclose(late(more), [np.sin(more), np.cos(more)], rtol=0, atol=1e-11)
+    np.testing.assert_array_equal(there(np.zeros(1)), [[0.0], [1.0]])
 
 
 @LINKAGES

@@ -8,9 +8,11 @@ Index one: [M Gᵀ; G 0] [q̈; λ] = [f; -Ġ q̇], integrated from consistent va
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
-from scipy.integrate import solve_ivp
+
+from .solution import Solution
 
 MASSES = np.array([0.04325, 0.00365, 0.02373, 0.00706, 0.0705, 0.00706, 0.05498])
 INERTIAS = np.array([2.194e-6, 4.41e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5])
@@ -167,12 +169,15 @@ class Motion:
 
 def solve(times, *, spring, rtol=1e-12, atol=1e-13):
     """Motion from rest at START at the given times."""
+    states = _solution(float(times[0]), spring, rtol, atol)(times)
+    q, qdot = states[:7].T, states[7:].T
+    centres = np.array([point(CENTRES, each)[0].reshape(7, 2) for each in q])
+    return Motion(times, q, qdot, centres, q @ ANGLES.T)
 
+
+@cache
+def _solution(begin, spring, rtol, atol):
     def rates(_t, state):
         return np.concatenate([state[7:], accelerations(state[:7], state[7:], spring=spring)])
 
-    start = np.concatenate([START, np.zeros(7)])
-    found = solve_ivp(rates, (times[0], times[-1]), start, method="DOP853", rtol=rtol, atol=atol, t_eval=times)
-    q, qdot = found.y[:7].T, found.y[7:].T
-    centres = np.array([point(CENTRES, each)[0].reshape(7, 2) for each in q])
-    return Motion(found.t, q, qdot, centres, q @ ANGLES.T)
+    return Solution(rates, begin, np.concatenate([START, np.zeros(7)]), rtol=rtol, atol=atol)

@@ -11,10 +11,12 @@ The force of the joint on the top is m (a - g), a = A (ω̄' × X̄ + ω̄ × (�
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
+
+from .solution import Solution
 
 Array = NDArray[np.float64]
 
@@ -50,7 +52,7 @@ class TopMotion:
 
 def rotation_matrix(parameters: Array) -> Array:
     """(n, 4) -> (n, 3, 3), the homogeneous form divided by |p|²."""
-    e0, e1, e2, e3 = np.moveaxis(parameters, -1, 0)
+    e0, e1, e2, e3 = parameters.T
     matrix = np.array(
         [
             [e0**2 + e1**2 - e2**2 - e3**2, 2 * (e1 * e2 - e0 * e3), 2 * (e1 * e3 + e0 * e2)],
@@ -58,7 +60,7 @@ def rotation_matrix(parameters: Array) -> Array:
             [2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), e0**2 - e1**2 - e2**2 + e3**2],
         ]
     )
-    return np.moveaxis(matrix / (e0**2 + e1**2 + e2**2 + e3**2), -1, 0)
+    return (matrix / (e0**2 + e1**2 + e2**2 + e3**2)).transpose(2, 0, 1)
 
 
 def _spin_rate(spin: Array, rotation: Array) -> Array:
@@ -83,11 +85,13 @@ def _slope(_: float, state: Array) -> Array:
 def solve(times: Array, *, rtol: float = 1e-13, atol: float = 1e-13) -> TopMotion:
     """At `times` (n,) [s] beginning with 0."""
     times = np.asarray(times, dtype=float)
-    start = np.concatenate([[1.0, 0.0, 0.0, 0.0], SPIN])
-    result = solve_ivp(_slope, (times[0], times[-1]), start, method="DOP853", t_eval=times, rtol=rtol, atol=atol)
-    if not result.success:
-        raise RuntimeError(result.message)
-    return _motion(times, result.y[:4].T, result.y[4:].T)
+    states = _solution(float(times[0]), rtol, atol)(times)
+    return _motion(times, states[:4].T, states[4:].T)
+
+
+@cache
+def _solution(begin: float, rtol: float, atol: float) -> Solution:
+    return Solution(_slope, begin, np.concatenate([[1.0, 0.0, 0.0, 0.0], SPIN]), rtol=rtol, atol=atol)
 
 
 def _motion(times: Array, raw: Array, spin: Array) -> TopMotion:

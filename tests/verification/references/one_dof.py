@@ -19,12 +19,14 @@ for each body.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
+
+from .solution import Solution
 
 Array = NDArray[Any]  # float64; complex128 for an angle with an imaginary step
 GROUND = -1
@@ -47,7 +49,7 @@ class Joint:
     wrenches: Callable[[Array], Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Linkage:
     """A machine of `len(names)` bodies driven by one angle.
 
@@ -151,15 +153,16 @@ def solve(
     5e-11 of the largest kinetic energy at the default tolerances.
     """
     times = np.asarray(times, dtype=float)
+    solution = _solution(linkage, float(times[0]), float(coordinate), float(rate), rtol, atol)
+    return motion_from(linkage, times, *solution(times))
 
+
+@cache
+def _solution(linkage: Linkage, begin: float, coordinate: float, rate: float, rtol: float, atol: float) -> Solution:
     def slope(_: float, state: Array) -> tuple[float, float]:
         return state[1], float(_coordinate_acceleration(linkage, state[:1], state[1:])[0])
 
-    start = (coordinate, rate)
-    result = solve_ivp(slope, (times[0], times[-1]), start, "DOP853", t_eval=times, rtol=rtol, atol=atol)
-    if not result.success:
-        raise RuntimeError(result.message)
-    return motion_from(linkage, times, result.y[0], result.y[1])
+    return Solution(slope, begin, (coordinate, rate), rtol=rtol, atol=atol)
 
 
 def motion_from(linkage: Linkage, times: Array, coordinate: Array, rate: Array) -> Motion:

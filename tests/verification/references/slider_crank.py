@@ -77,7 +77,7 @@ def rates(angle: Array) -> tuple[Array, Array]:
     position = np.array([tip / 2, (tip + end) / 2, end])
     rod = np.array([azimuth * a3, -elevation, azimuth * rho])
     angular = np.array([[zero, zero, one], rod, [zero, zero, zero]])
-    return np.moveaxis(position, -1, 0), np.moveaxis(angular, -1, 0)
+    return position.transpose(2, 0, 1), angular.transpose(2, 0, 1)
 
 
 def _tip(angle: Array) -> Array:

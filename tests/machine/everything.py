@@ -363,6 +363,15 @@ EVERYTHING = {
             "friction": 0.2,
         },
         {
+            "name": "heavy",
+            "type": "rope",
+            "markers": ["tip", "base", "eye"],
+            "radii": [0, "5 cm", 0],
+            "stiffness": "1 kN/m",
+            "mass_per_length": "2 kg/m",
+            "start_speed": "1 m/min",
+        },
+        {
             "name": "hoist",
             "type": "rope",
             "markers": ["tip", "eye"],

@@ -253,6 +253,11 @@ CASES = {
     "rope around wheels, between drums": Case({"type": "rope", "markers": [{"body": "wheel"}, "far", {"body": "a"}],
                                                "radii": [-0.05, 0.08, 0.06], "wound": [2.2, 0.7], "stiffness": 60, "length": 0.8,
                                                "speed": "0.3*lever.value"}, more={"inputs": {"lever": LEVER}}),
+    # not on a winch: states of the zoo are next to zero, and so would be the mass of the rope
+    "heavy rope": Case({"type": "rope", "markers": [{"body": "wheel"}, "far", "eye"], "radii": [0.05, -0.08, 0], "wound": [1.3, 0],
+                        "stiffness": 60, "damping": 2, "length": 0.8, "mass_per_length": 0.7, "start_speed": 0.3}),
+    "heavy rope, two drums": Case({"type": "rope", "markers": [{"body": "wheel"}, {"body": "a"}], "radii": [-0.05, 0.06],
+                                   "wound": [2.2, 0.7], "stiffness": 60, "length": 0.8, "mass_per_length": 0.7}),
     "shaft": Case({"type": "shaft", "coordinate": "j.angle", "against": "axle", "ratio": 0.7, "stiffness": 4, "damping": 0.3,
                    "free_value": 0.1}),
     "shaft, play": Case({"type": "shaft", "coordinate": "j.angle", "against": "axle", "ratio": -0.4, "stiffness": 40, "damping": 0.3,

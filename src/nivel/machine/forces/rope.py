@@ -13,23 +13,25 @@ from nivel.machine.core.marker import ManyMarkers, Marker
 from nivel.machine.core.record import BodyName
 from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, TwoNumbers
+from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.quantity import Direction, Length, Position, PositiveLength, listed
+from nivel.machine.units.quantity import Direction, Length, Position, PositiveLength, Quantity, Velocity, listed
 
+MassPerLength = Annotated[OneNumber, Quantity("mass per length", positive=True)]
 Speed = Annotated[OneFunction, varying("velocity")]
 
 
 class Rope(ForceElement):
-    """A massless rope from the first point over pulleys at those between to the last, straight from one to the next, and around wheels
+    """A rope from the first point over pulleys at those between to the last, straight from one to the next, and around wheels
     where these have `radii`.
 
     Its tension is stiffness · (s - length) + damping · (ṡ - speed), s being the way along the points; it never pushes. With a `speed`
     its first end is on a winch: the unstressed length is a state, which begins at `length` and changes by the speed.
-    Pulleys have no friction, unless it is given. An end with a radius is a drum, on which the rope is fixed and `wound`.
+    Pulleys have no friction, and the rope no mass, unless they are given.
+    An end with a radius is a drum, on which the rope is fixed and `wound`.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch", "last_tension")  # the latter with `friction`
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch", "last_tension")  # the latter with `friction` or mass
 
     type: Literal["rope"] = "rope"
     markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
@@ -64,6 +66,12 @@ class Rope(ForceElement):
         description="coefficient of friction on the wheels between the ends, on which the rope sticks or slips",
         absent="none, of wheels that turn freely on the rope",
     )
+    mass_per_length: Maybe[MassPerLength] = Field(
+        default=None, description="of a rope around wheels without friction", absent="no mass"
+    )
+    start_speed: Velocity = Field(
+        default=0.0, description="of the mass at the start, along the rope from its first end to its last"
+    )
     speed: Maybe[Speed] = Field(default=None, description="by which a winch pays rope out, negative: hauls it in")
 
     @property
@@ -97,8 +105,16 @@ class Rope(ForceElement):
             yield from self._problems_of_way("points", tuple(zip(self.bodies, self.points, strict=True)))
 
     def _problems_of_wheels(self) -> Iterator[Problem]:
+        if self.start_speed and self.mass_per_length is None:
+            yield superfluous("start_speed", "belongs to `mass_per_length`: without mass a rope runs as its ends do")
+        if self.mass_per_length is not None and self.friction is not None:
+            yield superfluous(
+                "friction", "goes without `mass_per_length`: a heavy rope runs over its wheels without friction"
+            )
+        if self.mass_per_length is not None and not self.stiffness:
+            yield Problem(("stiffness",), "`stiffness` is zero: a rope with `mass_per_length` needs one")
         if self.radii is None:
-            for name in ("axis", "wound", "friction"):
+            for name in ("axis", "wound", "friction", "mass_per_length"):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "belongs to `radii`, one for each point")
             return

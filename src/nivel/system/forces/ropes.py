@@ -9,14 +9,14 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.bodies.coordinate import DISTANCE
-from nivel.kernels.forces import capstan_rope, wound_rope
+from nivel.kernels.forces import capstan_rope, heavy_rope, wound_rope
 from nivel.kernels.forces import rope as straight
 from nivel.kernels.forces.wound_rope import WIDTH, tangent
 from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Rope
 from nivel.machine.forces.between import GlobalPoint
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.builder import SystemBuilder
+from nivel.system.builder import GROUND, SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.joints.interfaces import marker_place
@@ -42,7 +42,11 @@ def add(builder: SystemBuilder, rope: Rope) -> None:
 
 def _numbered(builder: SystemBuilder, rope: Rope, unstressed: float) -> tuple[int, int, int]:
     """The first output, the state of the length and the function of the winch's speed, or NONE."""
-    last = [("last_tension", "N", "tension at the last end")] if rope.friction is not None else []
+    last = (
+        [("last_tension", "N", "tension at the last end")]
+        if rope.friction is not None or rope.mass_per_length is not None
+        else []
+    )
     first = force_outputs(builder, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"), *last)
     if rope.speed is None:
         return first, NONE, NONE
@@ -62,6 +66,9 @@ def _add_wound(builder: SystemBuilder, rope: Rope, radii: tuple[float, ...]) -> 
     for radius, arc, fixed in zip(radii, way.arcs, way.fixed, strict=True):
         numbers += [radius, arc, fixed, *[0.0] * (WIDTH - 3)]
     columns = [*_numbered(builder, rope, unstressed), len(markers), carrier, *markers]
+    if rope.mass_per_length is not None:
+        _add_mass(builder, rope, rope.mass_per_length, way, columns, numbers)
+        return
     if rope.friction is None:
         builder.elements.add(wound_rope.apply, columns, numbers, memory=1 + len(markers), surfaces=(0,))
         return
@@ -71,13 +78,40 @@ def _add_wound(builder: SystemBuilder, rope: Rope, radii: tuple[float, ...]) -> 
     builder.elements.add(capstan_rope.apply, columns, numbers, memory=1 + 2 * len(way.parts) + len(markers))
 
 
+def _add_mass(
+    builder: SystemBuilder, rope: Rope, mass_per_length: float, way: Way, columns: list[int], numbers: list[float]
+) -> None:
+    """The same with a mass that runs past one of the places, with the same tension on both sides of it at the start."""
+    assert rope.radii is not None
+    p, unstressed, count = _passed(rope.radii, [body for body, _ in way.places]), numbers[2], len(rope.radii)
+    rims = [abs(r) * max(arc, 0.0) for r, arc in zip(rope.radii, way.arcs, strict=True)]
+    before = sum(way.lengths[:p]) + sum(rims[: max(p, 1)])
+    behind = way.length - before - 0.5 * (way.length - unstressed)
+    travel = StateFact(f"{rope.name}.travel", "m", f"way that {rope.name} has run", 0.0, scale=unstressed)
+    run = StateFact(f"{rope.name}.run", "m/s", f"speed at which {rope.name} runs", rope.start_speed, scale=1.0)
+    columns = [*columns, p, builder.own_state(travel), builder.own_state(run)]
+    builder.elements.add(
+        heavy_rope.apply, columns, [*numbers, mass_per_length, behind], memory=1 + count, surfaces=(0,)
+    )
+
+
+def _passed(radii: tuple[float, ...], bodies: list[str]) -> int:
+    """The place past which the mass of a rope runs: a wheel between the ends, rather on the ground and in the middle; else a drum."""
+    inner = [k for k in range(1, len(radii) - 1) if radii[k]]
+    middle = 0.5 * (len(radii) - 1)
+    if inner:
+        return min(inner, key=lambda k: (bodies[k] != GROUND, abs(k - middle)))
+    return 0 if radii[0] else len(radii) - 1
+
+
 @dataclass(frozen=True)
 class Way:
     """The way of a rope around wheels as its bodies are placed.
 
     axes (3, 3) : global, z along those of the wheels. places : body and centre (3,) of each. arcs [rad], fixed [rad] : of each place, the
-    latter the direction in which the rope is fixed on a drum. length [m] : in all. parts : of each free one L - ρ α and α, as
-    `nivel.kernels.forces.capstan_rope` has them. shares [m] : of the length that each has, with half of the arcs at its ends.
+    latter the direction in which the rope is fixed on a drum. length [m] : in all. lengths [m] : of each free part. parts : of each free
+    one L - ρ α and α, as `nivel.kernels.forces.capstan_rope` has them. shares [m] : of the length that each has, with half of the arcs
+    at its ends.
     """
 
     axes: Array
@@ -85,6 +119,7 @@ class Way:
     arcs: list[float]
     fixed: list[float]
     length: float
+    lengths: list[float]
     parts: list[tuple[float, float]]
     shares: list[float]
 
@@ -114,7 +149,8 @@ def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) 
             sign, arcs[k] = np.sign(radii[k]), 2.0 * np.pi * turns
             touched = float(np.angle(-1j * sign * parts[k][1]))
             fixed[k] = touched + (-sign if k == 0 else sign) * arcs[k]
-    length = sum(part for part, _ in parts) + sum(abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True))
+    lengths = [part for part, _ in parts]
+    length = sum(lengths) + sum(abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True))
     angles = [float(np.angle(direction)) for _, direction in parts]
     ways = [
         (part - (radii[k + 1] - radii[k]) * angle, angle)
@@ -123,7 +159,7 @@ def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) 
     rims = [abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True)]
     ends = [1.0 if k in (0, len(radii) - 1) else 0.5 for k in range(len(radii))]
     shares = [part + ends[k] * rims[k] + ends[k + 1] * rims[k + 1] for k, (part, _) in enumerate(parts)]
-    return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length, ways, shares)
+    return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length, lengths, ways, shares)
 
 
 def first_wheel(radii: tuple[float, ...]) -> int:
@@ -154,4 +190,4 @@ def _with_z(axis: Array) -> Array:
     return np.column_stack([x, np.cross(axis, x), axis])
 
 
-KINDS = (ForceKind(Rope, add, (straight.apply, wound_rope.apply, capstan_rope.apply)),)
+KINDS = (ForceKind(Rope, add, (straight.apply, wound_rope.apply, capstan_rope.apply, heavy_rope.apply)),)

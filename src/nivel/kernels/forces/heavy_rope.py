@@ -1,0 +1,244 @@
+"""Ropes around wheels with a mass m' per length: it runs along the way of the rope past one place p, and has weight all along it.
+
+The unstressed length L has the mass M = m' L, all of which runs at ẏ past p. With the ways s_A up to p and s_B behind it, whose geometry is
+that of `nivel.kernels.forces.wound_rope`, both halves are springs of twice the stiffness:
+
+    e_A = s_A + y - L_A,   e_B = s_B - y - L_B,   M ÿ = T_B - T_A
+
+so wound turns turn with their drums, and free parts move along their directions; inertia across the way is left out. A winch feeds L_A with
+rope that runs already. The weight spreads over the way s = s_A + s_B, h the height of a place times g:
+
+    V = M h_m,   h_m = (Σ L (h_a + h_b)/2 + Σ |r| θ h)/s
+
+The tension of a rope without friction grows by m' g times its height: that is what ∂V gives, with half the weight of a free part at each
+end.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.core.status import OK
+from nivel.kernels.forces.wound_rope import (
+    AXIS,
+    CENTRE,
+    COUNT,
+    DAMPING,
+    FIRST,
+    LENGTH,
+    OUTPUT,
+    PLACES,
+    SPEED,
+    STIFFNESS,
+    UNSTRESSED,
+    USED,
+    WIDTH,
+    X,
+    Y,
+    Z,
+    arc_at,
+    find_parts,
+    lay_out,
+    let_off,
+    next_touched,
+    tangent,
+    velocity_of,
+)
+from nivel.kernels.forces.wrench import add_force_at, add_torque
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.native.function import leaf, stage
+
+# of `columns` behind the markers: the place p; states: y and ẏ
+PAST, TRAVEL, RUN = 0, 1, 2
+# of `number` behind the places: mass per length, L_B
+PER_LENGTH, BEHIND = 0, 1
+
+
+@leaf
+def gradient(a, b, on_part, on_first, on_last):
+    """∂/∂d of w L + arcs at both ends, each with its weight, in the plane (x, y) and along the axis; and L."""
+    dx, dy, z, rho = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z], b[USED] - a[USED]
+    square = dx * dx + dy * dy
+    length, _, _ = tangent(dx, dy, rho)
+    whole = np.sqrt(length * length + z * z)
+    turned = on_last * b[USED] - on_first * a[USED]
+    fx = on_part * dx / whole - turned * (rho * dx / length - dy) / square
+    fy = on_part * dy / whole - turned * (rho * dy / length + dx) / square
+    return fx, fy, on_part * z / whole, whole
+
+
+@leaf
+def height(bodies, own):
+    """Height of a place times g [m²/s²]."""
+    g = bodies.gravity
+    return -(g[0] * own[CENTRE] + g[1] * own[CENTRE + 1] + g[2] * own[CENTRE + 2])
+
+
+@leaf
+def is_before(k, p):
+    """Whether the arc at place k is up to p: of a drum at the first end, which is p, its turns."""
+    return k < p or (k == 0 and p == 0)
+
+
+@stage
+def rate_along(machine, k, n, before):
+    """Rate of the way up to p, or of that behind it."""
+    record = record_at(machine)
+    bodies, markers, elements = record.bodies, record.markers, record.elements
+    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
+    p, A = np.int64(index[FIRST + count + PAST]), markers.A[index[AXIS]]
+    w = bodies.omega[markers.body[index[AXIS]]]
+    turning = cross((w[0], w[1], w[2]), n)
+    rate, j = 0.0 * numbers[STIFFNESS], 0
+    while j < count - 1:
+        i = next_touched(numbers, j, count)
+        a = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
+        b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
+        part = 1.0 if (i <= p) == before else 0.0
+        first = 1.0 if is_before(j, p) == before else 0.0
+        last = 1.0 if is_before(i, p) == before else 0.0
+        fx, fy, fz, _ = gradient(a, b, part, first, last)
+        dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
+        tx, ty = fz * dx - z * fx, fz * dy - z * fy
+        v = velocity_of(bodies, markers.body[index[FIRST + i]], b)
+        u = velocity_of(bodies, markers.body[index[FIRST + j]], a)
+        for m in range(3):
+            rate += (A[m, 0] * fx + A[m, 1] * fy + fz * n[m]) * (v[m] - u[m])
+            rate += (A[m, 0] * tx + A[m, 1] * ty) * turning[m]
+        j = i
+    for end in range(2):
+        j = 0 if end == 0 else count - 1
+        if is_before(j, p) == before:
+            used = numbers[PLACES + WIDTH * j + USED]
+            r, w = -used if end == 0 else used, bodies.omega[markers.body[index[FIRST + j]]]
+            rate += r * (w[0] * n[0] + w[1] * n[1] + w[2] * n[2])
+    return rate
+
+
+@stage
+def ways(machine, k):
+    """(s_A, s_B, Σ length · h) of the way as its places are laid out."""
+    record = record_at(machine)
+    bodies, elements = record.bodies, record.elements
+    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
+    p = np.int64(index[FIRST + count + PAST])
+    first, second, heavy = 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS]
+    before, j = 0, 0
+    while j < count:
+        own = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
+        h = height(bodies, own)
+        if real(own[USED]) != 0.0:
+            r = own[USED] if real(own[USED]) > 0.0 else -own[USED]
+            arc = r * arc_at(machine, k, j, before)
+            heavy += arc * h
+            if is_before(j, p):
+                first += arc
+            else:
+                second += arc
+        i = next_touched(numbers, j, count) if j < count - 1 else count
+        if i < count:
+            b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
+            _, _, _, whole = gradient(own, b, 0.0, 0.0, 0.0)
+            heavy += whole * 0.5 * (h + height(bodies, b))
+            if i <= p:
+                first += whole
+            else:
+                second += whole
+        before, j = j, i
+    return first, second, heavy
+
+
+@stage
+def act(machine, k, n, ahead, behind, density, mean):
+    """Tensions ahead of p and behind it [N], and the weight of the rope with this mass per length of the way, act on the bodies."""
+    record = record_at(machine)
+    bodies, markers, elements = record.bodies, record.markers, record.elements
+    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
+    p, A, carrier = np.int64(index[FIRST + count + PAST]), markers.A[index[AXIS]], markers.body[index[AXIS]]
+    g, before, j = bodies.gravity, 0, 0
+    while j < count:
+        a = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
+        ba, ha = markers.body[index[FIRST + j]], height(bodies, a) - mean
+        on_first = (ahead if is_before(j, p) else behind) + density * ha
+        if real(a[USED]) != 0.0:
+            r = a[USED] if real(a[USED]) > 0.0 else -a[USED]
+            m = density * r * arc_at(machine, k, j, before)
+            add_force_at(bodies, ba, a[CENTRE : CENTRE + 3], m * g[0], m * g[1], m * g[2])
+        if j in (0, count - 1):
+            r = on_first * (-a[USED] if j == 0 else a[USED])
+            add_torque(bodies, ba, -r * n[0], -r * n[1], -r * n[2])
+        i = next_touched(numbers, j, count) if j < count - 1 else count
+        if i < count:
+            b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
+            bb, hb = markers.body[index[FIRST + i]], height(bodies, b) - mean
+            on_last = (ahead if is_before(i, p) else behind) + density * hb
+            on_part = (ahead if i <= p else behind) + density * 0.5 * (ha + hb)
+            fx, fy, fz, whole = gradient(a, b, on_part, on_first, on_last)
+            dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
+            gx, gy = A[0, 0] * fx + A[0, 1] * fy + fz * n[0], A[1, 0] * fx + A[1, 1] * fy + fz * n[1]
+            gz, m = A[2, 0] * fx + A[2, 1] * fy + fz * n[2], 0.5 * density * whole
+            add_force_at(bodies, ba, a[CENTRE : CENTRE + 3], gx + m * g[0], gy + m * g[1], gz + m * g[2])
+            add_force_at(bodies, bb, b[CENTRE : CENTRE + 3], m * g[0] - gx, m * g[1] - gy, m * g[2] - gz)
+            tx, ty = fz * dx - z * fx, fz * dy - z * fy
+            tilt = A[0, 0] * tx + A[0, 1] * ty, A[1, 0] * tx + A[1, 1] * ty, A[2, 0] * tx + A[2, 1] * ty
+            c = cross(n, tilt)
+            add_torque(bodies, carrier, -c[0], -c[1], -c[2])
+        before, j = j, i
+
+
+@leaf
+def tension_of(stiffness, damping, stretch, rate):
+    """(tension, its elastic part) of one half: twice the stiffness and damping of the rope, never a push."""
+    elastic, tension = 0.0 * stretch, 0.0 * stretch
+    if real(stretch) > 0.0:
+        elastic = 2.0 * stiffness * stretch
+        if real(elastic + 2.0 * damping * rate) > 0.0:
+            tension = elastic + 2.0 * damping * rate
+    return tension, elastic
+
+
+@family
+def apply(machine, number, t):
+    """Tensions of both halves, weight, and the motion of the mass along the way; its kinetic energy is among what is stored."""
+    record = record_at(machine)
+    bodies, elements, control, out = record.bodies, record.elements, record.control, record.outputs.value
+    followed = record.watched.followed[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
+        own, base = FIRST + count, PLACES + WIDTH * count
+        n = lay_out(machine, k)
+        find_parts(numbers, count)
+        if let_off(machine, k):
+            find_parts(numbers, count)
+        first, second, heavy = ways(machine, k)
+        travel, run = elements.state[index[own + TRAVEL]], elements.state[index[own + RUN]]
+        length, speed = 0.0 * first + numbers[UNSTRESSED], 0.0 * first
+        if index[LENGTH] != NONE:
+            length = elements.state[index[LENGTH]]
+            speed = speed + evaluate_function(machine, index[SPEED], t)
+            elements.state_rate[index[LENGTH]] += speed
+        ahead, its_rate = first + travel - (length - numbers[base + BEHIND]), rate_along(machine, k, n, True)
+        behind, other_rate = second - travel - numbers[base + BEHIND], rate_along(machine, k, n, False)
+        one, one_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], ahead, its_rate + run - speed)
+        two, two_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], behind, other_rate - run)
+        per_length, way = numbers[base + PER_LENGTH], first + second
+        mass, mean = per_length * length, heavy / way
+        elements.state_rate[index[own + TRAVEL]] += run
+        elements.state_rate[index[own + RUN]] += (two - one) / mass
+        act(machine, k, n, one, two, mass / way, mean)
+        control.stored[0] += 0.5 * (one_elastic * ahead + two_elastic * behind) + 0.5 * mass * run * run + mass * mean
+        # the winch pulls, and feeds rope that runs and is high
+        control.power[0] += speed * (per_length * (0.5 * run * run + mean) - one)
+        control.power[1] += (one - one_elastic) * (its_rate + run - speed) + (two - two_elastic) * (other_rate - run)
+        elements.depth[k, 0] = ahead + behind
+        if followed == 1:
+            elements.depth_rate[k, 0] = its_rate + other_rate - speed
+        at, last = index[OUTPUT], numbers[PLACES + WIDTH * (count - 1) : PLACES + WIDTH * count]
+        out[at] = one + mass / way * (height(bodies, numbers[PLACES : PLACES + WIDTH]) - mean)
+        out[at + 1], out[at + 2] = -one * its_rate - two * other_rate, ahead + behind
+        out[at + 3] = two + mass / way * (height(bodies, last) - mean)
+    return OK

@@ -1,5 +1,5 @@
 """Estimated errors against true ones: within a factor of three above in 90 % of many pairs of machine and method, and below a third in 5 %
-at most: of places, speeds, signals, currents, pressures and states."""
+at most: of places, speeds, signals, currents, pressures and states. Of places, none is below a third."""
 
 import numpy as np
 import pytest
@@ -28,6 +28,7 @@ FULL = (
     "energy-momentum",
 )
 STEPS = (4.0, 2.0, 1.0)
+PLACES = (".position.x", ".angle", ".displacement")  # ends of their names
 # Of the corners of a table fixed steps meet some and miss others, so that their errors are accidents; a block at rest has none.
 LEFT_OUT = ("pulse", "stiction", "wall", "far", "flywheel", "sphere")
 # of known motions those that need no numerical reference
@@ -80,6 +81,9 @@ def add_ratio(out, kind, record, method, fineness, exact, beside=()):
 
 
 def judge(found, least):
+    places = {name: ratio for name, ratio in found.items() if name.split(",")[0].endswith(PLACES)}
+    assert min(places.values()) > 1.0 / 3.0, min(places.items(), key=lambda each: each[1])
+    # Speeds may be: that of the load on a rope, by Adams' method over the corner where the rope tightens, is at 0.29.
     within = [name for name, ratio in found.items() if 1.0 / 3.0 <= ratio <= 3.0]
     assert len(found) >= least
     small = [name for name, ratio in found.items() if ratio < 1.0 / 3.0]

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.machine.machine_record import MachineRecord
+from nivel.results.scales import Readable
 from nivel.system.flexible import Bending, bending_bodies
 
 Array = NDArray[np.float64]
+MODAL = ("modal_coordinate", "modal_rate", "modal_acceleration")  # of a result
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,11 @@ class ModalBody:
     def extent(self) -> float:
         """The diagonal of the box around its nodes [m]."""
         return float(np.linalg.norm(np.ptp(self.position, axis=0)))
+
+    @property
+    def reach(self) -> Array:
+        """(n,) how far each mode displaces the node that it moves most, for a modal coordinate of one [1/kg^0.5]."""
+        return np.linalg.norm(self.modes, axis=1).max(axis=0, initial=0.0)
 
     @property
     def axis(self) -> Array:
@@ -62,3 +69,36 @@ def numbered_bodies(machine: MachineRecord) -> Iterator[tuple[tuple[int, Bending
             body = ModalBody(name, first, last, its.eigenvalues, its.position, modes, bool(its.stiffening))
             yield (f, each), body
         first = last
+
+
+@dataclass(frozen=True)
+class PointRanges:
+    """Ranges, over a run, of the motion of the points of a flexible body: displacement by bending [m], speed [m/s], acceleration [m/s²].
+    modal (n,) [kg^0.5 m] : of each modal coordinate, what displaces a node by this displacement, or strains the body as much as it is
+    strained, whichever is less."""
+
+    displacement: float
+    speed: float
+    acceleration: float
+    modal: Array
+
+
+@np.errstate(divide="ignore", invalid="ignore")
+def point_ranges(result: Readable, body: ModalBody) -> PointRanges:
+    """The largest of what the modes of a body do to its points one by one, and of what its frame does."""
+    k, own, reach = result.coordinates["body"].index(body.name), slice(body.first, body.last), body.reach
+    bent = np.ptp(result.array("modal_coordinate")[:, own], axis=0)
+    displacement = float(np.max(reach * bent, initial=0.0))
+
+    def largest(modal: str, linear: str, angular: str) -> float:
+        by_modes = reach * np.ptp(result.array(modal)[:, own], axis=0)
+        moved, turned = (np.linalg.norm(np.ptp(result.array(name)[:, k], axis=0)) for name in (linear, angular))
+        return float(max(moved, body.extent * turned, np.max(by_modes, initial=0.0)))
+
+    # strain energy of a mode of unit modal mass: (ω q)²/2
+    omega = np.sqrt(np.maximum(body.eigenvalues, 0.0))
+    modal = np.fmin(displacement / reach, np.max(omega * bent, initial=0.0) / omega)
+    speed = largest("modal_rate", "velocity", "angular_velocity")
+    return PointRanges(
+        displacement, speed, largest("modal_acceleration", "acceleration", "angular_acceleration"), modal
+    )

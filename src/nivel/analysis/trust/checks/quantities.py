@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.trust.check import ESTIMATE, Check
+from nivel.analysis.trust.flexible_bodies import MODAL, ModalBody, modal_bodies, point_ranges
 from nivel.analysis.trust.subject import Run
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.estimate import Estimate
+from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, amount, number
 from nivel.system.layout import Variable
 
@@ -33,6 +35,8 @@ AT_REST, OWN = 1e-3, 1e-6
 ROUNDED = 1e-9
 # Positions and what is made of them have lines of their own, constraints and energies too.
 ELSEWHERE = ("position", "orientation", "joint_coordinate", "constraint_", "axis_")
+# Motions of the frames of bodies, and which of them are turns.
+FRAME_MOTIONS = {"velocity": False, "angular_velocity": True, "acceleration": False, "angular_acceleration": True}
 FLAGS = (".sticks", ".count")  # whole numbers, which jump
 ENERGIES = ("kinetic_energy", "potential_energy", "dissipated_energy", "external_work", "energy_error", "total_energy")
 
@@ -50,7 +54,7 @@ class Group:
 class QuantityError:
     """The number of a group that is wrong most on its own scale. error : its largest one; mean : their mean magnitude; extent : its
     range in the run; largest : the largest error of all numbers of the group in these `units`. beams : what the elements of beams make
-    wrong of it is not looked at here."""
+    wrong of it is not looked at here. points : of a flexible body, on the scale of the motion of its points."""
 
     quantity: str
     name: str
@@ -60,6 +64,7 @@ class QuantityError:
     units: str
     largest: float
     beams: bool = False
+    points: bool = False
 
     @property
     def share(self) -> float:
@@ -87,20 +92,24 @@ GROUPS = (
     Group("forces", _starts("force.", "driver.")),
     Group("sensors", _starts("sensor."), OWN),
     Group("user states", _starts("state."), OWN),
+    Group("modes", _starts("modal_")),
     Group("other numbers", lambda *_: True, OWN),
 )
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def look(run: Run) -> list[QuantityError]:
     """Of each group the number with the largest share of errors."""
     if run.estimate is None:
         return []
-    return [found for group in GROUPS if (found := _worst(run, run.estimate, group)) is not None]
+    points = _of_points(run.result, modal_bodies(run.machine))
+    return [found for group in GROUPS if (found := _worst(run, run.estimate, group, points)) is not None]
 
 
 def say(found: QuantityError) -> Item:
     """How large the errors of a group are, on the scale of each number."""
-    its = f"{amount(found.mean, found.units)} on average, {number(found.share)} of its range"
+    scale = "the range that points of the body have" if found.points else "its range"
+    its = f"{amount(found.mean, found.units)} on average, {number(found.share)} of {scale}"
     within = f"{found.quantity} within {amount(found.largest, found.units)}"
     by = (
         ", by the steps alone: errors of the elements of beams come on top (estimated_error has both)"
@@ -111,8 +120,8 @@ def say(found: QuantityError) -> Item:
     return THRESHOLD.item("quantities", said, found.share, row=found.name)
 
 
-def _worst(run: Run, estimate: Estimate, group: Group) -> QuantityError | None:
-    finite = [each for each in _errors(run, estimate, group) if np.isfinite(each.share)]
+def _worst(run: Run, estimate: Estimate, group: Group, points: dict[str, Array]) -> QuantityError | None:
+    finite = [each for each in _errors(run, estimate, group, points) if np.isfinite(each.share)]
     if not finite:
         return None
     worst = max(finite, key=lambda each: each.share)
@@ -131,8 +140,7 @@ def group_of(variable: Variable, components: frozenset[str]) -> str:
     return next(group.name for group in GROUPS if group.holds(name, variable.units))
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def _errors(run: Run, estimate: Estimate, group: Group) -> Iterator[QuantityError]:
+def _errors(run: Run, estimate: Estimate, group: Group, points: dict[str, Array]) -> Iterator[QuantityError]:
     result, components = run.result, frozenset(each.name for each in run.machine.hydraulics)
     states = {f"state.{state.name}": state.scale or 0.0 for state in run.machine.states}
     names = [each for each in estimate.mean if group_of(result.variables[each], components) == group.name]
@@ -147,14 +155,38 @@ def _errors(run: Run, estimate: Estimate, group: Group) -> Iterator[QuantityErro
         magnitude = _joined(variable, np.max(np.abs(result.array(name)), axis=0, initial=0.0))
         extent = np.maximum(extents[name], AT_REST * np.maximum(magnitude, natural))
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))
+        moved = np.broadcast_to(points.get(name, 0.0), extent.shape)
         mean = _joined(variable, estimate.mean[name])
         error = _joined(variable, estimate.values[name][-1])
         for k in np.flatnonzero(error > rounded):
             label = _label(variable, int(k), run)
             units = variable.units or ("rad/s" if label.endswith("angle") else "m/s" if name == "joint_rate" else "1")
             own = float(error[k])
-            scale = max(float(extent[k]), rounded) or own
-            yield QuantityError(group.name, label, own, float(mean[k]), scale, units, own)
+            scale = max(float(extent[k]), float(moved[k]), rounded) or own
+            yield QuantityError(
+                group.name, label, own, float(mean[k]), scale, units, own, points=bool(moved[k] >= scale)
+            )
+
+
+def _of_points(result: Readable, bodies: list[ModalBody]) -> dict[str, Array]:
+    """By variable, for each of its numbers, what moves a point of a flexible body over the range of the motion of such points; 0 for all
+    others. Stiff modes that hardly move are often wrong by as much as they move, and so is the frame, which is no point of the body.
+    Neither matters where all points move far more."""
+    of_bodies = {name: np.zeros(len(result.coordinates["body"])) for name in FRAME_MOTIONS}
+    of_modes = {name: np.zeros(len(result.coordinates.get("mode", ()))) for name in MODAL}
+    for body in bodies:
+        its, k, own = (
+            point_ranges(result, body),
+            result.coordinates["body"].index(body.name),
+            slice(body.first, body.last),
+        )
+        for name, turns in FRAME_MOTIONS.items():
+            moved = its.acceleration if name.endswith("acceleration") else its.speed
+            of_bodies[name][k] = moved / body.extent if turns and body.extent else moved
+        moving = body.reach > 0.0
+        for name, scale in zip(MODAL, (its.modal, its.speed / body.reach, its.acceleration / body.reach), strict=True):
+            of_modes[name][own] = np.where(moving, scale, 0.0)
+    return of_bodies | of_modes if bodies else {}
 
 
 def _natural(run: Run, units: str) -> float:

@@ -41,7 +41,7 @@ def linear_html(model: LinearModel) -> str:
 
 
 def _facts(model: LinearModel) -> list[str]:
-    said = "not judged: it does not move steadily"
+    said = "no modes"
     if model.steady:
         said = "stable" if model.stable else "unstable"
     return [

@@ -32,7 +32,7 @@ from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_st
 from nivel.analysis.trust.subject import Linearisation
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.linearise import ROTATION, LineariseSettings
+from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_motion import Posed
 from nivel.results.analyses.sampled_model import SampledModel
@@ -89,7 +89,8 @@ def linear_model(
     found = eigenvalues(space.A, scale, noise, None if apart is None else apart.kept(kept), drift)
     bent = kinks(reduction)
     unsteady = linear.unsteady or tuple(_unrest_of_samples(machine, instant))
-    steady = not unsteady and not any(each.jumps for each in bent)
+    jumps = any(each.jumps for each in bent)
+    steady = not unsteady and not jumps
     found = found if steady else found.unknown()
     shift, turn = _shapes(instant, reduction, found, places)
     zeros = _zeros(found, states)
@@ -125,6 +126,7 @@ def linear_model(
         turn=turn,
         structural_zeros=zeros,
         steady=steady,
+        no_modes="" if steady else _no_modes(settings, moves=linear.moves, jumps=jumps),
         remarks=linear.remarks,
         posed=posed,
         sampled=sampled,
@@ -141,6 +143,21 @@ def linear_model(
         assembly=json.loads(str(posed.attributes.get("assembly", "{}"))) if posture is None else {},
         size=instant.system.size,
     )
+
+
+def _no_modes(settings: LineariseSettings, *, moves: bool, jumps: bool) -> str:
+    """Why there are no modes, and what to do. jumps : a force does at this state."""
+    if jumps:
+        why, remedy = "a force jumps at this state", "linearise about a state beside the jump"
+    elif moves:
+        why = "the machine moves and its linear equations change"
+        remedy = "linearise about an equilibrium (`--about equilibrium`) or a steady rotation (`--about rotation`)"
+    elif settings.about == EQUILIBRIUM:
+        why, remedy = "in this equilibrium states still change", "start the machine with values that stay"
+    else:
+        why = "the machine is not in equilibrium there"
+        remedy = "linearise about one (`--about equilibrium`), or start at rest in one"
+    return f"no modes of motion about {settings.words} are given, because {why}: {remedy}"
 
 
 def _refuse_large(instant: Instant) -> None:

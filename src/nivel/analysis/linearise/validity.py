@@ -136,12 +136,17 @@ def _unrest(moment: Moment, instant: Instant, reduction: Reduction, A: Array) ->
             "linearise about equilibrium"
         )
     g = instant.value()[instant.n :][: instant.state_count]
-    facts, moving = instant.system.states, len(reduction.selected) + len(reduction.moving)
-    for k, fact in enumerate(facts):
-        if fact.integral:
-            continue
-        if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[moving + k]).max()):
-            notes.append(
-                f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium"
-            )
+    moving, changing = len(reduction.selected) + len(reduction.moving), []
+    for k, fact in enumerate(instant.system.states):
+        share = abs(g[k]) / ((fact.scale or 1.0) * max(1.0, abs(A[moving + k]).max()))
+        if share > BALANCE and not fact.integral:
+            changing.append((share, k))
+    if changing:
+        k = max(changing)[1]
+        fact, others = instant.system.states[k], len(changing) - 1
+        more = f", and {others} more states change" if others else ""
+        notes.append(
+            f"the state {fact.name} changes by {g[k]:.4g} {fact.units}/s{more}, so eigenvalues describe no motion: "
+            "linearise about equilibrium"
+        )
     return notes

@@ -82,8 +82,8 @@ class LinearModel(Tabulated):
     states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
     coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair; no numbers
     where the machine does not move steadily.
-    steady : whether eigenvalues describe the motion (at rest, or the same A later on). remarks : on what the states are. trust : the trust
-    report.
+    steady : whether eigenvalues describe the motion (at rest, or the same A later on). no_modes : why they do not, and what to do; empty
+    where they do. remarks : on what the states are. trust : the trust report.
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
     sampled : the machine with its sampled controllers, None without any; A and its eigenvalues are those between samples.
     """
@@ -115,15 +115,17 @@ class LinearModel(Tabulated):
     steady: bool
     remarks: tuple[str, ...]
     posed: Any = None
+    no_modes: str = ""
     sampled: SampledModel | None = None
     trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader has to know: on the states, and what checks have found that is more than that all is well."""
+        """What a reader has to know: why no modes, on the states, and what checks have found that is more than that all is well."""
         found = [item for item in self.trust.items if item.name != "outcome"]
         said = [item.text for item in found if item.verdict != "green" or item.name != "steady"]
-        return (*self.remarks, *said)
+        first = (self.no_modes,) if self.no_modes else ()
+        return (*first, *self.remarks, *said)
 
     @property
     def stable(self) -> bool:
@@ -303,6 +305,7 @@ class LinearModel(Tabulated):
             "outputs": list(self.outputs),
             "steady": self.steady,
             "stable": self.stable if self.steady else None,
+            "no_modes": self.no_modes,
             "headline": self.trust.headline,
             "trust": json.loads(self.trust.to_json()),
             "sampled": None if self.sampled is None else self.sampled.summary(),

@@ -148,6 +148,14 @@ def test_energies_of_the_circuit_and_its_mass_balance():
     assert result.trust.verdict == "green"
 
 
+def test_fast_steps_keep_the_mass_to_round_off():
+    """Those of `nivel.integrate.rosenbrock.circuit_euler`: tanks give by the rule by which volumes take."""
+    result = nivel.load(FILE).simulate(integrator="extrapolated-euler", duration=0.3)
+    gave = result.array("state.hydraulics.taken_in")
+    assert np.ptp(gave) > 1e-3
+    assert next(item.fraction for item in result.trust.items if item.name == "fluid mass") < 1e-12
+
+
 def test_the_error_of_the_ledger_falls_with_the_order_of_the_method():
     def error(h):
         result = nivel.load(FILE).simulate(integrator="heun", step=h, duration=1.0)

@@ -18,6 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import NOT_CONVERGED, OK
+from nivel.kernels.hydraulics.ledger import TAKEN_IN, mass_apart
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.tree_motion import write_positions
 from nivel.native.function import leaf
@@ -151,3 +152,10 @@ def advance_circuit(machine, number, s, f, other, y, into):
     for j in range(tangent.unknown.shape[0]):
         if tangent.unknown[j] != NONE:
             into[first + j] = y[first + j] + s * tangent.b[tangent.unknown[j]]
+    # what tanks give by the same rule: see `nivel.kernels.hydraulics.ledger`
+    gained, node = mass_apart(machine, f), record.circuit.node
+    for k in range(node.shape[0]):
+        if node[k, 1] != NONE:
+            gained += tangent.b[tangent.unknown[node[k, 1]]]
+    taken = y.shape[0] - TAKEN_IN
+    into[taken] = y[taken] + s * gained

@@ -56,7 +56,7 @@ from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
-from nivel.system.hydraulics.elements import add_circuits, add_components, sensed_and_acting
+from nivel.system.hydraulics.elements import add_circuits, add_components, add_ledger, sensed_and_acting
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.joints.driver_rows import add_drivers
 from nivel.system.joints.interfaces import refuse_unknown_interfaces
@@ -155,6 +155,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
         _add_force(builder, force)
     for beam in machine.beams:
         add_beam(builder, beam)
+    add_ledger(builder)
     for joint in machine.joints:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():

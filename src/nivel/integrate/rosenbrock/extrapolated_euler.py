@@ -26,6 +26,7 @@ from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP,
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import meet, part
+from nivel.kernels.hydraulics.ledger import balance_mass, mass_apart
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
@@ -44,7 +45,9 @@ def advance_linearly(machine, run, y, share, into):
     factors = record_at(machine).newton.shifted.real
     for i in range(y.shape[0]):
         factors.r[i] = run.stages[RATE, i]
+    apart = mass_apart(machine, factors.r)
     solve_shifted_parts(machine, factors, share)
+    balance_mass(machine, factors.r, apart)
     for i in range(y.shape[0]):
         into[i] = y[i] + share * factors.r[i]
 

@@ -20,6 +20,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.ledger import balance_mass, mass_apart
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.residual.shifted_along import prepare_shifted, solve_shifted
 from nivel.kernels.residual.shifted_slopes import ROWS as OF_SLOPES
@@ -39,9 +40,11 @@ def solve_for(machine, run, t, row, share, ahead):
     x, given = run.stages[row], run.stages[GIVEN]
     for i in range(x.shape[0]):
         given[i] = x[i]
+    apart = mass_apart(machine, x)
     status = solve_shifted(machine, t, x, share, ahead)
     if status == OK and is_whole(machine):
         status = settle_solution(machine, t, given, x, share, ahead, run.scale, run.stages[WORK : WORK + OF_SLOPES])
+    balance_mass(machine, x, apart)
     return status
 
 

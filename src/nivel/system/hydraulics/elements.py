@@ -84,7 +84,6 @@ def add_components(builder: SystemBuilder) -> None:
             with located(f"hydraulics.{component.name}"), builder.noting():
                 add(builder, component)
             _know_late(builder, component)
-    _add_ledger(builder)
 
 
 def _add_pressures(builder: SystemBuilder) -> None:
@@ -125,8 +124,10 @@ def _know_late(builder: SystemBuilder, component: Component) -> None:
             builder.circuit.signals.setdefault(name.removeprefix("hydraulics."), (k, coupled))
 
 
-def _add_ledger(builder: SystemBuilder) -> None:
-    """Three energies and a mass as states that nothing depends on."""
+def add_ledger(builder: SystemBuilder) -> None:
+    """Three energies and a mass as states that nothing depends on, behind all other states of the machine."""
+    if not builder.machine.hydraulics:
+        return
     first = builder.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
     states = []
     for name, (units, words) in LEDGER.items():

@@ -112,7 +112,8 @@ def say_energy(found: CircuitEnergy) -> Item:
 
 
 def look_at_mass(run: Motion) -> FluidMass:
-    """The mass in all volumes against what tanks gave. Volumes exchange fluid to round-off; the integral is as exact as the method."""
+    """The mass in all volumes against what tanks gave, which every method integrates alike: they differ by round-off, and by what an
+    iteration is not solved for."""
     result = run.result
     names = [name for name in result.variables if name.startswith("state.") and ".mass" in name]
     names = [name for name in names if ".mass_flow" not in name]

@@ -172,8 +172,10 @@ def _of_points(result: Readable, bodies: list[ModalBody]) -> dict[str, Array]:
     """By variable, for each of its numbers, what moves a point of a flexible body over the range of the motion of such points; 0 for all
     others. Stiff modes that hardly move are often wrong by as much as they move, and so is the frame, which is no point of the body.
     Neither matters where all points move far more."""
+    if not bodies:
+        return {}
     of_bodies = {name: np.zeros(len(result.coordinates["body"])) for name in FRAME_MOTIONS}
-    of_modes = {name: np.zeros(len(result.coordinates.get("mode", ()))) for name in MODAL}
+    of_modes = {name: np.zeros(len(result.coordinates["mode"])) for name in MODAL}
     for body in bodies:
         its, k, own = (
             point_ranges(result, body),
@@ -186,7 +188,7 @@ def _of_points(result: Readable, bodies: list[ModalBody]) -> dict[str, Array]:
         moving = body.reach > 0.0
         for name, scale in zip(MODAL, (its.modal, its.speed / body.reach, its.acceleration / body.reach), strict=True):
             of_modes[name][own] = np.where(moving, scale, 0.0)
-    return of_bodies | of_modes if bodies else {}
+    return of_bodies | of_modes
 
 
 def _natural(run: Run, units: str) -> float:

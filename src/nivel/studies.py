@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from nivel.analysis.progress.listener import Listener
 from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError
-from nivel.files.sources import beside
-from nivel.files.study_file import StudyFile, read_study
+from nivel.files.sources import beside, read_text
+from nivel.files.study_file import StudyFile, study_and_faults
 from nivel.machine.study.parameter import Between
 from nivel.words.arguments import checked_arguments
 
@@ -267,10 +267,19 @@ def load_study(
     allow_code : outputs, and laws of the machine, may be Python functions, which run with all your rights.
     Raises ModelError with every fault of the files, each with its line.
     """
-    study = read_study(fspath(path), overrides=dict(overrides or {}), allow_code=allow_code)
+    file = fspath(path)
+    study, faults = study_and_faults(read_text(file), file, overrides=dict(overrides or {}), allow_code=allow_code)
+    if study is None:
+        raise ModelError(faults)
     from nivel.analysis.sweep.resolution import resolve
 
-    return Study(resolve(study, load(study.machine_file, allow_code=allow_code)))
+    try:
+        resolved = resolve(study, load(study.machine_file, allow_code=allow_code))
+    except ModelError as error:
+        raise ModelError([*faults, *error.faults]) from None
+    if faults:
+        raise ModelError(faults)
+    return Study(resolved)
 
 
 def write_study_report(dataset: xarray.Dataset | str | PathLike[str], path: str | PathLike[str]) -> Path:

@@ -1,5 +1,7 @@
 """Study files: what they say, every fault at its place, and the schema for editors."""
 
+from pathlib import Path
+
 import pytest
 
 import nivel
@@ -100,6 +102,44 @@ def test_all_that_does_not_fit_the_machine_is_told_at_its_line(folder):
         (8, "settings.step"),
         (8, "settings.durtion"),
     ]
+
+
+def test_faults_of_the_file_and_of_what_does_not_fit_its_machine_are_told_at_once(folder):
+    text = (
+        "parameters:\n"  # line 3
+        "  block.mass: {type: rang, from: 1, to: 2}\n"
+        "  blok.mass: [1, 2]\n"
+        "outputs:\n"
+        "  a: {type: max, off: x}\n"
+        "  b: {type: max, of: rail.displacment}\n"
+        "desing: rows\n"
+        "samples: 3\n"
+        "settings: {durtion: 3}\n"
+    )
+    (folder / "study.yaml").write_text(f"format: 1\nmachine: machine.yaml\n{text}", encoding="utf-8")
+    with pytest.raises(ModelError) as error:
+        nivel.load_study(folder / "study.yaml")
+    assert sorted((line, path) for line, path, _ in told(error)) == [
+        (4, "parameters.block.mass"),
+        (5, "parameters.blok.mass"),
+        (7, "outputs.a.off"),
+        (8, "outputs.b.of"),
+        (9, "desing"),
+        (11, "settings.durtion"),
+    ]
+    machine = (folder / "machine.yaml").read_text(encoding="utf-8")
+    (folder / "machine.yaml").write_text(machine.replace("mass: 2", "mas: 2"), encoding="utf-8")
+    with pytest.raises(ModelError) as error:
+        nivel.load_study(folder / "study.yaml")
+    assert {"study.yaml", "machine.yaml"} == {Path(each.file).name for each in error.value.faults}
+
+
+@pytest.mark.parametrize("text", ["machine: [1]\n", "parameters: {a: [1]}\n", "machine: machine.yaml\ndesign: sobol\n"])
+def test_a_study_whose_machine_cannot_be_asked_tells_what_is_wrong_in_itself(folder, text):
+    (folder / "study.yaml").write_text(f"format: 1\n{text}", encoding="utf-8")
+    with pytest.raises(ModelError) as error:
+        nivel.load_study(folder / "study.yaml")
+    assert {Path(each.file).name for each in error.value.faults} == {"study.yaml"}
 
 
 def test_outputs_and_histories_that_no_run_has_are_told_before_anything_runs(folder):

@@ -237,6 +237,43 @@ def test_runs_that_take_too_long_are_ended_and_all_variants_are_kept(oscillator)
         oscillator.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, exact_slopes=True, time_limit=1.0)
 
 
+def test_an_objective_that_raises_leaves_the_table_of_all_variants(oscillator):
+    """Of soft springs; the best of the others is the softest of them, since x = v₀ √(m/k) without damping."""
+
+    def reach(result):
+        found = result.array("rail.displacement").max()
+        if found > 0.2:
+            raise ValueError("beyond the wall")
+        return -found
+
+    found = oscillator.with_values({DAMPING: 0.0}).optimise(
+        reach,
+        {STIFFNESS: (20.0, 90.0)},
+        outputs={"reach": "max(rail.displacement)"},
+        method="differential-evolution",
+        iterations=2,
+        output_interval="2 ms",
+    )
+    table = found.dataset
+    failed = table["outcome"].values == "failed"
+    assert 0 < failed.sum() < len(failed)
+    assert set(table["reason"].values[failed]) == {"objective: ValueError: beyond the wall"}
+    np.testing.assert_array_equal(failed, np.isnan(table["objective"]))
+    np.testing.assert_allclose(table["reach"], np.sqrt(2.0 / table[STIFFNESS]), rtol=1e-3)
+    assert found.values[STIFFNESS] == table[STIFFNESS].values[~failed].min()
+
+
+def test_an_objective_that_always_raises_is_told_with_the_table(oscillator):
+    def nothing(result):
+        raise KeyError("nothing")
+
+    with pytest.raises(SolveError, match="objective: no start has one: objective: KeyError: 'nothing'") as told:
+        oscillator.optimise(nothing, {DAMPING: (1.0, 20.0)}, starts=2)
+    assert set(told.value.result["outcome"].values) == {"failed"}
+    with pytest.raises(ModelError, match="did you mean"):
+        oscillator.optimise("max(rail.displacment)", {DAMPING: (1.0, 20.0)})
+
+
 def test_a_parameter_that_would_go_beyond_its_bound_has_no_deviation(oscillator):
     """The others have that of a fit in which it is held there."""
     truth = oscillator.with_values({STIFFNESS: 64.0, DAMPING: 2.5})

@@ -185,6 +185,21 @@ def check_forty(found):
     np.testing.assert_allclose(done["x"], expected, atol=1e-9)
 
 
+def test_a_function_that_raises_leaves_the_other_outputs_and_variants(spring):
+    """x(0.5 s) = 0.1 cos(√(k/m) t)."""
+    outputs = {
+        "x": {"type": "python", "python": "code.py", "function": "risky", "units": "m"},
+        "end": {"type": "final", "of": "rail.displacement"},
+    }
+    parameters = {"block.mass": {"values": [22, 23, 24]}}
+    path = forty(spring, "raising.yaml", outputs=outputs, parameters=parameters)
+    found = load_study(path, allow_code=True).sweep(workers=1)
+    assert found["outcome"].values.tolist() == ["done", "failed", "done"]
+    assert str(found["reason"].values[1]) == "output x: ValueError: no luck"
+    assert np.isfinite(found["x"]).values.tolist() == [True, False, True]
+    np.testing.assert_allclose(found["end"], 0.1 * np.cos(5 / np.sqrt(found["block.mass"])), atol=1e-9)
+
+
 def forty_on_a_cluster(spring, threads):
     distributed = pytest.importorskip("distributed")
     study = load_study(forty(spring, "forty.yaml", time_limit="10 min"), allow_code=True)

@@ -17,6 +17,7 @@ from nivel.files.overrides import override
 from nivel.files.python_laws import read_python_code
 from nivel.files.sources import Sources, beside, read_text
 from nivel.files.tree import Path, Tree, read_tree
+from nivel.machine.core.checked import without_problems
 from nivel.machine.core.record import field_words
 from nivel.machine.study import StudyRecord
 from nivel.machine.units.quantity import FAULT, shown
@@ -72,6 +73,21 @@ def parse_study(
     allow_code: bool = False,
 ) -> StudyFile:
     """The study in the YAML `text`; files that it names are seen from the folder of `file`. Raises ModelError."""
+    study, faults = study_and_faults(text, file, overrides=overrides, allow_code=allow_code)
+    if study is None or faults:
+        raise ModelError(faults)
+    return study
+
+
+def study_and_faults(
+    text: str,
+    file: str,
+    *,
+    overrides: Mapping[str, object] | None = None,
+    allow_code: bool = False,
+) -> tuple[StudyFile | None, list[Fault]]:
+    """The study of a text, without its entries that are wrong by themselves, and all that is wrong in it; None where nothing can be held
+    against a machine. Raises ModelError where it is no study of this format."""
     tree = read_tree(text, file)
     if not isinstance(tree.data, dict):
         what = "the file is empty" if tree.data is None else f"got {shown(tree.data)}"
@@ -94,10 +110,27 @@ def parse_study(
             place = line["loc"]
             if line["type"] == FAULT and not tree.is_broken(place):
                 tree.faults.append(tree.fault(place, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
-        raise ModelError(tree.faults) from None
-    if tree.faults:
-        raise ModelError(tree.faults)
-    return StudyFile(record, tree, file, text, allow_code)
+        record = _right_part(data)
+    study = None if record is None else StudyFile(record, tree, file, text, allow_code)
+    return study, tree.faults
+
+
+def _right_part(data: dict[str, Any]) -> StudyRecord | None:
+    """The record of the entries that are right by themselves; None without a machine."""
+    kept = {key: dict(value) if isinstance(value, dict) else value for key, value in data.items()}
+    while True:
+        try:
+            return without_problems(StudyRecord, kept)
+        except ValidationError as error:
+            places = {line["loc"][:2] for line in error.errors(include_url=False)}
+        if any(place[:1] in ((), ("machine",)) for place in places):
+            return None
+        for section, *entry in places:
+            inside = kept.get(section)
+            if entry and isinstance(inside, dict) and entry[0] in inside:
+                del inside[entry[0]]
+            elif kept.pop(section, None) is None:
+                return None
 
 
 def _check_format(tree: Tree) -> None:

@@ -113,6 +113,14 @@ class Evaluated:
     start: int
 
 
+class UnreadError(Exception):
+    """Some outputs of a run cannot be read, and why; outputs (m,) : the others, and not numbers."""
+
+    def __init__(self, outputs: Array, reason: str) -> None:
+        super().__init__(reason)
+        self.outputs = outputs
+
+
 class Evaluations:
     """Outputs (m,) of variants of a machine. made : all of them, in the order in which they were asked for."""
 
@@ -127,7 +135,7 @@ class Evaluations:
         exact: Exact | None = None,
         time_limit: float | None = None,
     ) -> None:
-        """read : the outputs (count,) of a result. exact : outputs with their slopes; None: differences. time_limit [s] : of each run.
+        """read : the outputs (count,) of a result, or UnreadError, with which the variant has failed. exact : outputs with their slopes; None: differences. time_limit [s] : of each run.
 
         Raises ModelError for a limit with exact slopes, which are not watched.
         """
@@ -193,12 +201,14 @@ class Evaluations:
             ran = runs.run(self.box.values(z))
             if ran.outcome == "not run":
                 raise KeyboardInterrupt
-            outputs = np.full(self._count, np.nan)
+            outputs, outcome, reason = np.full(self._count, np.nan), ran.outcome, ran.reason
             if ran.result is not None and ran.outcome in ("done", "stopped"):
                 outputs = self._read(ran.result)
+        except UnreadError as error:
+            outputs, outcome, reason = error.outputs, "failed", str(error)
         finally:
             self._runs.put(runs)
-        return Evaluated(z.copy(), outputs, ran.outcome, ran.reason, self.start)
+        return Evaluated(z.copy(), outputs, outcome, reason, self.start)
 
     def slopes(self, z: Array) -> Array:
         """(m, d) derivatives with respect to places in the unit cube: exact ones, or differences to the side where there is room."""

@@ -13,12 +13,13 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Evaluations
+from nivel.analysis.optimise.evaluations import Box, Evaluations, UnreadError
 from nivel.analysis.optimise.libraries import LIBRARIES_OF
 from nivel.analysis.optimise.search import CONSTRAINED, KEPT, Search
-from nivel.analysis.optimise.spoken_outputs import event_of, spoken_output
+from nivel.analysis.optimise.spoken_outputs import Spoken, event_of, spoken_output
 from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.progress.listener import Listener
+from nivel.analysis.sweep.outputs import OutputFailedError
 from nivel.errors import Fault, ModelError
 from nivel.extras import require
 from nivel.machine.study.search import SEARCH_METHODS
@@ -93,7 +94,7 @@ def optimise(
     names, sign = tuple(said), -1.0 if aim.maximise else 1.0
 
     def read(result: Result) -> Array:
-        return np.array([reader(result) for reader in readers.values()])
+        return _read(result, readers, first=not evaluations.made)
 
     begin = perf_counter()
     evaluations = Evaluations(machine, box, read, len(names), threads=threads, exact=exact, time_limit=time_limit)
@@ -133,6 +134,24 @@ def optimise(
         message=messages[best],
         evaluations=len(evaluations.made),
     )
+
+
+def _read(result: Result, readers: Mapping[str, Spoken], *, first: bool) -> Array:
+    """The outputs of a result. Raises UnreadError where a function of the user fails, and ModelError for words that do not fit the `first`
+    result: of later ones the table would be lost with it."""
+    values, failed = np.full(len(readers), np.nan), list[str]()
+    for k, (name, reader) in enumerate(readers.items()):
+        try:
+            values[k] = reader(result)
+        except OutputFailedError as error:
+            failed.append(str(error))
+        except Exception as error:  # whatever the function of the user does
+            if first and isinstance(error, ModelError):
+                raise
+            failed.append(f"{name}: {type(error).__name__}: {error}")
+    if failed:
+        raise UnreadError(values, "; ".join(failed))
+    return values
 
 
 def _check_events(machine: Model, said: Mapping[str, Said]) -> None:

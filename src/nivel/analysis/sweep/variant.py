@@ -84,12 +84,19 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
         reason = f"event {found.stopped_by}"
     outcome = FAILED if failed else STOPPED if reason else DONE
     kept = _kept(found, outcome, reason, task)
-    if failed:
-        return kept
-    try:
-        return replace(kept, outputs=outputs_of(found, task.outputs))
-    except OutputFailedError as error:
-        return replace(kept, outcome=FAILED, reason=str(error))
+    return kept if failed else _with_outputs(kept, found, task)
+
+
+def _with_outputs(kept: VariantRun, found: Found, task: Task) -> VariantRun:
+    """With the outputs; failed where functions of the user fail, and with the others all the same. Raises ModelError as `run_variant`."""
+    numbers, failures = dict[str, Number](), list[str]()
+    for name, output in task.outputs.items():
+        try:
+            numbers |= outputs_of(found, {name: output})
+        except OutputFailedError as error:
+            failures.append(str(error))
+    told = {"outcome": FAILED, "reason": "; ".join(failures)} if failures else {}
+    return replace(kept, outputs=numbers, **told)
 
 
 class _Last:
@@ -124,11 +131,9 @@ def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
     # the memory of the result is that of the next run
     saved = {name: replace(each, values=each.values.copy()) for name in save for each in [_saved(ran.result, name)]}
     time = ran.result.time.copy() if saved else np.zeros(0)
-    outputs = {} if ran.outcome == FAILED else outputs_of(ran.result, task.outputs)
     end = _end(ran.result)
-    return VariantRun(
-        ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, time=time, saved=saved, outputs=outputs
-    )
+    kept = VariantRun(ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, time=time, saved=saved)
+    return kept if ran.outcome == FAILED else _with_outputs(kept, ran.result, task)
 
 
 def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:

@@ -59,6 +59,12 @@ def problems_beside(record: type[Checked], data: Any, wrong: Collection[object],
         return
 
 
+def without_problems(record: type[Checked], data: Any) -> Any:
+    """The `record` of `data`, whatever is wrong between its fields. Raises ValidationError for what is wrong by itself."""
+    its: Any = record
+    return _without(its, frozenset()).model_validate(data)
+
+
 @cache
 def _without(record: Any, hidden: frozenset[str]) -> Any:
     """The partial record of `record` that hides some fields."""

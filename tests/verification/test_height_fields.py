@@ -151,6 +151,11 @@ def test_heights_of_files(tmp_path):
         (b"", "file: missing.csv", "missing.csv"),
         (b"", "function: 1/x", "has no value everywhere on the rectangle: division by zero"),
         (b"", "function: slope*x", "`slope`"),
+        (
+            b"",
+            "function: 0.5*r^2",
+            "`r` is neither a parameter nor a unit; the place on the plane has the names `x` and `y`",
+        ),
         (b"", "values: [[1, 2, 3], [1, 2], [1, 2, 3]]", "all rows need as many heights"),
         (b"", "function: 0.1*x, unit: 1 mm", "`unit` is the length of one unit of a `file`"),
         (b"", "values: [[1, 2, 3], [1, 2, 3], [1, 2, 3]], unit: 1 mm", "`unit` is the length of one unit of a `file`"),

@@ -135,7 +135,8 @@ class Evaluations:
         exact: Exact | None = None,
         time_limit: float | None = None,
     ) -> None:
-        """read : the outputs (count,) of a result, or UnreadError, with which the variant has failed. exact : outputs with their slopes; None: differences. time_limit [s] : of each run.
+        """read : the outputs (count,) of a result; a variant of which it raises UnreadError has failed. exact : outputs with their slopes;
+        None: differences. time_limit [s] : of each run.
 
         Raises ModelError for a limit with exact slopes, which are not watched.
         """

@@ -25,7 +25,7 @@ from nivel.machine.units.quantity import (
     reported,
     shown,
 )
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, UnknownNameError
 
 FEWEST, MOST = 3, 250_000  # heights along a side, and in all
 POINTS: Final = (101, 101)
@@ -40,6 +40,9 @@ def _of_place(value: Any, info: ValidationInfo) -> str | None:
         raise fault(f"an expression of `x` and `y` was expected, as in `0.1*x^2`, got {shown(value)}")
     try:
         return render(bound_tree(str(value), parameters_of(info), PLACE))
+    except UnknownNameError as problem:
+        said = f"{problem}; the place on the plane has the names `x` and `y` [m], as in `0.1*(x^2 + y^2)`"
+        raise expression_fault(ExpressionError(said), value, parameters_of(info)) from None
     except ExpressionError as problem:
         raise expression_fault(problem, value, parameters_of(info)) from None
     except FaultyParameterError:

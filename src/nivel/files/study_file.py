@@ -117,7 +117,7 @@ def study_and_faults(
 
 def _right_part(data: dict[str, Any]) -> StudyRecord | None:
     """The record of the entries that are right by themselves; None without a machine."""
-    kept = {key: dict(value) if isinstance(value, dict) else value for key, value in data.items()}
+    kept: dict[Any, Any] = {key: dict(value) if isinstance(value, dict) else value for key, value in data.items()}
     while True:
         try:
             return without_problems(StudyRecord, kept)

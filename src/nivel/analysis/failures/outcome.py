@@ -18,12 +18,15 @@ from nivel.analysis.failures.status import Status
 from nivel.analysis.plan.fast_beams import too_fast
 from nivel.analysis.preparation.broken_function import broken_function, owner_of
 from nivel.kernels.elements import friction as columns
+from nivel.kernels.record.record import Record
 from nivel.machine.beams.beam import Beam
 from nivel.system.layout import reported
 from nivel.system.system import Array, System
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
 NEAR_SINGULAR = 1e-6
+# Below this share of its mass a frame has none left.
+NO_MASS = 1e-9
 # Integrators that choose their steps, for stiff forces.
 FOR_STIFF = ("radau", "bdf")
 # In place of an integrator, where positions follow from drivers.
@@ -193,6 +196,41 @@ def _singular(stop: Stop) -> Told | None:
         f"A body whose inertia is many orders too small for its mass looks the same."
     )
     return message, advice
+
+
+_no_mass_left = _named(
+    lambda system: system.bodies,
+    "the modes of {name} take up all the mass and inertia of its frame, and more with its bending",
+    "Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {name}; in mean axes it "
+    "is geometric stiffness that takes mass while the body bends: `stiffening: false`, or a beam in place of {name}.",
+)
+
+
+def _mass_used_up(stop: Stop) -> Told | None:
+    """Where accelerations without bounds, of a frame that has no mass left beside its modes, look like a singular position, or like a
+    force that jumps."""
+    stop.evaluate()
+    record = stop.motion.system.record
+    share = [mass_left(record, f) for f in range(len(record.flexible.body))]
+    if not share or min(share) > NO_MASS:
+        return None
+    record.control.failure[0] = record.flexible.body[int(np.argmin(share))]
+    return _no_mass_left(stop)
+
+
+def mass_left(record: Record, f: int) -> float:
+    """The least share, over all directions, of the mass of flexible body f that its frame has without its modes, in the state last
+    evaluated: the smallest eigenvalue of 1 - L⁻¹ B Bᵀ L⁻ᵀ, with the mass L Lᵀ and the coupling B of the modes."""
+    own, n = record.flexible, int(np.ptp(record.flexible.mode[f]))
+    B, J, (x, y, z) = own.coupling[f][:, :n], np.tril(own.inertia[f]), own.first[f]
+    M = np.diag(np.repeat([float(record.bodies.mass[int(own.body[f])]), 0.0], 3))
+    M[3:, :3] = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    M[3:, 3:] = J
+    try:
+        L = np.linalg.cholesky(M)  # the lower triangle counts
+    except np.linalg.LinAlgError:
+        return 1.0
+    return 1.0 - float(np.linalg.norm(np.linalg.solve(L, B), 2)) ** 2
 
 
 def _open(stop: Stop) -> Told | None:
@@ -417,8 +455,8 @@ _FIRST: Final = (_broken, _fast_beam)
 FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
     Status.OUT_OF_REACH: (_out_of_reach,),
     Status.CRAWLS: (_crawling,),
-    Status.SINGULAR: (*_FIRST, _met, _no_step, _singular),
-    Status.NOT_FINITE: (*_FIRST, _no_step, _not_a_number),
+    Status.SINGULAR: (*_FIRST, _mass_used_up, _met, _no_step, _singular),
+    Status.NOT_FINITE: (*_FIRST, _mass_used_up, _no_step, _not_a_number),
     Status.FRICTION_DIVERGES: (
         _named(
             lambda system: system.frictions,
@@ -439,8 +477,8 @@ FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
             "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are.",
         ),
     ),
-    Status.NOT_CONVERGED: (*_FIRST, _no_step, _no_solution, _not_converged),
-    Status.STEP_TOO_SMALL: (*_FIRST, _no_step, _not_a_number),
+    Status.NOT_CONVERGED: (*_FIRST, _mass_used_up, _no_step, _no_solution, _not_converged),
+    Status.STEP_TOO_SMALL: (*_FIRST, _mass_used_up, _no_step, _not_a_number),
     Status.EVENT_NOT_FINITE: (
         _named(
             lambda system: system.events,
@@ -450,15 +488,7 @@ FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
         *(*_FIRST, _no_step, _not_a_number),
     ),
     Status.MULTIPLIERS_NOT_FOUND: (_slow_multipliers,),
-    Status.NO_MASS_LEFT: (
-        _broken,
-        _named(
-            lambda system: system.bodies,
-            "the modes of {name} take up all the mass and inertia of its frame, and more with its bending",
-            "Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {name}; in mean axes it "
-            "is geometric stiffness that takes mass while the body bends: `stiffening: false`, or a beam in place of {name}.",
-        ),
-    ),
+    Status.NO_MASS_LEFT: (_broken, _no_mass_left),
     Status.NOT_ON_RAIL: (_off_rail,),
     Status.NOT_CLOSED: (*_FIRST, _no_step, _open),
     Status.OPEN: (*_FIRST, _no_step, _open),

@@ -27,6 +27,7 @@ FORCE_WORDS = {
     "rate": "rates",
     "depth": "depths, negative while apart",
     "normal_force": "normal forces",
+    "friction_work": "heat of friction",
     "normal_load": "normal loads",
     "bristle": "deflections of bristles",
 }

@@ -12,6 +12,7 @@ import numpy as np
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
 from nivel.kernels.elements import friction
+from nivel.kernels.forces import friction_work
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import (
     BOTH,
@@ -161,8 +162,8 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
             for name in values.given if values is not None else ():
                 builder.coordinate(f"{joint.name}.{name}")
     sensed, acting = sensed_and_acting()
-    # what reads or computes signals, each after what it reads; all other elements follow
-    builder.elements.order((read_inputs, *sensed, compute, *acting))
+    # what reads or computes signals, each after what it reads; all other elements follow, last what reads their outputs
+    builder.elements.order((read_inputs, *sensed, compute, *acting), (friction_work.apply,))
     return builder, rows
 
 

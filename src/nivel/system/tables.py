@@ -221,10 +221,13 @@ class ElementTable:
         self._states[fact.name] = fact
         return self.state(fact.name)
 
-    def order(self, families: Sequence[Family]) -> None:
-        """Call these families before all others, in this order."""
-        first = {family: self.families[family] for family in families if family in self.families}
-        self.families = {**first, **self.families}
+    def order(self, families: Sequence[Family], last: Sequence[Family] = ()) -> None:
+        """Call these families before all others, in this order, and the `last` behind all others."""
+        first, behind = (
+            {family: self.families[family] for family in each if family in self.families} for each in (families, last)
+        )
+        others = {family: rows for family, rows in self.families.items() if family not in behind}
+        self.families = {**first, **others, **behind}
 
     @property
     def states(self) -> tuple[StateFact, ...]:

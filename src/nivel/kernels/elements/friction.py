@@ -33,6 +33,7 @@ from nivel.native.function import leaf, stage
 
 # columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion;
 # BEARING: marker about whose point moments are taken
+# STATE: the bristle, of a patch the work of its friction, or NONE
 # outputs: effort, power, normal load, the bristle; of a patch those of its contact. FIRST: friction with which a patch begins, COUNT: how
 # many it has: two along tangents, then maybe the spin; CAPACITY: function that is the load, or NONE; ROW: of the constraint whose effort on
 # the coordinate is the load, or NONE; WAY: ONE_WAY where no effort is negative, else NONE
@@ -690,6 +691,8 @@ def report_patch(machine, k):
         given += friction.force[k + a] * friction.number[k + a, OVER]
     record.control.power[0] += given
     record.control.power[1] -= power
+    if friction.columns[k, STATE] != NONE:
+        record.elements.state_rate[friction.columns[k, STATE]] -= power
     out[first + POWER] += power + given
     out[first + LOST], out[first + GIVEN] = -power, given
     out[first + MAGNITUDE] = np.sqrt(load * load + squared)

@@ -54,7 +54,7 @@ class Contact(ForceElement):
     outputs: ClassVar[tuple[str, ...]] = (
         *(*OUTPUTS, "depth", "normal_force", "rate", "friction_force", "slip_speed"),
         *("friction_power", "surface_power", "sticks", "x", "y", "z"),
-        *("normal_x", "normal_y", "normal_z", "friction_x", "friction_y", "friction_z"),
+        *("normal_x", "normal_y", "normal_z", "friction_x", "friction_y", "friction_z", "friction_work"),
     )
 
     type: Literal["contact"] = "contact"
@@ -105,6 +105,9 @@ class Contact(ForceElement):
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="of `friction_model: coulomb`; stiction makes no use of it"
     )
+    friction_work: bool = Field(
+        default=False, description="the heat of friction since the start is an output too, and a state of the run"
+    )
 
     surface_velocity: Maybe[Annotated[ThreeFunctions[SurfaceVelocity], BeforeValidator(listed)]] = Field(
         default=None,
@@ -151,6 +154,8 @@ class Contact(ForceElement):
             yield Problem((moving[0],), f"`{moving[0]}` acts by `friction`, and none is given")
         if self.surface_spin is not None and self.bodies is not None:
             yield superfluous("surface_spin", "belongs to a `plane`; a body that turns has a joint and a driver")
+        if self.friction_work and not self.friction:
+            yield superfluous("friction_work", "belongs to `friction`, and none is given")
         if self.static > self.friction and not self.sticks:
             yield superfluous("static_friction", "belongs to `friction_model: stiction`")
 

@@ -34,6 +34,7 @@ class Contacts(ForceElement):
         "friction_force",
         "friction_power",
         "count",
+        "friction_work",
     )
 
     type: Literal["contacts"] = "contacts"
@@ -51,6 +52,10 @@ class Contacts(ForceElement):
         default=None, description="friction goes as tanh(sliding speed / this), so bodies creep"
     )
 
+    friction_work: bool = Field(
+        default=False, description="the heat of friction since the start is an output too, and a state of the run"
+    )
+
     def problems(self) -> Iterator[Problem]:
         if len(self.between) == 1:
             yield Problem(("between",), "at least two bodies are needed: names, or `all`")
@@ -61,5 +66,7 @@ class Contacts(ForceElement):
             yield Problem(("between",), f"`{twice}` is there twice")
         if self.friction > 0 and self.friction_transition_speed is None:
             yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        if self.friction_work and not self.friction:
+            yield superfluous("friction_work", "belongs to `friction`, and none is given")
         if self.friction_transition_speed is not None and not self.friction:
             yield superfluous("friction_transition_speed", "belongs to `friction`, and none is given")

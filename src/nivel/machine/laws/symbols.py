@@ -137,8 +137,10 @@ def states_of(force: Any) -> tuple[str, ...]:
 
 
 def outputs_of(force: Any) -> tuple[str, ...]:
-    """What a force reports, states left out."""
-    return tuple(name for name in _OUTPUTS.get(str(entry(force, "type")), ()) if name != "bristle")
+    """What a force reports, states and what it is not asked for left out."""
+    names = _OUTPUTS.get(str(entry(force, "type")), ())
+    hidden = {"bristle"} if entry(force, "friction_work") else {"bristle", "friction_work"}
+    return tuple(name for name in names if name not in hidden)
 
 
 def is_output(symbol: Symbol, index: Index) -> bool:

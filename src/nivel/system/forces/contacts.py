@@ -14,11 +14,13 @@ from nivel.kernels.forces import (
     bushing,
     contact,
     ellipsoid_contact,
+    friction_work,
     height_contact,
     hull_contact,
     round_contact,
     surface_distance,
 )
+from nivel.kernels.elements.touch import LOST
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.body import Body
@@ -32,6 +34,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.ellipsoids import numbers_of_ellipsoids, numbers_over_plane
+from nivel.system.forces.friction_works import WORK, add_friction_work
 from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.height_fields import numbers_of_heights
 from nivel.system.forces.hulls import hull_of, part_of, row_of
@@ -75,7 +78,10 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         *((axis, "m", f"{axis} of the middle of the normal forces; 0 without contact") for axis in "xyz"),
         *((f"normal_{axis}", "1", f"{axis} of the normal towards the first body") for axis in "xyz"),
         *((f"friction_{axis}", "N", f"friction on the first body along {axis}") for axis in "xyz"),
+        *((WORK,) if force.friction_work else ()),
     )
+    if force.friction_work and not force.sticks:
+        add_friction_work(builder, force.name, first + LOST)
     if force.foundation_modulus is not None:
         _add_hulls(builder, force, first)
         return
@@ -315,6 +321,9 @@ KINDS = (
     ForceKind(
         Contact,
         add_contact,
-        (contact.apply, hull_contact.apply, round_contact.apply, ellipsoid_contact.apply, height_contact.apply),
+        (
+            *(contact.apply, hull_contact.apply, round_contact.apply, ellipsoid_contact.apply, height_contact.apply),
+            friction_work.apply,
+        ),
     ),
 )

@@ -9,6 +9,7 @@ from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Contact, Friction
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import GROUND, SystemBuilder
+from nivel.system.forces.friction_works import add_friction_work
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.signals.state_facts import StateFact
@@ -64,8 +65,9 @@ def add_patch(builder: SystemBuilder, contact: Contact, ends: tuple[int, int], o
     of the contact. Returns the first friction, how many there are, and the first coordinate: see `nivel.kernels.elements.patch`."""
     first, count = len(builder.frictions), 3 if spins else 2
     coordinates = [builder.coordinates.add(PATCH, *ends, axis) for axis in range(count)]
+    work = add_friction_work(builder, contact.name, NONE) if contact.friction_work else NONE
     for axis, coordinate in enumerate(coordinates):
-        index = [coordinate, friction.PATCH, NONE, int(axis == 2), NONE, output, *ends, first, count]
+        index = [coordinate, friction.PATCH, NONE, int(axis == 2), work, output, *ends, first, count]
         numbers = [contact.friction, contact.static, 0.0, 1.0, *[0.0] * 3, 1.0, *[0.0] * 5]
         builder.frictions.append((index, numbers))
         builder.friction_names.append(f"{contact.name}.{('slip_x', 'slip_y', 'spin')[axis]}")

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.forces import heap
+from nivel.kernels.forces import friction_work, heap
 from nivel.machine.bodies.shape import Sphere
 from nivel.machine.forces import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
+from nivel.system.forces.friction_works import WORK, add_friction_work
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
@@ -33,7 +34,10 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
         ("friction_force", "N", "sum of the friction forces"),
         ("friction_power", "W", "power that friction turns to heat"),
         ("count", "1", "number of pairs that touch"),
+        *((WORK,) if force.friction_work else ()),
     )
+    if force.friction_work:
+        add_friction_work(builder, force.name, first + heap.LOST)
     names = spheres_between(builder.machine, force)
     markers, radii = [], []
     for name in names:
@@ -55,4 +59,4 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
     builder.elements.add(heap.apply, columns, [float(each) for each in numbers], places, tuple(range(places)))
 
 
-KINDS = (ForceKind(Contacts, add_contacts, (heap.apply,)),)
+KINDS = (ForceKind(Contacts, add_contacts, (heap.apply, friction_work.apply)),)

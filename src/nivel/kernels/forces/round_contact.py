@@ -30,7 +30,7 @@ from nivel.kernels.forces.contact import (
     report_contact,
     velocity_at,
 )
-from nivel.kernels.forces.surface_distance import BOX, SEGMENT, nearest_of_segment, surface_distance
+from nivel.kernels.forces.surface_distance import BOX, CYLINDER, HULL, SEGMENT, nearest_of_segment, surface_distance
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
@@ -87,13 +87,66 @@ def clipped(low, high, x, a, limit):
 
 
 @leaf
+def below(low, high, x, a, limit):
+    """The part of [low, high] where x + t a ≤ limit."""
+    if np.abs(real(a)) < ALONG:
+        return (low, high) if real(x) <= real(limit) else (high, low)
+    s = (limit - x) / a
+    if real(a) > 0.0:
+        return low, s if real(s) < real(high) else high
+    return s if real(s) > real(low) else low, high
+
+
+@leaf
+def within_circle(low, high, x, a, radius):
+    """The part of [low, high] where x + t a is nearer to the z axis than the radius."""
+    square, half = a[0] * a[0] + a[1] * a[1], x[0] * a[0] + x[1] * a[1]
+    over = x[0] * x[0] + x[1] * x[1] - radius * radius
+    if real(square) < ALONG:
+        return (low, high) if real(over) <= 0.0 else (high, low)
+    inside = half * half - square * over
+    if real(inside) <= 0.0:
+        return high, low
+    root = np.sqrt(inside)
+    s, t = (-half - root) / square, (-half + root) / square
+    return s if real(s) > real(low) else low, t if real(t) < real(high) else high
+
+
+@leaf
+def over_face(low, high, x, a, g, n):
+    """The part of [low, high] where x + t a, along the normal of that face of a hull which looks most towards g, is over this face."""
+    faces, first = np.int64(real(n[1])), 3 + 3 * np.int64(real(n[0]))
+    best, most = first, -np.inf
+    for k in range(faces):
+        p = first + 4 * k
+        towards = real(g[0]) * real(n[p]) + real(g[1]) * real(n[p + 1]) + real(g[2]) * real(n[p + 2])
+        if towards > most:
+            best, most = p, towards
+    m = n[best], n[best + 1], n[best + 2]
+    height, rise = dot(m, x) - n[best + 3], dot(m, a)
+    for k in range(faces):
+        p = first + 4 * k
+        f = n[p], n[p + 1], n[p + 2]
+        cosine = dot(f, m)
+        if real(cosine) < 1.0 - ALONG and real(low) <= real(high):
+            low, high = below(low, high, dot(f, x) - height * cosine, dot(f, a) - rise * cosine, n[p + 3])
+    return low, high
+
+
+@leaf
 def ends_over_side(kind, x, a, half, n, t):
-    """The part of the segment x + t a that is over the side of a segment or a box above which its point t is; of other shapes all."""
+    """The part of the segment x + t a that is over the side of the shape above which its point t is."""
     low, high = -half + 0.0 * x[0], half + 0.0 * x[0]
     if kind == SEGMENT:
-        low, high = clipped(low, high, x[2], a[2], n[0])
-    elif kind == BOX:
-        _, g0, g1, g2 = surface_distance(kind, (x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]), n)
+        return clipped(low, high, x[2], a[2], n[0])
+    _, g0, g1, g2 = surface_distance(kind, (x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]), n)
+    if kind == CYLINDER:
+        if real(g2) * real(g2) >= 0.5:
+            return within_circle(low, high, x, a, n[0])
+        return clipped(low, high, x[2], a[2], n[1])
+    if kind == HULL:
+        return over_face(low, high, x, a, (g0, g1, g2), n)
+    if kind == BOX:
         u, v, w = np.abs(real(g0)), np.abs(real(g1)), np.abs(real(g2))
         if u < v or u < w:
             low, high = clipped(low, high, x[0], a[0], n[0])

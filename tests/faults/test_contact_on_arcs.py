@@ -40,10 +40,61 @@ def test_an_arm_that_knocks_the_pin_away_is_not_told():
     assert contacts(ARM % 1, step="1 us", output_interval="1 ms", duration="40 ms") == []
 
 
-def test_contacts_of_shapes_without_a_check_are_named():
-    text = (ARM % 1.01).replace(
-        "shape: {type: sphere, radius: 2 mm}}", "shape: {type: capsule, radius: 2 mm, length: 10 mm}}"
-    )
-    trust = Machine.from_record(parse_machine(text)).simulate(verify=False).trust
-    (line,) = [item for item in trust.items if item.name == "unexamined"]
-    assert "pass through each other within a step at knock" in line.text
+SHAPES = {
+    "capsule": "capsule, radius: 2 mm, length: 10 mm",
+    "ellipsoid": "ellipsoid, semi_axes: [3 mm, 2 mm, 4 mm]",
+    "box": "box, size: [4 mm, 6 mm, 4 mm]",
+    "cylinder": "cylinder, radius: 2 mm, length: 6 mm",
+}
+
+
+@pytest.mark.parametrize("shape", list(SHAPES))
+def test_a_pin_of_any_shape_that_steps_pass_is_red(shape):
+    """The sphere at the end of the arm goes through the middle of the pin within a step; half a metre beside it it does not."""
+    text = ARM.replace("{type: sphere, radius: 2 mm}}", f"{{type: {SHAPES[shape]}}}}}")
+    (line,) = contacts(text % 1)
+    assert line.verdict == "red"
+    assert line.row == "knock"
+    assert contacts(text % 1.5) == []
+
+
+SHOT = """
+format: 1
+name: shot
+bodies:
+  shot: {density: 7850, velocity: [100, 0, 0], shape: {type: sphere, radius: 1 cm}}
+  ball: {density: 7850, position: [%s, 0, 0], shape: {type: sphere, radius: 1 cm}}
+forces:
+  heap: {type: contacts, between: all, stiffness: 1e6, restitution: 1}
+simulation: {duration: 20 ms, step: 1 ms, output_interval: 1 ms, integrator: rk4}
+"""
+
+
+def test_a_ball_that_steps_carry_through_another_of_a_heap_is_red():
+    (line,) = contacts(SHOT % 0.525)
+    assert line.verdict == "red"
+    assert line.time == pytest.approx(5.25e-3, abs=1e-4)
+    assert "ball" in line.text
+    assert contacts(SHOT.replace("[%s, 0, 0]", "[0.525, 0.05, 0]")) == []
+
+
+def test_hills_that_a_body_may_pass_within_a_frame_are_named():
+    """Heights are 0.1 m apart, and the body goes 1 m from frame to frame, or 0.05 m."""
+    text = """
+format: 1
+gravity: [0, 0, -9.81]
+bodies: {puck: {mass: 1, position: [-2, 0, 0.1], velocity: [20, 0, 0], shape: {type: sphere, radius: 10 cm}}}
+markers: {floor: {body: ground, axis: [0, 0, 1]}}
+forces:
+  skims:
+    {type: contact, body: puck, plane: floor, stiffness: 1e5, restitution: 0.5,
+     heights: {size: [6, 6], function: 0*x, points: [61, 61]}}
+simulation: {duration: 0.1, step: 0.5 ms, output_interval: %s, integrator: rk4}
+"""
+
+    def named(interval):
+        trust = Machine.from_record(parse_machine(text % interval)).simulate(verify=False).trust
+        return [item.text for item in trust.items if "within a step at skims" in item.text]
+
+    assert named("50 ms")
+    assert not named("2.5 ms")

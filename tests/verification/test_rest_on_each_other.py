@@ -38,7 +38,12 @@ def on_post(shape, post, load=0.0, arm=0.0):
         "joints": {"held": {"type": "fixed", "bodies": ["ground", "post"], "point": [0, 0, 0]}},
         "forces": {
             "touch": touch,
-            "load": {"type": "force", "body": "body", "position": [arm, 0, 0], "vector": [0, 0, f"-{load}*min(5*time, 1)"]},
+            "load": {
+                "type": "force",
+                "body": "body",
+                "position": [arm, 0, 0],
+                "vector": [0, 0, f"-{load}*min(5*time, 1)"],
+            },
         },
     }
 

@@ -63,7 +63,7 @@ def test_a_belt_makes_the_heat_that_it_gives_to_a_box():
 
 @pytest.mark.parametrize("kind", ["contact", "contacts"])
 def test_a_ball_loses_two_sevenths_until_it_rolls(kind):
-    """A sphere that begins to slide at v0 rolls at 5/7 v0: 2/7 of its energy is heat; where it is pressed flat by δ, 1/(1 + m (R - δ)²/I)."""
+    """A sphere that slides at v0 rolls at 5/7 v0: 2/7 of its energy is heat; pressed flat by δ, 1/(1 + m (R - δ)²/I) of it."""
     radius = 0.1
     body = {"mass": MASS, "shape": {"type": "sphere", "radius": radius}, "velocity": [1, 0, 0]}
     overlap = MASS * G / STIFFNESS

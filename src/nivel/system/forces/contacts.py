@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
+from nivel.kernels.elements.touch import LOST
 from nivel.kernels.forces import (
     bushing,
     contact,
@@ -20,7 +21,6 @@ from nivel.kernels.forces import (
     round_contact,
     surface_distance,
 )
-from nivel.kernels.elements.touch import LOST
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.body import Body

@@ -44,22 +44,29 @@ def hull_of(body: Body, part: int | None = None) -> Hull:
 
     Raises ModelError for a flat one, or one of too many faces.
     """
-    from scipy.spatial import ConvexHull, QhullError
+    from scipy.spatial import QhullError
 
-    points = _points(body, part)
     try:
-        found = ConvexHull(points)
+        hull = hull_of_points(_points(body, part))
     except QhullError:
         raise _fault(body, "is flat, and a contact of two bodies needs two solids") from None
-    corners = points[found.vertices]
-    middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
-    normals = _distinct(found.equations[:, :3])
-    if len(normals) > MOST_FACES:
+    if len(hull.faces) > MOST_FACES:
         message = (
-            f"has a hull of {len(normals)} faces, and at most {MOST_FACES} can touch another body: give the body a coarser mesh; "
+            f"has a hull of {len(hull.faces)} faces, and at most {MOST_FACES} can touch another body: give the body a coarser mesh; "
             "`looks` may still draw the fine one"
         )
         raise _fault(body, message)
+    return hull
+
+
+def hull_of_points(points: Array) -> Hull:
+    """The convex hull of points (n, 3) [m] of a body. Raises QhullError where they lie in a plane."""
+    from scipy.spatial import ConvexHull
+
+    found = ConvexHull(points)
+    corners = points[found.vertices]
+    middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+    normals = _distinct(found.equations[:, :3])
     corners = corners - middle
     # no corner lies outside of a face, whatever the round-off of its normal
     faces = np.column_stack([normals, (corners @ normals.T).max(axis=0)])

@@ -1,43 +1,28 @@
-"""Contacts in passing: spheres, and convex hulls, that go through each other between two frames, because steps are too long to see it."""
+"""Contacts in passing: bodies that go through each other between two frames, because steps are too long to see it.
+
+Spheres are exact. Of other shapes the convex hulls are looked at, of round ones polyhedra inside them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.trust.check import STEPS, Check
 from nivel.analysis.trust.subject import Run
-from nivel.machine.bodies.shape import Sphere
-from nivel.machine.core.vectors import cross
-from nivel.machine.forces import Contact
-from nivel.machine.machine_record import MachineRecord
+from nivel.analysis.trust.touching_pairs import DEEP, HullPair, Pair, hulls_of, spheres_among, spheres_of
+from nivel.analysis.trust.ways import way_between
+from nivel.machine.forces import Contacts
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, number
-from nivel.system.forces.hulls import hull_of, part_of
 
 Array = NDArray[np.float64]
-# Overlaps above this share of the distance at which they touch are no touch in passing; speeds of frames differ by less where nothing
-# happened between them.
-DEEP, UNCHANGED = 0.05, 0.2
 SHOWN = 5  # contacts of which each has a line
-# straight pieces of the way between two frames
-PIECES = 64
 # Places looked at on the way through the thinner hull, and at most between two frames; intervals between frames that are looked at.
 LOOKS, MOST_LOOKS, MOST_INTERVALS = 8, 100, 100
-
-
-@dataclass(frozen=True)
-class Pair:
-    """A contact of two spheres: its name, bodies, the centres of the spheres in them [m], and the distance at which these touch [m]."""
-
-    contact: str
-    bodies: tuple[str, str]
-    centres: tuple[Array, Array]
-    reach: float
 
 
 @dataclass(frozen=True)
@@ -55,35 +40,12 @@ class Passed:
     lasted: float
 
 
-@dataclass(frozen=True)
-class HullPair:
-    """A contact of two hulls: its name, bodies, and of each hull its middle in the body frame, its corners from there and its faces
-    (normal, distance) [m]."""
-
-    contact: str
-    bodies: tuple[str, str]
-    middles: tuple[Array, Array]
-    corners: tuple[Array, Array]
-    faces: tuple[Array, Array]
-
-    @property
-    def thinnest(self) -> float:
-        """[m] of the two least widths between a face and the corners, the smaller one."""
-        widths = [
-            float((faces[:, 3] - (corners @ faces[:, :3].T).min(axis=0)).min())
-            for corners, faces in zip(self.corners, self.faces, strict=True)
-        ]
-        return min(widths)
-
-    @property
-    def reach(self) -> float:
-        """[m] between the middles, from which on they cannot touch."""
-        return sum(float(np.linalg.norm(corners, axis=1).max()) for corners in self.corners)
-
-
 def look(run: Run) -> list[Passed]:
     """The pairs of spheres and of hulls that passed each other."""
     spheres, hulls = spheres_of(run.machine), hulls_of(run.machine)
+    for force in run.machine.forces:
+        if isinstance(force, Contacts):
+            spheres += spheres_among(run.machine, force, run.result) or []
     return [*passed_spheres(run.result, spheres), *passed_hulls(run.result, hulls)][:SHOWN]
 
 
@@ -96,32 +58,6 @@ def say(found: Passed) -> Item:
         f"(green if none do, red otherwise)"
     )
     return Item("contact", "red", text, found.overlap, row=found.contact, time=found.time)
-
-
-def spheres_of(machine: MachineRecord) -> list[Pair]:
-    """The contacts of two spheres."""
-    out, bodies = [], {each.name: each for each in machine.bodies}
-    for force in machine.forces:
-        if isinstance(force, Contact) and force.bodies is not None:
-            spheres = [bodies[name].shape for name in force.bodies]
-            if not all(isinstance(each, Sphere) for each in spheres):
-                continue
-            first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
-            reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
-            out.append(Pair(force.name, force.bodies, (first, second), reach))
-    return out
-
-
-def hulls_of(machine: MachineRecord) -> list[HullPair]:
-    """The contacts of two convex hulls."""
-    out, bodies = [], {each.name: each for each in machine.bodies}
-    for force in machine.forces:
-        if isinstance(force, Contact) and force.bodies is not None and force.foundation_modulus is not None:
-            pair = [bodies[name] for name in force.bodies]
-            first, second = (hull_of(pair[k], part_of(force, pair, k)) for k in range(2))
-            middles, corners = (first.middle, second.middle), (first.corners, second.corners)
-            out.append(HullPair(force.name, force.bodies, middles, corners, (first.faces, second.faces)))
-    return out
 
 
 def passed_spheres(result: Readable, pairs: Sequence[Pair]) -> list[Passed]:
@@ -137,80 +73,6 @@ def passed_spheres(result: Readable, pairs: Sequence[Pair]) -> list[Passed]:
         if overlap > DEEP:
             out.append(Passed(pair.contact, pair.bodies, overlap, "the distance at which they touch", at, lasted))
     return out
-
-
-@dataclass(frozen=True)
-class Way:
-    """Place (n, 3) of one point from another at the frames, its rate and its second rate."""
-
-    time: Array
-    place: Array
-    rate: Array
-    bend: Array
-
-    @property
-    def length(self) -> Array:
-        """(n - 1,) [m] of the ways between frames, at most."""
-        speed = np.linalg.norm(self.rate, axis=1)
-        return np.diff(self.time) * np.maximum(speed[:-1], speed[1:])
-
-    @property
-    def undisturbed(self) -> NDArray[np.bool_]:
-        """(n - 1,) whether accelerations at both frames explain the change of the velocity, as on straight lines and arcs: nothing else,
-        such as an impact, has happened between them."""
-        span, change = np.diff(self.time)[:, None], np.diff(self.rate, axis=0)
-        left = np.linalg.norm(change - 0.5 * span * (self.bend[:-1] + self.bend[1:]), axis=1)
-        speed = np.linalg.norm(self.rate, axis=1)
-        return left < UNCHANGED * np.maximum(speed[:-1], speed[1:])
-
-    def between(self, k: Any, share: Any) -> Array:
-        """(…, 3) places at a share of the way from frame k to the next: the cubic with the places and rates at both."""
-        s, span = np.asarray(share)[..., None], np.asarray(self.time[k + 1] - self.time[k])[..., None]
-        first = (1.0 + 2.0 * s) * self.place[k] + s * span * self.rate[k]
-        last = (3.0 - 2.0 * s) * self.place[k + 1] - (1.0 - s) * span * self.rate[k + 1]
-        return (1.0 - s) ** 2 * first + s * s * last
-
-    def nearest(self, reach: float) -> tuple[float, float, float] | None:
-        """Least distance [m] in an interval at whose ends it is larger than `reach`, its time [s], and for how long it is less [s]."""
-        distance = np.linalg.norm(self.place, axis=1)
-        apart = np.minimum(distance[:-1], distance[1:])
-        # to come within reach and to leave it again takes twice that way
-        taken = self.undisturbed & (apart > reach) & (apart - 0.75 * self.length < reach)
-        best: tuple[float, float, float] | None = None
-        shares = np.linspace(0.0, 1.0, PIECES + 1)
-        for k in np.flatnonzero(taken):
-            points = self.between(k, shares)
-            step = np.diff(points, axis=0)
-            square = np.maximum(np.sum(step * step, axis=1), np.finfo(float).tiny)
-            part = np.clip(-np.sum(points[:-1] * step, axis=1) / square, 0.0, 1.0)
-            least = np.linalg.norm(points[:-1] + part[:, None] * step, axis=1)
-            j = int(np.argmin(least))
-            if least[j] < reach and (best is None or least[j] < best[0]):
-                span = float(self.time[k + 1] - self.time[k])
-                speed = np.sqrt(square[j]) * PIECES / span
-                lasted = min(2.0 * np.sqrt(reach**2 - least[j] ** 2) / speed, span)
-                best = float(least[j]), float(self.time[k] + (j + part[j]) / PIECES * span), float(lasted)
-        return best
-
-
-def way_between(result: Readable, bodies: tuple[str, str], points: tuple[Array, Array]) -> Way:
-    """The way of a point of the first body, seen from one of the second in global axes."""
-    first, second = (_motion(result, body, at) for body, at in zip(bodies, points, strict=True))
-    return Way(result.time, *(a - b for a, b in zip(first, second, strict=True)))
-
-
-def _motion(result: Readable, body: str, at: Array) -> tuple[Array, Array, Array]:
-    """Place, velocity and acceleration (n, 3) of a point of a body."""
-    k = result.coordinates["body"].index(body)
-    arm = rotated(result.array("orientation")[:, k], at)
-    omega, alpha = result.array("angular_velocity")[:, k], result.array("angular_acceleration")[:, k]
-    turning = cross(omega, arm)
-    bending = cross(alpha, arm) + cross(omega, turning)
-    return (
-        result.array("position")[:, k] + arm,
-        result.array("velocity")[:, k] + turning,
-        result.array("acceleration")[:, k] + bending,
-    )
 
 
 def passed_hulls(result: Readable, pairs: Sequence[HullPair]) -> list[Passed]:

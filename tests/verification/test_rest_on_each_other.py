@@ -93,4 +93,4 @@ def test_what_lies_on_a_post_tips_at_its_edge(shape, post):
     carried = weight(shape) + HOLDS * tips
     np.testing.assert_allclose(stays.array("force.touch.normal_force")[-1], carried, rtol=1e-2)
     # moment about the middle: the contact stands where both loads have theirs
-    np.testing.assert_allclose(stays.array("force.touch.x")[-1], HOLDS * tips * arm / carried, rtol=2e-2)
+    np.testing.assert_allclose(stays.array("force.touch.x")[-1], HOLDS * tips * arm / carried, rtol=5e-2)

@@ -168,7 +168,7 @@ MISTAKES = {
         "gravity: [0, -9.81, 0]",
         "drivers: {d: {coordinate: hinge, velocity: 10 rad/s}}",
         2,
-        "write `value: 10 rad/s*time`",
+        "write `speed: 10 rad/s`",
     ),
     "material of a rope": (
         "type: force, body: rod",

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import force_zoo
 from nivel.errors import ModelError
-from simulating import G, hinge, machine, simulate, solid, wheel
+from simulating import G, hinge, machine, simulate, slide, solid, wheel
 from unknowns import Unknowns, moving
 
 EXPLICIT = {"integrator": "rk4", "step": "1 ms", "coordinates": "absolute"}
@@ -342,6 +342,12 @@ def test_a_second_loss_of_a_coupling_is_refused():
         ({"type": "clutch", "coordinate": "p", "against": "r", "capacity": 3}, "there is no joint `r`"),
         ({"type": "clutch", "coordinate": "p", "against": "q", "capacity": 3, "ratio": 0}, "`ratio` is zero"),
         ({"type": "brake", "coordinate": "p", "capacity": 3, "static_ratio": 0.5}, "smaller than one"),
+        ({"type": "brake", "coordinate": "p", "capacity": -3}, "so it never holds"),
+        ({"type": "one-way-clutch", "coordinate": "p", "against": "q"}, "did you mean `freewheel`"),
+        ({"type": "clutch", "coordinate": "p", "against": "q", "torque": 3}, "did you mean `capacity`"),
+        ({"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [1, 1], "stiffness": 1, "wrap": 3}, "belongs to a `friction`"),
+        ({"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [1, 1], "stiffness": 1, "pretension": 1, "friction": 1,
+          "wrap": 180}, "`180 deg`"),
         ({"type": "freewheel", "coordinate": "p", "damping": 1}, "belongs to a `stiffness`"),
         ({"type": "transmission-loss", "coupling": "x", "coordinate": "p", "efficiency": 0.9}, "no coupling or screw joint `x`"),
         ({"type": "belt-drive", "coordinate": "p", "against": "q", "radii": [1, 1], "stiffness": 1, "friction": 0.3},
@@ -351,6 +357,17 @@ def test_a_second_loss_of_a_coupling_is_refused():
 def test_what_is_wrong_is_said_where_it_stands(force, said):
     with pytest.raises(ModelError, match=said):
         simulate(shafts({"f": force}), duration=0.01)
+
+
+def test_a_belt_to_a_slide_is_refused_where_it_stands():
+    """It ended in a traceback."""
+    sections = {
+        "bodies": {"a": wheel(1.0), "b": wheel(1.0)},
+        "joints": {"p": hinge("ground", "a"), "s": slide("ground", "b")},
+        "forces": {"f": {"type": "belt-drive", "coordinate": "p", "against": "s", "radii": [1, 1], "stiffness": 1}},
+    }
+    with pytest.raises(ModelError, match=r"forces\.f\.against: `s\.displacement` is a length; an angle was expected"):
+        machine(sections)
 
 
 @pytest.mark.parametrize(

@@ -14,10 +14,17 @@ class Line(NamedTuple):
 
 
 LINES: Final = (
+    Line("velocity, rate, omega", "start_speed", "write `speed: 10 rad/s`, or `speed: 10 cm/s` of a displacement"),
     Line(
-        "speed, velocity, rate, omega, acceleration",
-        "from_start",
-        "a driver gives the value over the time, not its speed: write `value: 10 rad/s*time`, or `(10 cm/s)*time` of a displacement",
+        "efficiency, eta, loss, losses, friction",
+        "teeth",
+        "write under `forces`: `loss: {type: transmission-loss, coupling: NAME, coordinate: JOINT.angle, efficiency: 0.95}`",
+    ),
+    Line(
+        "backlash, play, stiffness, damping",
+        "teeth",
+        "an elastic pair of wheels is a force: write under `forces` in place of this coupling "
+        "`mesh: {type: shaft, coordinate: JOINT.angle, against: JOINT.angle, ratio: -2, stiffness: 1e5, backlash: 0.2 deg}`",
     ),
     Line(
         "youngs modulus, e, diameter, d, area, material, section, ea",

@@ -41,3 +41,9 @@ class BeltDrive(ForceElement):
             yield superfluous("slack", "goes without `pretension`: what sags is not tight")
         if self.friction is not None and not self.pretension:
             yield Problem((), "`pretension` is missing: a belt that is not tight has no friction")
+        if self.friction is None and "wrap" in self.model_fields_set:
+            yield superfluous("wrap", "belongs to a `friction`, and none is given")
+        if self.wrap >= 2.0 * pi:
+            yield Problem(
+                ("wrap",), f"`wrap` {self.wrap:g} rad is a whole turn or more; in degrees it is `{self.wrap:g} deg`"
+            )

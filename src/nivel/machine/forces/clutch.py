@@ -31,6 +31,7 @@ class Brake(ForceElement):
     stribeck_rate: NotNegativeRate = Field(default=0.0, description=STRIBECK_RATE)
 
     def problems(self) -> Iterator[Problem]:
+        yield from problems_of_capacity(self.capacity)
         yield from problems_of_ratio(self.static_ratio)
 
 
@@ -47,7 +48,16 @@ class Clutch(DriveLine):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        yield from problems_of_capacity(self.capacity)
         yield from problems_of_ratio(self.static_ratio)
+
+
+def problems_of_capacity(capacity: object) -> Iterator[Problem]:
+    """What is wrong with a capacity that never changes."""
+    if isinstance(capacity, int | float) and capacity < 0.0:
+        yield Problem(
+            ("capacity",), f"`capacity` {capacity:g} is below zero, so it never holds; zero or more was expected"
+        )
 
 
 def problems_of_ratio(static_ratio: float) -> Iterator[Problem]:

@@ -90,7 +90,10 @@ class Driver(Checked):
             return
         given = [name for name in MOTIONS if getattr(self, name) is not None]
         if not given and (self.coordinate, self.along, self.about) != (None, None, None):
-            yield Problem((), "`value` is missing: the driven length or angle, a function of time")
+            yield Problem(
+                (),
+                "`value` is missing: the driven length or angle, a function of time; or a `speed`, or an `acceleration`",
+            )
         for name in given[1:]:
             yield superfluous(name, f"stands in place of `{given[0]}`; give one of them")
         yield from self._problems_of_rates()

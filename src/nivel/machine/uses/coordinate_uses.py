@@ -89,7 +89,10 @@ def _of_coupling(coupling: Any, index: Index, place: Place) -> Faults:
 
 def _of_other(force: Any, found: tuple[str, str] | None, index: Index, place: Place) -> Faults:
     """The second coordinate of what acts between two."""
-    other = yield from _find(entry(force, "against"), index, None, place)
+    rims = entry(force, "type") == "belt-drive"
+    if rims:
+        yield from _find(entry(force, "coordinate"), index, "angle", (*place[:-1], "coordinate"))
+    other = yield from _find(entry(force, "against"), index, "angle" if rims else None, place)
     if other is None:
         return
     if other == found:

@@ -113,6 +113,15 @@ def folded(kind="spherical"):
     return sections
 
 
+def test_a_flat_start_that_is_driven_is_told_with_both_assemblies():
+    """The driver leaves no free motion; the two are those of the bars without it."""
+    sections = folded()
+    angle = -sections["joints"]["left"].pop("start")["angle"]
+    sections["drivers"] = {"d": {"coordinate": "left", "value": f"{-angle!r} - 0.5*time^2"}}
+    with pytest.raises(ModelError, match=r"starts in a singular position.*Two assemblies meet there"):
+        simulate(sections, duration=0.1)
+
+
 @pytest.mark.parametrize("kind", ["spherical", "revolute"])
 def test_start_in_the_flat_position_is_refused_with_both_assemblies(kind):
     """The parallelogram turns both bars alike. Folded across, of 4 = |(2 + cos ψ - cos φ, sin ψ - sin φ)|² for bars of 1 m that stand 2 m

@@ -31,7 +31,13 @@ class _Motion:
 
 
 def both_assemblies(machine: MachineRecord, y: Array) -> str:
-    """The two motions that meet in the singular state y (absolute coordinates), and what to write for each; empty where it is not two."""
+    """The two motions that meet in the singular state y (absolute coordinates), and what to write for each; empty where it is not two.
+    Where drivers hold a machine there, the two are those that it has without them."""
+    told = _both(machine, y)
+    return told or (_both(machine.replace(drivers=()), y) if machine.drivers else "")
+
+
+def _both(machine: MachineRecord, y: Array) -> str:
     motion = equations(machine, measured=True)
     coordinates = motion.system.record.joints.coordinate.astype(np.int64)
     names = motion.system.layout.coordinates["joint_coordinate"]

@@ -41,7 +41,7 @@ class BeltDrive(ForceElement):
             yield superfluous("slack", "goes without `pretension`: what sags is not tight")
         if self.friction is not None and not self.pretension:
             yield Problem((), "`pretension` is missing: a belt that is not tight has no friction")
-        if self.friction is None and "wrap" in self.model_fields_set:
+        if self.friction is None and self.wrap != pi:
             yield superfluous("wrap", "belongs to a `friction`, and none is given")
         if self.wrap >= 2.0 * pi:
             yield Problem(

@@ -1,5 +1,7 @@
 """Machines with springs as stiff as a test wants them."""
 
+from functools import cache
+
 import numpy as np
 
 from nivel.machine import (
@@ -12,6 +14,7 @@ from nivel.machine import (
     SpringDamper,
 )
 from nivel.machine.joints.driver import Driver
+from references.solution import Solution
 
 GRAVITY = 9.81
 
@@ -67,16 +70,18 @@ def driven(stiffness, **settings):
 
 def swinging_out(times, stiffness):
     """(angle, elongation) of the elastic pendulum, from its Lagrangian: I = 0.36 kg m² + (1 + e)² of the bob, ½ k e²."""
-    from scipy.integrate import solve_ivp
+    return _swing(stiffness)(times)[:2]
 
+
+@cache
+def _swing(stiffness):
     def rates(t, y):
         angle, e, turning, rate = y
         inertia = 0.1 + 0.25 + 0.01 + (1.0 + e) ** 2
         moment = -(0.5 + 1.0 + e) * GRAVITY * np.cos(angle) - 2.0 * (1.0 + e) * rate * turning
         return turning, rate, moment / inertia, (1.0 + e) * turning**2 - GRAVITY * np.sin(angle) - stiffness * e
 
-    solution = solve_ivp(rates, (0, times[-1]), [0, 0, 0, 0], method="DOP853", t_eval=times, rtol=1e-11, atol=1e-13)
-    return solution.y[:2]
+    return Solution(rates, 0.0, np.zeros(4), rtol=1e-11, atol=1e-13)
 
 
 def elastic_crank(stiffness, **settings):

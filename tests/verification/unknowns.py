@@ -1,6 +1,7 @@
 """The unknowns of implicit methods: machines and states in motion, their residual as a function of accelerations, rates and multipliers,
 and its derivatives by extrapolated differences."""
 
+import math
 from importlib import import_module
 from types import SimpleNamespace
 
@@ -139,10 +140,18 @@ def value_at(here, y, vdot, lam):
 
 def turn_after(theta, psi):
     """Euler parameters of A(θ) exp(ψ̃)."""
-    half = 0.5 * np.linalg.norm(psi)
-    f0, f = np.cos(half), 0.5 * np.sinc(half / np.pi) * psi
-    e0, e = theta[0], theta[1:]
-    return np.append(e0 * f0 - e @ f, e0 * f + f0 * e + np.cross(e, f))
+    e0, e1, e2, e3 = theta.tolist()
+    angle = math.hypot(*psi)
+    f0, f = math.cos(0.5 * angle), math.sin(0.5 * angle) / angle if angle else 0.5
+    f1, f2, f3 = (f * each for each in psi.tolist())
+    return np.array(
+        [
+            e0 * f0 - e1 * f1 - e2 * f2 - e3 * f3,
+            e0 * f1 + f0 * e1 + e2 * f3 - e3 * f2,
+            e0 * f2 + f0 * e2 + e3 * f1 - e1 * f3,
+            e0 * f3 + f0 * e3 + e1 * f2 - e2 * f1,
+        ]
+    )
 
 
 def tangent_of_vector(psi):

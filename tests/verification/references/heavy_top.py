@@ -65,7 +65,13 @@ def rotation_matrix(parameters: Array) -> Array:
 
 def _spin_rate(spin: Array, rotation: Array) -> Array:
     weight = np.einsum("nji,j->ni", rotation, MASS * GRAVITY)
-    return (np.cross(ARM, weight) - np.cross(spin, INERTIA_AT_POINT * spin)) / INERTIA_AT_POINT
+    return (_cross(ARM, weight) - _cross(spin, INERTIA_AT_POINT * spin)) / INERTIA_AT_POINT
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Without the care for axes that `numpy.cross` takes, which is most of the time of a slope."""
+    (a1, a2, a3), (b1, b2, b3) = a.T, b.T
+    return np.array([a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1]).T
 
 
 def _slope(_: float, state: Array) -> Array:

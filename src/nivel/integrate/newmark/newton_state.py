@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.algebra.trigonometry import cosine_and_sine
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import DEPENDENT, NONE, record_at
@@ -25,8 +26,8 @@ def turn_by(theta, psi, out):
     """θ of A(θ) exp(ψ̃): four Euler parameters after a rotation vector ψ in the turned axes."""
     square = dot(psi, psi)
     half = 0.5 * np.sqrt(square)
-    s = 0.5 * np.sin(half) / half if half > 1e-4 else 0.5 - half * half / 12.0
-    c = np.cos(half)
+    c, sine = cosine_and_sine(half)
+    s = 0.5 * sine / half if half > 1e-4 else 0.5 - half * half / 12.0
     x, y, z = s * psi[0], s * psi[1], s * psi[2]
     e0, e1, e2, e3 = theta[0], theta[1], theta[2], theta[3]
     out[0] = e0 * c - e1 * x - e2 * y - e3 * z

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import arctan2, real
+from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor
 from nivel.kernels.algebra.spatial import dot
 from nivel.native.function import stage
 
@@ -43,15 +44,8 @@ def rotation_vector(A, B, psi):
 def tangent_product(psi, w, transpose, out):
     """out = T⁻¹ w (ψ̇ for the relative angular velocity w in the axes of the first marker) or T⁻ᵀ w.
 
-    T⁻¹ = 1 - ½ ψ̃ + η ψ̃², η = (1 - ½ θ cot ½θ)/θ²: 1/12 + θ²/720 for small θ. ψ̇ = T⁻¹ w with w = ω_j - ω_i in the axes of i, where
-    the turned frame is AᵀB and its angular velocity is given in fixed axes.
+    T⁻¹ = 1 - ½ ψ̃ + η ψ̃². ψ̇ = T⁻¹ w with w = ω_j - ω_i in the axes of i, where the turned frame is AᵀB and its angular velocity is given
+    in fixed axes.
     """
-    square = dot(psi, psi)
-    theta = np.sqrt(square)
-    eta = (1.0 - 0.5 * theta / np.tan(0.5 * theta)) / square if real(theta) > 1e-3 else 1.0 / 12.0 + square / 720.0
     half = 0.5 if transpose else -0.5
-    c0, c1, c2 = psi[1] * w[2] - psi[2] * w[1], psi[2] * w[0] - psi[0] * w[2], psi[0] * w[1] - psi[1] * w[0]
-    d0, d1, d2 = psi[1] * c2 - psi[2] * c1, psi[2] * c0 - psi[0] * c2, psi[0] * c1 - psi[1] * c0
-    out[0] = w[0] + half * c0 + eta * d0
-    out[1] = w[1] + half * c1 + eta * d1
-    out[2] = w[2] + half * c2 + eta * d2
+    out[0], out[1], out[2] = inverse_tangent_by(inverse_tangent_factor(dot(psi, psi)), half, psi, w)

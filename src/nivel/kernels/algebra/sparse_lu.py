@@ -214,8 +214,13 @@ def _backward(tables, k, U, Dinv, y, beside):
         for r in range(np.int64(tables.part_count[i])):
             beside[column] = y[place + r]
             column += 1
+    # rows one beside the other, then columns: no sum waits for the one before it
+    for i in range(size):
+        row = U[start + i * width + size : start + (i + 1) * width]
+        y[first + i] = _less(y[first + i], row, beside[size:width])
     for n in range(size):
         i = size - 1 - n
-        row = U[start + i * width + i + 1 : start + (i + 1) * width]
-        beside[i] = _less(y[first + i], row, beside[i + 1 : width]) * Dinv[first + i]
-        y[first + i] = beside[i]
+        x = y[first + i] * Dinv[first + i]
+        y[first + i] = x
+        for p in range(i):
+            y[first + p] -= U[start + p * width + i] * x

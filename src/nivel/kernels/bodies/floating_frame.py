@@ -28,10 +28,13 @@ def turn_factors(square):
     power, before = 1.0 + 0.0 * square, 0.0 * square
     factorial = 2.0
     for k in range(TERMS):
-        a += power / factorial
-        b += power / (factorial * (2 * k + 3))
-        da += 2 * k * before / factorial
-        db += 2 * k * before / (factorial * (2 * k + 3))
+        # factors that are known when this is compiled: products with them take a fifth of the time of quotients
+        over = 1.0 / factorial
+        more = 1.0 / (factorial * (2 * k + 3))
+        a += power * over
+        b += power * more
+        da += before * (2 * k * over)
+        db += before * (2 * k * more)
         before = -power
         power *= -square
         factorial *= (2 * k + 3) * (2 * k + 4)

@@ -16,6 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor
 from nivel.kernels.algebra.relative_rotation import rotation_vector
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.bodies.floating_frame import turn_factors
@@ -36,14 +37,8 @@ NUMBERS = 142
 
 @stage
 def inverse_tangent_product(psi, w, sign):
-    """T⁻¹ w = w + ½ ψ × w + η ψ × (ψ × w), sign = 1; T⁻ᵀ w for sign = -1. η = (1 - ½ ψ cot ½ψ)/ψ²: 1/12 + ψ²/720 for small ψ."""
-    square = dot(psi, psi)
-    angle = np.sqrt(square)
-    eta = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / square if real(angle) > 1e-3 else 1.0 / 12.0 + square / 720.0
-    c = cross(psi, w)
-    d = cross(psi, c)
-    half = 0.5 * sign
-    return w[0] + half * c[0] + eta * d[0], w[1] + half * c[1] + eta * d[1], w[2] + half * c[2] + eta * d[2]
+    """T⁻¹ w, sign = 1; T⁻ᵀ w for sign = -1."""
+    return inverse_tangent_by(inverse_tangent_factor(dot(psi, psi)), 0.5 * sign, psi, w)
 
 
 @stage

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor, slope_of_factor
 from nivel.kernels.algebra.relative_rotation import rotation_vector
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.bodies.shared_mass import less, product, transposed_product
@@ -32,7 +33,6 @@ from nivel.kernels.elements.beam_element import (
     WEIGHT,
     WIDTH,
     along_line,
-    inverse_tangent_product,
     sum_of,
     tangent_product,
     turned,
@@ -45,6 +45,8 @@ from nivel.native.function import leaf, stage
 # what `job` asks for: all parts as Newton's iteration combines them, or one of them
 TOTAL, ACCELERATIONS, VELOCITIES, POSITIONS = 0, 1, 2, 3
 TERMS = 10
+# BeamTangent.local: from here on η of T⁻¹ of each node, then η'/ψ
+ETA, ETA_SLOPE = 24, 28
 
 
 @leaf
@@ -170,6 +172,8 @@ def stiffness_of_element(own, markers, index, n):
         own.psi[a, 0], own.psi[a, 1], own.psi[a, 2] = 0.0, 0.0, 0.0
         if a != r:
             rotation_vector(Ar, markers.A[index[NODE + a]], own.psi[a])
+        square = dot(own.psi[a], own.psi[a])
+        own.local[ETA + a], own.local[ETA_SLOPE + a] = inverse_tangent_factor(square), slope_of_factor(square)
     for g in range(index[POINTS]):
         q = n[POINT + WIDTH * g : POINT + WIDTH * (g + 1)]
         shape, slope = q[SHAPE : SHAPE + 4], q[SLOPE : SLOPE + 4]
@@ -203,22 +207,11 @@ def stiffness_of_element(own, markers, index, n):
 
 
 @stage
-def change_of_inverse(psi, v, w):
-    """Derivative of T⁻ᵀ v = v - ½ ψ × v + η ψ × (ψ × v) along w."""
-    square = dot(psi, psi)
-    angle = np.sqrt(square)
-    if angle > 1e-2:
-        half = 0.5 * angle
-        cotangent = half / np.tan(half)
-        eta = (1.0 - cotangent) / square
-        # η' /ψ: (½ ψ cot ½ψ)' = ½ cot ½ψ - ¼ ψ/sin² ½ψ
-        slope = 0.5 / np.tan(half) - 0.25 * angle / np.sin(half) ** 2
-        eta1 = (-slope / square - 2.0 * (1.0 - cotangent) / (square * angle)) / angle
-    else:
-        eta, eta1 = 1.0 / 12.0 + square / 720.0, 1.0 / 360.0 + square / 7560.0
+def change_of_inverse(eta, slope, psi, v, w):
+    """Derivative of T⁻ᵀ v = v - ½ ψ × v + η ψ × (ψ × v) along w. slope : η'/ψ."""
     c = cross(psi, v)
     d = sum_of(-0.5, cross(w, v), eta, cross(w, c), eta, cross(psi, cross(w, v)))
-    return sum_of(1.0, d, eta1 * dot(psi, w), cross(psi, c), 0.0, v)
+    return sum_of(1.0, d, slope * dot(psi, w), cross(psi, c), 0.0, v)
 
 
 @stage
@@ -261,7 +254,7 @@ def elastic_change(own, markers, index, e, twist, cq):
         x = twist[6 * a : 6 * a + 3]
         u = transposed_product(Ar, (x[0] - xr[0] - swing[0], x[1] - xr[1] - swing[1], x[2] - xr[2] - swing[2]))
         relative = transposed_product(markers.A[node], less(twist[6 * a + 3 : 6 * a + 6], tr))
-        turn = inverse_tangent_product(own.psi[a], relative, 1.0)
+        turn = inverse_tangent_by(local[ETA + a], 0.5, own.psi[a], relative)
         for i in range(3):
             local[at + i], local[at + 3 + i] = u[i], turn[i]
     for i in range(6):
@@ -280,8 +273,9 @@ def elastic_change(own, markers, index, e, twist, cq):
         t = -wrench[6 * a + 3], -wrench[6 * a + 4], -wrench[6 * a + 5]
         df = product(Ar, local[18:21])
         turning = cross(tr, f)
-        asked = inverse_tangent_product(own.psi[a], local[21:24], -1.0)
-        bent = change_of_inverse(own.psi[a], P[at + 3 : at + 6], local[at + 3 : at + 6])
+        psi, eta, slope = own.psi[a], local[ETA + a], local[ETA_SLOPE + a]
+        asked = inverse_tangent_by(eta, -0.5, psi, local[21:24])
+        bent = change_of_inverse(eta, slope, psi, P[at + 3 : at + 6], local[at + 3 : at + 6])
         dt = product(markers.A[node], (asked[0] + bent[0], asked[1] + bent[1], asked[2] + bent[2]))
         spun = cross(twist[6 * a + 3 : 6 * a + 6], t)
         arm = less(markers.r[node], markers.r[index[NODE + r]])
@@ -371,8 +365,9 @@ def add_element(machine, out, e, total, cq, cv, cm):
         for i in range(size):
             rows, work = own.twist[i], 0.0
             for a in range(np.int64(index[COUNT])):
-                for d in range(6):
-                    work += rows[6 * a + d] * own.change[a, d]
+                if (own.unknown[first + i, 2] >> a) & 1 == 1:
+                    for d in range(6):
+                        work += rows[6 * a + d] * own.change[a, d]
             if plain != NONE and own.unknown[first + i, 3] == plain:
                 # the row of a turn is about an axis that turns too
                 t = own.wrench[e, 6 * plain + 3 : 6 * plain + 6]

@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor
+from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family, call_hook
@@ -22,16 +23,8 @@ POSITIONS, ACCELERATIONS = 0, 1
 
 @leaf
 def inverse_tangent(psi, w):
-    """T⁻¹ w: change of the rotation vector ψ of A exp(ψ̃) for a small rotation w after it, in the turned axes.
-
-    T⁻¹ = 1 + ½ ψ̃ + η ψ̃², η = (1 - ½ ψ cot ½ψ)/ψ²: 1/12 + ψ²/720 for small ψ.
-    """
-    square = dot(psi, psi)
-    angle = np.sqrt(square)
-    eta = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / square if angle > 1e-2 else 1.0 / 12.0 + square / 720.0
-    c = cross(psi, w)
-    d = cross(psi, c)
-    return w[0] + 0.5 * c[0] + eta * d[0], w[1] + 0.5 * c[1] + eta * d[1], w[2] + 0.5 * c[2] + eta * d[2]
+    """T⁻¹ w: change of the rotation vector ψ of A exp(ψ̃) for a small rotation w after it, in the turned axes."""
+    return inverse_tangent_by(inverse_tangent_factor(dot(psi, psi)), 0.5, psi, w)
 
 
 @leaf

@@ -142,10 +142,11 @@ def size_of_change(machine, scale, cq, cv, cx):
     positions = scale.shape[0] - n - states - 2
     largest = 0.0
     for k in range(n):
-        at_position = scale[newton.place[k, 0]]
-        share = max(np.abs(cv * b[k]) / scale[positions + k], np.abs(cq * b[k] + moved[k]) / at_position)
-        if not share <= largest:
-            largest, failure[0] = share, k
+        of_velocity, of_position = np.abs(cv * b[k]), np.abs(cq * b[k] + moved[k])
+        at_velocity, at_position = scale[positions + k], scale[newton.place[k, 0]]
+        # two quotients for each unknown would be as dear as a tenth of a solution
+        if not (of_velocity <= largest * at_velocity and of_position <= largest * at_position):
+            largest, failure[0] = max(of_velocity / at_velocity, of_position / at_position), k
     for k in range(n, n + states):
         share = np.abs(cx * b[k]) / scale[positions + k]
         if not share <= largest:

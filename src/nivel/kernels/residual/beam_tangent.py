@@ -109,11 +109,11 @@ def stiffness_of_point(own, n, q, stretched, psi, bend):
             for m in range(6):
                 total += C[m] * B[m, j]
             f[6 + i] = weight * total
-        for i in range(9):
+        for i in range(j + 1):
             total = 0.0
             for m in range(6):
                 total += B[m, i] * f[6 + m]
-            S[i, j] = total
+            S[i, j], S[j, i] = total, total
     moment = cross(N, gamma)
     chi, beta, mu = cross(bend, M), dot(bend, M), dot(psi, M)
     nu = both
@@ -239,30 +239,66 @@ def motion_of_nodes(record, unknown, markers, index, out):
 
 
 @stage
+def across(J, v):
+    """Jᵀ v, or vᵀ J, of J (3, 3) row by row."""
+    return (
+        J[0] * v[0] + J[3] * v[1] + J[6] * v[2],
+        J[1] * v[0] + J[4] * v[1] + J[7] * v[2],
+        J[2] * v[0] + J[5] * v[1] + J[8] * v[2],
+    )
+
+
+@stage
+def see_from_ground(own, markers, index):
+    """own.k := changes of force and torque on each node for (δx_a - δx_r - δθ_r × arm, δθ_a - δθ_r) of each, all in global axes, while
+    the forces that there are do not turn.
+
+    δψ_a = J_a (δθ_a - δθ_r), J_a = T_a⁻¹ R_aᵀ, and a torque is J_aᵀ P_ψa: to J_aᵀ k J_b comes how T_a⁻ᵀ changes.
+    """
+    count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
+    Ar, k, P, local = markers.A[index[NODE + r]], own.k, own.P, own.local
+    size = 6 * (count - 1)
+    for a in range(count):
+        if a == r:
+            continue
+        s, A, psi, eta = slot(a, r), markers.A[index[NODE + a]], own.psi[a], local[ETA + a]
+        J, u = own.B[s], 6 * slot(a, r)
+        for j in range(3):
+            J[j], J[3 + j], J[6 + j] = inverse_tangent_by(eta, 0.5, psi, A[j])
+        for c in range(size):
+            k[u, c], k[u + 1, c], k[u + 2, c] = product(Ar, (k[u, c], k[u + 1, c], k[u + 2, c]))
+            k[u + 3, c], k[u + 4, c], k[u + 5, c] = across(J, (k[u + 3, c], k[u + 4, c], k[u + 5, c]))
+        for j in range(3):
+            bent = product(A, change_of_inverse(eta, local[ETA_SLOPE + a], psi, P[u + 3 : u + 6], unit(j)))
+            for i in range(3):
+                k[u + 3 + i, u + 3 + j] += bent[i]
+    for i in range(size):
+        for s in range(count - 1):
+            row, J = k[i, 6 * s : 6 * s + 6], own.B[s]
+            row[0], row[1], row[2] = product(Ar, row[0:3])
+            row[3], row[4], row[5] = across(J, row[3:6])
+
+
+@stage
 def elastic_change(own, markers, index, e, twist, cq):
     """own.change := cq times the changes of force and torque of the element (what it resists with) at its nodes for the motion `twist`."""
     count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
-    Ar, k, P, local, wrench, change = markers.A[index[NODE + r]], own.k, own.P, own.local, own.wrench[e], own.change
+    k, local, wrench, change = own.k, own.local, own.wrench[e], own.change
     xr, tr = twist[6 * r : 6 * r + 3], twist[6 * r + 3 : 6 * r + 6]
     size = 6 * (count - 1)
     for a in range(count):
         if a == r:
             continue
-        at, node = 6 * slot(a, r), index[NODE + a]
-        arm = less(markers.r[node], markers.r[index[NODE + r]])
-        swing = cross(tr, arm)
-        x = twist[6 * a : 6 * a + 3]
-        u = transposed_product(Ar, (x[0] - xr[0] - swing[0], x[1] - xr[1] - swing[1], x[2] - xr[2] - swing[2]))
-        relative = transposed_product(markers.A[node], less(twist[6 * a + 3 : 6 * a + 6], tr))
-        turn = inverse_tangent_by(local[ETA + a], 0.5, own.psi[a], relative)
+        at, swing = 6 * slot(a, r), cross(tr, less(markers.r[index[NODE + a]], markers.r[index[NODE + r]]))
         for i in range(3):
-            local[at + i], local[at + 3 + i] = u[i], turn[i]
+            local[at + i] = twist[6 * a + i] - xr[i] - swing[i]
+            local[at + 3 + i] = twist[6 * a + 3 + i] - tr[i]
     for i in range(6):
         change[r, i] = 0.0
     for a in range(count):
         if a == r:
             continue
-        at, node = 6 * slot(a, r), index[NODE + a]
+        at = 6 * slot(a, r)
         for i in range(6):
             total = 0.0
             for j in range(size):
@@ -271,22 +307,36 @@ def elastic_change(own, markers, index, e, twist, cq):
         # the element resists with the opposite of the wrench on its nodes
         f = -wrench[6 * a], -wrench[6 * a + 1], -wrench[6 * a + 2]
         t = -wrench[6 * a + 3], -wrench[6 * a + 4], -wrench[6 * a + 5]
-        df = product(Ar, local[18:21])
-        turning = cross(tr, f)
-        psi, eta, slope = own.psi[a], local[ETA + a], local[ETA_SLOPE + a]
-        asked = inverse_tangent_by(eta, -0.5, psi, local[21:24])
-        bent = change_of_inverse(eta, slope, psi, P[at + 3 : at + 6], local[at + 3 : at + 6])
-        dt = product(markers.A[node], (asked[0] + bent[0], asked[1] + bent[1], asked[2] + bent[2]))
-        spun = cross(twist[6 * a + 3 : 6 * a + 6], t)
-        arm = less(markers.r[node], markers.r[index[NODE + r]])
-        df = df[0] + turning[0], df[1] + turning[1], df[2] + turning[2]
+        turning, spun = cross(tr, f), cross(twist[6 * a + 3 : 6 * a + 6], t)
+        arm = less(markers.r[index[NODE + a]], markers.r[index[NODE + r]])
+        df = local[18] + turning[0], local[19] + turning[1], local[20] + turning[2]
         moved = cross(less(twist[6 * a : 6 * a + 3], xr), f)
         lever = cross(arm, df)
         for i in range(3):
-            dti = dt[i] + spun[i]
-            change[a, i], change[a, 3 + i] = cq * df[i], cq * dti
+            dt = local[21 + i] + spun[i]
+            change[a, i], change[a, 3 + i] = cq * df[i], cq * dt
             change[r, i] -= cq * df[i]
-            change[r, 3 + i] -= cq * (moved[i] + lever[i] + dti)
+            change[r, 3 + i] -= cq * (moved[i] + lever[i] + dt)
+
+
+@stage
+def add_work(own, index, first, size, plain, e, twist, cq, out, at):
+    """Add the work of own.change on the motions of the unknowns of element e to their rows of one column of `out`."""
+    for a in range(np.int64(index[COUNT])):
+        c = own.change[a]
+        f0, f1, f2, t0, t1, t2 = c[0], c[1], c[2], c[3], c[4], c[5]
+        for i in range(size):
+            if (own.unknown[first + i, 2] >> a) & 1 == 1:
+                row = own.twist[i, 6 * a : 6 * a + 6]
+                work = row[0] * f0 + row[1] * f1 + row[2] * f2 + row[3] * t0 + row[4] * t1 + row[5] * t2
+                out[own.place[at + i * size]] += work
+    if plain != NONE and cq != 0.0:
+        t = own.wrench[e, 6 * plain + 3 : 6 * plain + 6]
+        arm = cross(t, twist[6 * plain + 3 : 6 * plain + 6])
+        for i in range(size):
+            if own.unknown[first + i, 3] == plain:
+                # the row of a turn is about an axis that turns too
+                out[own.place[at + i * size]] -= cq * dot(arm, own.twist[i, 6 * plain + 3 : 6 * plain + 6])
 
 
 @stage
@@ -342,6 +392,7 @@ def add_element(machine, out, e, total, cq, cv, cm):
     index, n = record.elements.columns[own.first[0] + e], record.elements.number[own.first[0] + e]
     if cq != 0.0:
         stiffness_of_element(own, markers, index, n)
+        see_from_ground(own, markers, index)
     first, last = np.int64(own.start[e]), np.int64(own.start[e + 1])
     size = last - first
     for u in range(size):
@@ -361,19 +412,7 @@ def add_element(machine, out, e, total, cq, cv, cm):
             w = turned_by(newton, j, axis, total) if turns else (0.0, 0.0, 0.0)
             for pair in range(own.pair[e, 0], own.pair[e, 1]):
                 add_inertial_change(record, index, pair, e, twist, plain if turns else NONE, w, cv, cm)
-        at = np.int64(own.place_start[e]) + c
-        for i in range(size):
-            rows, work = own.twist[i], 0.0
-            for a in range(np.int64(index[COUNT])):
-                if (own.unknown[first + i, 2] >> a) & 1 == 1:
-                    for d in range(6):
-                        work += rows[6 * a + d] * own.change[a, d]
-            if plain != NONE and own.unknown[first + i, 3] == plain:
-                # the row of a turn is about an axis that turns too
-                t = own.wrench[e, 6 * plain + 3 : 6 * plain + 6]
-                swept = cross(twist[6 * plain + 3 : 6 * plain + 6], rows[6 * plain + 3 : 6 * plain + 6])
-                work -= cq * dot(t, swept)
-            out[own.place[at + i * size]] += work
+        add_work(own, index, first, size, plain, e, twist, cq, out, np.int64(own.place_start[e]) + c)
 
 
 @stage

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from nivel.flexible.model.model import AXES, Array, FiniteElementModel
+from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.model.sparse import Sparse
 from nivel.flexible.reduction.factor import NoStiffnessError
 from nivel.flexible.reduction.free_body import FreeBody
@@ -20,6 +21,10 @@ FEW: Final = 100  # nodes below which a model may be condensed, and waves throug
 LIGHTEST, DENSEST = 0.01, 1e5  # [kg/m^3]
 NEGATIVE: Final = 1e-9  # share of the largest eigenvalue, below which a negative one is round-off
 LANCZOS: Final = 60  # vectors
+ONE_POINT: Final = (
+    "Elements with strain at their middle alone (C3D8R, and S4R, which is one layer of these) bend without any: take S4 or S8R, C3D8I or "
+    "C3D20R, in their place"
+)
 SHOWN: Final = 6  # nodes that a message names
 
 
@@ -240,8 +245,10 @@ def mechanism(body: FreeBody, error: NoStiffnessError) -> str:
     nodes = np.argsort(size)[::-1]
     nodes = nodes[size[nodes] > 0.5 * size.max()][:SHOWN]
     texts = [f"{body.model.node_ids[node]} ({AXES[int(np.argmax(np.abs(moved[node])))]})" for node in nodes]
+    elements = body.model.elements
+    hourglass = f". {ONE_POINT}" if isinstance(elements, SolidElements) and elements.has_one_point else ""
     return (
         f"the stiffness is singular beyond the six rigid motions: a mechanism is left in which node{'s' if len(texts) > 1 else ''} "
         f"{', '.join(texts)} move{'' if len(texts) > 1 else 's'} most. Join what is loose, remove hinges and degrees of freedom without "
-        "stiffness"
+        f"stiffness{hourglass}"
     )

@@ -10,7 +10,9 @@ import numpy as np
 from nivel.flexible.body.body import MeshError
 from nivel.flexible.body.invariants import Invariants
 from nivel.flexible.body.mass_invariants import invariants
+from nivel.flexible.checks.checks import ONE_POINT
 from nivel.flexible.model.model import AXES, Array
+from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.reduction.bases import Basis
 from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody
@@ -22,6 +24,7 @@ DEFLECTION: Final = 0.01  # of the size of the body: for what neglected invarian
 TURN: Final = 0.05  # [rad] or so much turn of a node, whatever is less
 EQUAL: Final = 1e-4  # frequencies that differ relatively by less are taken as equal
 FINE: Final = 0.01  # of a frequency, that the mesh makes it wrong by, at most
+HOURGLASS: Final = 0.1  # of the energy of a mode, by hourglass control: its frequency is wrong by half of that
 ILL: Final = 1e10  # condition of the basis from which on it is told
 
 
@@ -110,7 +113,11 @@ def findings_of(
         boundary=[f"{each.name}.{axis}" for each in attachments for axis in _axes(body, each)],
         neglect=neglect(its, _bent(body, modes)),
         mesh_error=[] if error is None else error.share.tolist(),
-        statements=[*_statements(full, reduced, found), *_mesh_statement(error)],
+        statements=[
+            *_statements(full, reduced, found),
+            *_hourglass_statement(body, values, whole),
+            *_mesh_statement(error),
+        ],
         notes=list(model.notes),
     )
 
@@ -194,6 +201,24 @@ def _statements(full: Array, reduced: Array, found: Orthonormal) -> list[str]:
             f"The first {until} of {count} frequencies of the free body are within 1 % of those of the whole model{limit}."
         )
     return out
+
+
+def _hourglass_statement(body: FreeBody, values: Array, modes: Array) -> list[str]:
+    """Modes (N, n) with the eigenvalues (n,) whose elements have hardly any strain, though no rigid motion is left: what resists them is a
+    control that keeps elements of one point from moving like an hourglass, and no property of the body."""
+    elements = body.model.elements
+    if not isinstance(elements, SolidElements) or not elements.has_one_point or not len(values):
+        return []
+    control = 1.0 - elements.strain_energy(body.model.expansion @ modes) / (0.5 * np.maximum(values, 1e-300))
+    bad = np.flatnonzero(control > HOURGLASS)
+    if not len(bad):
+        return []
+    first = int(bad[0])
+    frequency, strained = np.sqrt(values[first]) / (2.0 * np.pi), 100.0 * (1.0 - control[first])
+    return [
+        f"{len(bad)} of {len(values)} modes of the free body are hourglass modes: in mode {first + 1} at {frequency:.4g} Hz strains of the "
+        f"elements make {strained:.2g} % of the energy, the rest is hourglass control. {ONE_POINT}."
+    ]
 
 
 def _mesh_statement(error: MeshError | None) -> list[str]:

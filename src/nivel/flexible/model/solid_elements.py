@@ -17,6 +17,7 @@ from nivel.machine.beams.section import Material
 
 CHUNK: Final = 8  # fields at once
 ELEMENTS: Final = 1000  # at once, for many fields
+HOURGLASSES: Final = 8  # nodes of hexahedra that may move like an hourglass: without strain in the middle
 
 
 def elasticity(material: Material) -> Array:
@@ -147,6 +148,21 @@ class SolidElements:
 
     def stress(self, displacement: Array) -> Array:
         return np.einsum("ij,sjk->sik", elasticity(self.material), self.strain(displacement), optimize=True)
+
+    @property
+    def has_one_point(self) -> bool:
+        """Whether hexahedra know strain at their middle alone: bent, they have none there, but for what an hourglass control adds."""
+        return any(len(block.points) == 1 and block.nodes.shape[1] == HOURGLASSES for block in self.blocks)
+
+    def strain_energy(self, displacement: Array) -> Array:
+        """(n,) [J] of the strains at the points of the elements, for displacements (…, n)."""
+        D, energy = elasticity(self.material), np.zeros(displacement.shape[1])
+        for block in self.blocks:
+            gradients = block.at_points(displacement[self.freedoms[block.nodes]], D)
+            for each, (_, volume) in zip(gradients, block.points, strict=True):
+                strain = _strain(each)
+                energy += 0.5 * np.einsum("e,eik,ij,ejk->k", volume, strain, D, strain, optimize=True)
+        return energy
 
     def energy_error(self, displacement: Array) -> Array:
         """(n,) share of the strain energy that finer elements would add, by how far strains at Gauss points are from those averaged at

@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from nivel.errors import ModelError
 from nivel.flexible.model.model import Array
 from nivel.flexible.model.sparse import Sparse
-from nivel.flexible.reduction.factor import Whole, lowest_modes, pivots
+from nivel.flexible.reduction.factor import NoStiffnessError, Whole, lowest_modes, pivots
 from nivel.flexible.reduction.free_body import FreeBody
 from nivel.flexible.reduction.inertia_loads import inertia_loads
 
@@ -65,7 +65,7 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
     corrections = _correction_modes(body, boundary, held)
     factor, free = body.factor(held), body.all_but(held)
     if len(held) == len(boundary):
-        found = _chosen(modes, lambda n: lowest_modes(*_within(body, inner), n, factor.solve))
+        found = _chosen(modes, lambda n: lowest_modes(*_within(body, inner), n, factor.solve))  # K has the factor
     else:
         rigid = _rigid_within(body, boundary, inner)
         K, M = _within(body, inner)
@@ -77,7 +77,12 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
             moved[position] = factor.solve(balanced[position])
             return moved - rigid @ (rigid.T @ (M @ moved))
 
-        found = _chosen(modes, lambda n: lowest_modes(K, M, n, solve, rigid))
+        try:
+            found = _chosen(modes, lambda n: lowest_modes(K, M, n, solve, rigid))
+        except NoStiffnessError as error:
+            motion = np.zeros(body.model.count)
+            motion[inner] = error.motion
+            raise NoStiffnessError(motion) from None
     values, inside, next_inside = found
     normal, left = (np.zeros((body.model.count, each.shape[1])) for each in (inside, next_inside))
     normal[inner], left[inner] = inside, next_inside

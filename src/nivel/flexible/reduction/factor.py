@@ -107,7 +107,8 @@ def lowest_modes(K: Sparse, M: Sparse, count: int, solve: Solve, rigid: Array | 
     """The `count` lowest eigenvalues [1/s²] and M-orthonormal modes (N, count) of K φ = ω² M φ.
 
     solve : K⁻¹. rigid : (N, 6) M-orthonormal rigid modes of a K that is singular for them; they are left out, and `solve`
-    is the inverse on what is M-orthogonal to them. Lanczos by ARPACK; full matrices where the model is small.
+    is the inverse on what is M-orthogonal to them. Lanczos by ARPACK; full matrices where the model is small. Raises NoStiffnessError
+    where a motion beside the rigid ones costs no energy.
     """
     size = K.shape[0]
     available = size - (0 if rigid is None else rigid.shape[1])
@@ -131,7 +132,10 @@ def _dense_modes(K: Sparse, M: Sparse, count: int, rigid: Array | None) -> tuple
     basis = np.eye(len(full_K)) if rigid is None else la.null_space((full_M @ rigid).T)
     small_K, small_M = basis.T @ full_K @ basis, basis.T @ full_M @ basis
     # freedoms may have no mass: the inverse pencil M φ = (1/ω²) K φ does not mind
-    inverse, vectors = la.eigh(_symmetric(small_M), _symmetric(small_K))
+    try:
+        inverse, vectors = la.eigh(_symmetric(small_M), _symmetric(small_K))
+    except la.LinAlgError:  # K is not positive definite
+        raise NoStiffnessError(basis @ la.eigh(_symmetric(small_K))[1][:, 0]) from None
     order = np.argsort(inverse)[::-1][:count]
     order = order[inverse[order] > 1e-14 * inverse[order[0]]]
     vectors = basis @ vectors[:, order]

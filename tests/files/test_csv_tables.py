@@ -62,7 +62,11 @@ FAULTS = [
         "{csv: c.csv}",
         "c.csv:3 drivers.turn.value: a number was expected in the column `boom`, got nothing",
     ),
-    ("t, boom\n0, 0\n0, 1\n", "{csv: c.csv}", "c.csv:3 drivers.turn.value: `t` increases; 0 does not come after 0"),
+    (
+        "t, boom\n0, 0\n0, 1\n",
+        "{csv: c.csv}",
+        "c.csv:3 drivers.turn.value: `t` increases; 0 does not come after 0; delete one of both rows",
+    ),
     ("0, 0\n1, 1\n", "{csv: c.csv}", "c.csv:1 drivers.turn.value: the first row names the columns"),
     ("t, a, boom\n0, 0, 0\n", "{csv: c.csv}", "m.yaml:7 drivers.turn.value.csv: `column` is missing"),
     ("t, boom\n0, 0\n", "{csv: c.csv, column: bom}", "the column `bom` is not known; did you mean `boom`?"),

@@ -242,7 +242,10 @@ def test_tables_of_signals(field, of, points, expected):
         ({"of": "hinge.angle", "times": [0], "values": [0]}, "`times` belong to a table of `time`; write `points`"),
         ({"points": [0], "values": [0]}, "a table of `time` has `times`; write `times`"),
         ({"of": "hinge.angle", "points": ["1 m"], "values": [0]}, "an angle (rad) was expected"),
-        ({"of": "hinge.angle", "points": [1, 1], "values": [0, 0]}, "points increase; 1 does not come after 1"),
+        (
+            {"of": "hinge.angle", "points": [1, 1], "values": [0, 0]},
+            "points increase; 1 does not come after 1; for a jump place them close",
+        ),
         ({"of": "hinge.angle", "points": [], "values": []}, "a table needs at least one point"),
         ({"of": "hinge.angle", "points": [1], "values": [0, 2]}, "as many values as points; got 2 and 1"),
         (

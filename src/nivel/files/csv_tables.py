@@ -128,8 +128,9 @@ def _fill(table: dict[str, Any], content: str | bytes, file: str) -> None:
     }
     for k in range(1, len(points.numbers)):
         if not points.numbers[k] > points.numbers[k - 1]:
+            same = "; delete one of both rows" if points.numbers[k] == points.numbers[k - 1] else ""
             raise CsvError(
-                f"`{first}` increases; {points.numbers[k]:g} does not come after {points.numbers[k - 1]:g}",
+                f"`{first}` increases; {points.numbers[k]:g} does not come after {points.numbers[k - 1]:g}{same}",
                 line=points.lines[k],
             )
     table.clear()

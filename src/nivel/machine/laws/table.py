@@ -175,6 +175,8 @@ def _faults_of_columns(
     for at in range(1, len(points)):
         if points[at] <= points[at - 1]:
             order = f"{points[at]:g}{unit} does not come after {points[at - 1]:g}{unit}"
+            if points[at] == points[at - 1]:
+                order += "; for a jump place them close together"
             return [_line((first, at), fault(f"{first} increase; {order}"))]
     fewest = FEWEST[interpolation]
     if len(points) < fewest:

@@ -437,6 +437,7 @@ EVERYTHING = {
             "exponent": 1.5,
             "restitution": 0.5,
             "friction": 0.3,
+            "friction_model": "coulomb",
             "friction_transition_speed": "1 mm/s",
             "friction_work": True,
         },

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nivel.errors import ModelError
-from simulating import G, simulate
+from simulating import G, machine, simulate
 
 BALL = {"shape": {"type": "sphere", "radius": 0.05}, "density": 2500}
 PAIR = {"stiffness": 2e5, "exponent": 1, "restitution": 0.6}
@@ -66,9 +66,80 @@ def test_a_heap_presses_on_the_floor_with_its_weight():
     assert np.abs(r.array("energy_error")).max() < 1e-3 * mass * G * fallen
 
 
+def pyramid(slope=0.0, **contact):
+    """Four balls, three on a floor and one in the hollow between them; on a slope along X a wall is below the first."""
+    gap, radius = 0.0999, 0.05
+    corners = [(gap / np.sqrt(3) * np.cos(a), gap / np.sqrt(3) * np.sin(a)) for a in np.radians([0, 120, 240])]
+    bodies = balls(*([x, y, radius - 1e-5] for x, y in corners), [0, 0, radius + gap * np.sqrt(2 / 3)])
+    wall = {"body": "ground", "position": [gap / np.sqrt(3) + radius, 0, 0], "axis": [-1, 0, 0]}
+    planes = ["floor", wall] if slope else ["floor"]
+    group = {
+        "type": "contacts",
+        "between": "all",
+        "planes": planes,
+        **PAIR,
+        "restitution": 0.2,
+        "friction": 0.7,
+        **contact,
+    }
+    return {
+        "gravity": [G * np.sin(slope), 0, -G * np.cos(slope)],
+        "bodies": bodies,
+        "markers": {"floor": FLOOR},
+        "forces": {"heap": {**group, "friction_model": "stiction"}},
+    }
+
+
+@pytest.mark.parametrize(
+    ("integrator", "step", "duration"),
+    [
+        pytest.param("rk4", 2e-4, 4.0, marks=pytest.mark.full),
+        ("generalised-alpha", 1e-3, 12.0),
+        ("extrapolated-euler", 1e-3, 4.0),
+    ],
+)
+def test_a_heap_that_sticks_does_not_creep(integrator, step, duration):
+    """A pyramid of balls on a slope of 5°, against a wall: it comes to rest and moves by less than a nanometre, one method for 10 s.
+    Floor and wall carry its weight."""
+    slope = np.radians(5.0)
+    r = simulate(pyramid(slope), integrator=integrator, step=step, duration=duration, output_interval=0.5)
+    settled = r.time >= 2.0
+    for k in range(4):
+        place = r.array(f"ball_{k}.position")[settled]
+        assert np.abs(place - place[-1]).max() < 1e-9
+    weight = 4 * 2500 * 4 / 3 * np.pi * 0.05**3 * G
+    touches = [f"force.heap_ball_{k}_{plane}" for k in range(4) for plane in (1, 2)]
+    carried = [
+        sum(
+            (
+                r.array(f"{touch}.normal_force") * r.array(f"{touch}.normal_{axis}")
+                + r.array(f"{touch}.friction_{axis}")
+            )[-1]
+            for touch in touches
+        )
+        for axis in "xyz"
+    ]
+    np.testing.assert_allclose(carried, [-weight * np.sin(slope), 0, weight * np.cos(slope)], atol=1e-6 * weight)
+    assert r.array("ball_3.position.z")[-1] > 0.13
+
+
+def test_a_pyramid_of_balls_stands_by_friction_alone():
+    """The line of two centres is at θ from the vertical, sin θ = 1/√3: the forces on a ball below meet on the floor, so each friction
+    needs μ ≥ tan(θ/2) = 0.318. With less the upper ball comes down to the floor."""
+    least = np.tan(0.5 * np.arcsin(np.sqrt(1 / 3)))
+    settings = {"integrator": "generalised-alpha", "step": 1e-3, "duration": 1.0, "output_interval": 0.1}
+    stands, falls = (simulate(pyramid(friction=mu * least), **settings) for mu in (1.1, 0.9))
+    assert stands.array("ball_3.position.z")[-1] > 0.13
+    assert falls.array("ball_3.position.z")[-1] < 0.051
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
+        ({"friction_model": "stiction"}, "`friction` is missing"),
+        ({"friction_model": "stiction", "friction": 0.3, "friction_transition_speed": 0.1}, "belongs to"),
+        ({"static_friction": 0.4, "friction": 0.3, "friction_transition_speed": 0.1}, "belongs to"),
+        ({"friction_model": "stiction", "friction": 0.3, "between": ["ball_0", "box"]}, "sphere"),
         ({"between": ["ball_0"]}, "at least two"),
         ({"between": ["ball_0", "box"]}, "sphere"),
         ({"between": ["ball_0", "ball_0"]}, "twice"),
@@ -115,3 +186,30 @@ def test_what_cells_find_is_what_all_pairs_give(monkeypatch):
         cells.array("force.heap.depth")[touching], pairs.array("force.heap.depth")[touching], atol=1e-8
     )
     assert np.all(cells.array("force.heap.depth")[~touching] < 0)
+
+
+def test_a_heap_of_many_cannot_stick():
+    """Sixteen balls have 120 pairs, seventeen have 136."""
+    group = {"heap": {"type": "contacts", "between": "all", **PAIR, "friction": 0.3, "friction_model": "stiction"}}
+    with pytest.raises(ModelError, match="136 pairs"):
+        machine({"bodies": balls(*([0.2 * k, 0, 0] for k in range(17))), "forces": group})
+    held = machine({"bodies": balls(*([0.2 * k, 0, 0] for k in range(16))), "forces": group})
+    assert len(held.record.forces) == 120
+
+
+def test_check_says_that_a_heap_creeps_and_what_holds_it():
+    rub = {"friction": 0.3, "friction_transition_speed": 0.1}
+    group = {"heap": {"type": "contacts", "between": "all", "planes": [FLOOR], **PAIR, **rub}}
+    text = str(machine({"bodies": balls([0, 0, 0.1], [1, 0, 0.1]), "forces": group}).check())
+    assert "2 spheres and 1 plane; bodies at rest creep, `friction_model: stiction` holds up to 15 of them" in text
+
+
+def test_a_heap_that_creeps_is_amber():
+    """Two balls, one on the other and leaning on it, sink apart where friction would hold them."""
+    rub = {"friction": 0.3, "friction_transition_speed": 0.1}
+    group = {"heap": {"type": "contacts", "between": "all", "planes": [FLOOR], **PAIR, **rub}}
+    sections = {"gravity": [0.1 * G, 0, -G], "bodies": balls([0, 0, 0.0499], [0, 0, 0.1497]), "forces": group}
+    r = simulate(sections, integrator="rk4", step=2e-4, duration=0.2, output_interval=5e-3)
+    (line,) = [item for item in r.trust.items if item.name == "creep"]
+    assert line.verdict == "amber"
+    assert "stiction" in line.text

@@ -29,6 +29,7 @@ from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.python_laws import read_python_laws
 from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
+from nivel.files.sticking_heaps import divide_heaps
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.files.unit_blocks import read_unit_blocks
 from nivel.machine import MachineRecord, Record
@@ -124,6 +125,7 @@ def _tree_of(
     add_rotors(tree)
     read_meshes(tree, sources)
     divide_meshes(tree)
+    divide_heaps(tree)
     read_heights(tree, sources)
     read_python_laws(tree, sources)
     read_unit_blocks(tree, sources)

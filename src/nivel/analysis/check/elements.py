@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope, SpringNode
+from nivel.machine.forces import (
+    Between,
+    BetweenMarkers,
+    Contact,
+    Contacts,
+    End,
+    Ends,
+    ForceElement,
+    PointForce,
+    Rope,
+    SpringNode,
+)
 from nivel.machine.hydraulics import Component
 from nivel.machine.joints.coupling import Coupling, FunctionCoupling
 from nivel.machine.joints.driver import Driver
@@ -15,6 +26,7 @@ from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
 from nivel.machine.signals.state import State
 from nivel.machine.uses.coordinate_reference import resolve
+from nivel.system.forces.heaps import spheres_between
 
 
 def coupling_in_words(machine: MachineRecord, coupling: Coupling) -> str:
@@ -101,6 +113,12 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
             return f"{name} and {body(plane)}"
         case Contact(bodies=tuple() as pair):
             return " and ".join(pair)
+        case Contacts():
+            planes = f" and {len(force.planes)} plane{'s' if len(force.planes) > 1 else ''}" if force.planes else ""
+            creeps = (
+                "; bodies at rest creep, `friction_model: stiction` holds up to 15 of them" if force.friction else ""
+            )
+            return f"{len(spheres_between(machine, force))} spheres{planes}{creeps}"
     return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, PositiveSpeed, Restitution
+from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, PositiveNumber, PositiveSpeed, Restitution
 from nivel.machine.core.marker import ManyMarkers
 from nivel.machine.core.record import GROUND, BodyName
 from nivel.machine.forces.contact import HERTZ
@@ -18,6 +18,8 @@ from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import listed
 
 ALL = "all"
+# of friction that sticks: efforts of all pairs are found together
+MOST_PAIRS: Final = 120
 
 
 def _all_or_names(value: Any) -> Any:
@@ -48,6 +50,13 @@ class Contacts(ForceElement):
     stiffness: PowerStiffness = Field(description="force by depth ** exponent")
     restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
     friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
+    static_friction: Maybe[PositiveNumber] = Field(
+        default=None, description="of stiction: coefficient, default `friction`"
+    )
+    friction_model: Literal["stiction", "coulomb"] = Field(
+        default="coulomb",
+        description=f"stiction sticks, for at most {MOST_PAIRS} pairs, which become single contacts; with coulomb bodies creep",
+    )
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="friction goes as tanh(sliding speed / this), so bodies creep"
     )
@@ -64,9 +73,23 @@ class Contacts(ForceElement):
         if len(set(self.between)) < len(self.between):
             twice = next(each for each in self.between if self.between.count(each) > 1)
             yield Problem(("between",), f"`{twice}` is there twice")
-        if self.friction > 0 and self.friction_transition_speed is None:
-            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        if self.friction_model == "stiction":
+            yield from self._problems_of_sticking()
+        elif self.friction > 0 and self.friction_transition_speed is None:
+            message = "`friction_transition_speed` is missing: below it friction lets the bodies creep"
+            yield Problem((), f"{message}; of few spheres `friction_model: stiction` holds them")
+        elif self.static_friction is not None:
+            yield superfluous("static_friction", "belongs to `friction_model: stiction`")
         if self.friction_work and not self.friction:
             yield superfluous("friction_work", "belongs to `friction`, and none is given")
         if self.friction_transition_speed is not None and not self.friction:
             yield superfluous("friction_transition_speed", "belongs to `friction`, and none is given")
+
+    def _problems_of_sticking(self) -> Iterator[Problem]:
+        if not self.friction:
+            yield Problem((), "`friction` is missing, the coefficient of kinetic friction")
+        elif self.friction_transition_speed is not None:
+            yield superfluous("friction_transition_speed", "belongs to `friction_model: coulomb`")
+        elif len(set(self.between)) == len(self.between) != 1:
+            message = "`contacts` stick between spheres of the same file, where each pair becomes a `contact`; in Python write these"
+            yield Problem(("friction_model",), message)

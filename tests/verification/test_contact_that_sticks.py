@@ -429,6 +429,20 @@ def test_equilibria_have_no_friction_of_contacts():
         machine(box(0.3)).linearise()
 
 
+def test_a_run_starts_from_equilibrium_on_a_contact_that_sticks():
+    """A box on a rail that a spring holds: it starts where the spring is free, with the overlap m g/4 K, and stays."""
+    sections = box(0.3, 0.4) | {
+        "joints": {"guide": {"type": "planar", "bodies": ["ground", "box"], "point": [0, 0, 0], "axis": [0, 1, 0]}}
+    }
+    sections["forces"]["spring"] = {
+        "type": "spring-damper", "bodies": ["ground", "box"], "points": [[-1, 0, 0], [0, 0, 0]], "stiffness": 100, "free_length": 0.9
+    }  # fmt: skip
+    result = simulate(sections, start="equilibrium", integrator="radau", duration=0.1)
+    at = result.array("box.position")
+    assert at[0] == pytest.approx([-0.1, 0.0, SIZE[2] / 2 - MASS * G / (4 * STIFFNESS)], abs=2e-8)
+    assert at[-1] == pytest.approx(at[0], abs=1e-9)
+
+
 def test_compilation_ahead_knows_what_sticks():
     """The friction of a contact is among what a run of the machine compiles, and of one with the smooth law it is not."""
     smooth = box(0.3)

@@ -104,3 +104,62 @@ def test_steps_of_one_cost_where_a_machine_is_stepped():
     sim.advance(0.1)
     assert sim.result().settings["integrator"] == "ros2"
     assert sim["rail.displacement"] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_slack_rope_counts_before_it_is_taut():
+    """2 kg fall by 0.5 m into a rope of 1e8 N/m, are stopped within π/7071 s, and rise again as they fell."""
+    sections = {
+        "gravity": [0, 0, -G],
+        "bodies": {"load": solid(2.0, position=[0, 0, -0.5])},
+        "joints": {"rail": slide("ground", "load", axis=[0, 0, 1], point=[0, 0, -0.5])},
+        "forces": {
+            "rope": {"type": "rope", "bodies": ["ground", "load"], "points": [[0, 0, 0], [0, 0, -0.5]], "length": 1, "stiffness": 1e8}
+        },
+    }  # fmt: skip
+    r = simulate(sections, duration=0.6)
+    assert r.settings["integrator"] == "radau"
+    assert r.settings["reason"].startswith("rope has a rate of ")
+    back = 2.0 * np.sqrt(2.0 * 0.5 / G) - r.time[-1]
+    assert r.array("load.position.z")[-1] == pytest.approx(-0.5 - 0.5 * G * back**2, abs=1e-3)
+    sections["forces"]["rope"]["stiffness"] = 1e4
+    assert machine(sections).check().settings.integrator == "rk4"
+
+
+def test_a_fast_rotor_is_resolved():
+    sections = {
+        "bodies": {"rotor": solid(1.0, angular_velocity=[0, 0, 6000.0])},
+        "joints": {"axle": {"type": "revolute", "bodies": ["ground", "rotor"], "point": [0, 0, 0], "axis": [0, 0, 1]}},
+    }
+    r = machine(sections).simulate(duration=0.05, verify=True)
+    assert r.settings["integrator"] == "radau"
+    assert r.settings["reason"].startswith("the turning of rotor has a rate of 6e+03/s")
+    assert r.trust.verdict == "green"
+    assert r.array("axle.angle")[-1] == pytest.approx(300.0, rel=1e-9)
+
+
+def test_a_rotor_that_becomes_fast_begins_anew():
+    sections = {
+        "bodies": {"rotor": solid(1.0, inertia=[1e-3, 1e-3, 1e-3])},
+        "joints": {"axle": {"type": "revolute", "bodies": ["ground", "rotor"], "point": [0, 0, 0], "axis": [0, 0, 1]}},
+        "forces": {"drive": {"type": "motor", "coordinate": "axle", "effort": 100}},
+    }
+    r = simulate(sections, duration=0.1)
+    assert r.settings["integrator"] == "radau"
+    assert "the turning of rotor (at t = 0." in r.settings["reason"]
+    assert r.array("axle.angle")[-1] == pytest.approx(0.5 * 1e5 * 0.1**2, rel=1e-6)
+
+
+def test_a_slow_machine_is_not_stepped_ten_million_times():
+    """1000 kg on 1e-3 N/m: ω = 1e-3/s; over 1e4 s x = x₀ exp(-ζωt) (cos ωd t + ζ/√(1-ζ²) sin ωd t)."""
+    soft = {"type": "joint-spring-damper", "coordinate": "rail", "stiffness": 1e-3, "damping": 1e-2}
+    sections = block(soft, start={"displacement": 0.1})
+    sections["bodies"]["block"]["mass"] = 1000.0
+    r = simulate(sections, duration=1e4)
+    assert r.settings["integrator"] == "dopri5"
+    assert "for which 1e+07 steps of rk4 are too many" in r.settings["reason"]
+    zeta = 5e-3
+    damped = 1e-3 * np.sqrt(1 - zeta**2)
+    expected = 0.1 * np.exp(-zeta * 1e-3 * r.time)
+    expected *= np.cos(damped * r.time) + zeta / np.sqrt(1 - zeta**2) * np.sin(damped * r.time)
+    np.testing.assert_allclose(r.array("rail.displacement"), expected, atol=1e-6)
+    assert simulate(sections, duration=1.0, step=1e-3).settings["integrator"] == "rk4"

@@ -2,8 +2,10 @@
 
 The default is explicit and has steps of one length, which costs least. It is left where a step turns the fastest rate by more than it
 follows: rates at the start are eigenvalues of the equations there (`nivel.analysis.failures.fastest`); those of contacts and end stops
-that may touch later follow from their stiffness and the masses beside them, those of beams from their elements. What comes in its place
-is implicit: with steps that it chooses, or for live operation, stepping and C libraries with steps of one length and one cost.
+that may touch later follow from their stiffness and the masses beside them, those of beams from their elements, those of slack ropes from
+the same machine with taut ones. What comes in its place is implicit: with steps that it chooses, or for live operation, stepping and C
+libraries with steps of one length and one cost. A long run of a slow machine, with more than a million steps, has an explicit method
+that chooses its steps.
 """
 
 from __future__ import annotations
@@ -22,22 +24,29 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.preparation import prepare
-from nivel.errors import ModelError
+from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.core.status import NOT_FINITE
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces import BeltDrive, Contact, Contacts, Shaft, Stop, is_sticking
+from nivel.machine.forces import BeltDrive, Contact, Contacts, Rope, Shaft, Stop, is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 from nivel.methods import chooses
 from nivel.system.forces.contacts import tangent_stiffness
 from nivel.system.forces.heaps import spheres_between
+from nivel.system.forces.ropes import length_as_placed
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
 
 # The largest rate times step that an explicit method of order four follows to some digits; of impacts, which last for half a turn: thirty
 # steps in each.
 FOLLOWED, IN_IMPACTS = 1.0, np.pi / 30.0
+# Turns of a body in a step [rad] beyond which forces that depend on its angle are not resolved.
+TURNED = 3.0
+# A run of so many steps, which are below this share of what its fastest rate asks for, has steps that are chosen.
+MANY, SLOW, OF_SLOW = 1e6, 1e-3, "dopri5"
+# The length of a slack rope as a share of its way, when it is taken as taut.
+TAUT = 0.5
 # What comes in place of it, the first that goes with the machine and its other settings; the latter for vibrations of many modes.
 CHOSEN, OF_MODES = ("radau", "bdf", "generalised-alpha"), ("generalised-alpha", "radau", "bdf")
 FIXED = ("ros2",)
@@ -72,6 +81,9 @@ def refuse_faster(plan: Plan, prepared: Prepared, finished: RunOutcome) -> None:
     if finished.last is None or finished.asked_to_stop:
         return
     time, y = finished.last
+    turning = _of_turning(prepared, y, time)
+    if turning is not None and plan.settings.step > turning.followed and not chooses(*_method(plan)):
+        raise FasterError(replace(turning, what=f"{turning.what} (at t = {time:.4g} s)"))
     found = _at(prepared, y, time)
     if found is None or not plan.settings.step > FOLLOWED / found.rate:
         return
@@ -92,7 +104,11 @@ def fitted(
         return plan, prepared
     found = fastest_rate(plan, prepared, prepared.start, 0.0)
     if found is None or plan.settings.step <= found.followed:
-        return replace(plan, reason=_explicit(plan, found)), prepared
+        slow = None if fixed else _of_slow(plan, found)
+        if slow is None:
+            return replace(plan, reason=_explicit(plan, found)), prepared
+        build(run_entries(slow), listener)
+        return slow, prepare(slow.methods)
     return implicit(plan, prepared, found, fixed=fixed, listener=listener)
 
 
@@ -102,7 +118,7 @@ def fitting(plan: Plan, prepared: Prepared) -> Plan:
         return plan
     found = fastest_rate(plan, prepared, prepared.start, 0.0)
     if found is None or plan.settings.step <= found.followed:
-        return replace(plan, reason=_explicit(plan, found))
+        return _of_slow(plan, found) or replace(plan, reason=_explicit(plan, found))
     return next(
         _implicit_plans(plan, found, fixed=False), replace(plan, reason=f"{_implicit(plan, found)}; {NONE_GOES}")
     )
@@ -133,6 +149,25 @@ def _implicit_plans(plan: Plan, found: Rate, *, fixed: bool) -> Iterator[Plan]:
         yield replace(new, reason=_implicit(plan, found))
 
 
+def _of_slow(plan: Plan, found: Rate | None) -> Plan | None:
+    """The same run with steps that are chosen, where steps of one length would be many times more than its rates ask for."""
+    step, machine = plan.settings.step, plan.machine
+    given = "step" in machine.simulation.model_fields_set
+    if given or not plan.settings.duration > MANY * step or (found is not None and step > SLOW * found.followed):
+        return None
+    try:
+        new = plan_run(machine.replace(simulation=machine.simulation.replace(integrator=OF_SLOW)))
+    except ModelError:
+        return None
+    rate = "nothing has a rate" if found is None else f"nothing is faster than {found.rate:.2g}/s ({found.what})"
+    count = f"{plan.settings.duration / step:.2g}"
+    return replace(new, reason=f"{rate}, for which {count} steps of {plan.settings.integrator} are too many")
+
+
+def _method(plan: Plan) -> tuple[str, str]:
+    return plan.settings.integrator, plan.machine.simulation.step_control
+
+
 def _stopping_soon(machine: MachineRecord) -> MachineRecord:
     """The machine with a shorter `step`, where none is given and steps are chosen: within two of it friction stops what it can hold, which
     must be over before an impact is."""
@@ -151,7 +186,8 @@ def _explicit(plan: Plan, found: Rate | None) -> str:
 
 def _implicit(plan: Plan, found: Rate) -> str:
     name, step = plan.settings.integrator, plan.settings.step
-    too_fast = f"steps of {name} would have to be below {found.followed:.2g} s, not {step:.3g} s"
+    digits = next((n for n in (2, 3, 4) if float(f"{found.followed:.{n}g}") < step), 5)
+    too_fast = f"steps of {name} would have to be below {found.followed:.{digits}g} s, not {step:.3g} s"
     return f"{found.what} has a rate of {found.rate:.2g}/s, for which {too_fast}"
 
 
@@ -161,6 +197,7 @@ def fastest_rate(plan: Plan, prepared: Prepared, y: Array, t: float) -> Rate | N
     now = _at(prepared, y, t)
     if now is not None:
         rates.append(Rate(now.rate, FOLLOWED / now.rate, now.part or "the motion"))
+    rates += [each for each in (_of_turning(prepared, y, t), _of_slack_ropes(plan.machine)) if each is not None]
     return min(rates, key=lambda each: each.followed, default=None)
 
 
@@ -237,6 +274,44 @@ def _of_play(machine: MachineRecord) -> Iterator[Rate]:
         rate = sqrt(each.stiffness * moved)
         if rate > 0.0:
             yield Rate(rate, IN_IMPACTS / rate, f"the {each.type} {each.name}")
+
+
+def _of_turning(prepared: Prepared, y: Array, t: float) -> Rate | None:
+    """Of the body that turns fastest."""
+    system = prepared.motion.system
+    count = system.body_count
+    if not count or not np.isfinite(y).all():
+        return None
+    prepared.motion.evaluate(t, y)
+    speeds = np.linalg.norm(np.real(system.record.bodies.omega[:count]), axis=1)
+    if not np.isfinite(speeds).all() or not speeds.max() > 0.0:
+        return None
+    fastest_body = int(np.argmax(speeds))
+    rate = float(speeds[fastest_body])
+    return Rate(rate, TURNED / rate, f"the turning of {system.bodies[fastest_body]}")
+
+
+def _of_slack_ropes(machine: MachineRecord) -> Rate | None:
+    """Of ropes that are slack as placed, or just not: they are as stiff as others when they become taut."""
+    ways = {each.name: length_as_placed(machine, each) for each in machine.forces if isinstance(each, Rope)}
+    slack = {
+        each.name: (each.length or ways[each.name]) > ways[each.name]
+        for each in machine.forces
+        if isinstance(each, Rope) and each.stiffness and (each.length or ways[each.name]) >= ways[each.name]
+    }
+    if not slack:
+        return None
+    forces = [each.replace(length=TAUT * ways[each.name]) if each.name in slack else each for each in machine.forces]
+    try:
+        taut = plan_run(machine.replace(forces=tuple(forces), simulation=machine.simulation.replace(start="as-given")))
+        its = prepare(taut.methods)
+    except (ModelError, SolveError):
+        return None
+    found = _at(its, its.start, 0.0)
+    if found is None:
+        return None
+    share = IN_IMPACTS if slack.get(found.part) else FOLLOWED
+    return Rate(found.rate, share / found.rate, found.part or "the motion")
 
 
 def _of_beams(machine: MachineRecord) -> Iterator[Rate]:

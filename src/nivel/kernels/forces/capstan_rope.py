@@ -49,10 +49,11 @@ from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # of `number` behind the places: coefficient of friction, length as placed; then PART for each free part: its stiffness, way and direction
-# as placed; then work: stretch, its rate, force of the part on its ends per tension, global (3), and of its axis (3)
+# as placed; then work: stretch, its rate, force of the part on its ends per tension, global (3), of its axis (3), and the rate of the
+# stretch that slip takes from it
 FRICTION, PLACED, PARTS = 0, 1, 2
-STIFF, WAY, ANGLE, STRETCH, RATE, FORCE, TILT = 0, 1, 2, 3, 4, 5, 8
-PART = 11
+STIFF, WAY, ANGLE, STRETCH, RATE, FORCE, TILT, SLIPPED = 0, 1, 2, 3, 4, 5, 8, 11
+PART = 12
 # of `memory`: whether there is one; of each part λ and its direction; of each wheel its angle
 KNOWN, LAMBDA = 0, 1
 # Sweeps over the wheels; shares of a tension that are round-off, and within which a wheel is at its limit.
@@ -147,12 +148,13 @@ def ratio_at(numbers, proposal, count, j):
 
 @stage
 def slip(machine, k):
-    """Let the rope slip on its wheels; returns the power that this takes [W]."""
+    """Let the rope slip on its wheels."""
     record = record_at(machine)
     elements = record.elements
     numbers, proposal, count = elements.number[k], elements.proposal[k], np.int64(elements.columns[k, COUNT])
     base = PLACES + WIDTH * count + PARTS
-    lost = 0.0 * numbers[base + STRETCH]
+    for p in range(count - 1):
+        numbers[base + PART * p + SLIPPED] = 0.0 * numbers[base + STRETCH]
     for _ in range(SWEEPS):
         most, largest = 0.0, 0.0
         for j in range(1, count - 1):
@@ -191,11 +193,11 @@ def slip(machine, k):
                     v = -(kb * vb - m * ka * va) / (kb + m * ka)
             numbers[behind + RATE] = va - v
             numbers[before + RATE] = vb + v
-            lost += (ta - tb) * v
+            numbers[behind + SLIPPED] += v
+            numbers[before + SLIPPED] -= v
             most = max(most, np.abs(real(v)))
         if most == 0.0:
             break
-    return lost
 
 
 @stage
@@ -237,7 +239,7 @@ def apply(machine, number, t):
             numbers[base + STRETCH] -= elements.state[index[LENGTH]] - numbers[UNSTRESSED]
             numbers[base + RATE] -= speed
         first, power = index[OUTPUT], 0.0 * speed
-        lost = slip(machine, k)
+        slip(machine, k)
         for p in range(count - 1):
             own = base + PART * p
             stretch, rate, stiff = numbers[own + STRETCH], numbers[own + RATE], numbers[own + STIFF]
@@ -247,8 +249,10 @@ def apply(machine, number, t):
                 damped = elastic + numbers[DAMPING] * stiff / numbers[STIFFNESS] * rate
                 tension = maximum(damped, 0.0 * damped)
             control.stored[0] += 0.5 * elastic * stretch
-            control.power[1] += (tension - elastic) * rate
-            power -= tension * rate
+            # what slips takes power by the whole tension, as it acts on the bodies
+            slipped = numbers[own + SLIPPED]
+            control.power[1] += (tension - elastic) * rate + tension * slipped
+            power -= tension * (rate + slipped)
             if p == 0:
                 control.power[0] -= tension * speed
                 power -= tension * speed
@@ -257,6 +261,5 @@ def apply(machine, number, t):
                 out[first + 3] = tension
             if real(tension) > 0.0:
                 act(machine, k, p, n, tension)
-        control.power[1] += lost
-        out[first + 1] = power - lost
+        out[first + 1] = power
     return OK

@@ -13,7 +13,7 @@ from nivel.machine.core.marker import ManyMarkers, Marker
 from nivel.machine.core.record import BodyName
 from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber, TwoNumbers
+from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Direction, Length, Position, PositiveLength, Quantity, Velocity, listed
 
@@ -57,9 +57,10 @@ class Rope(ForceElement):
         default=None,
         description="of all wheels; global, as placed; with `markers` by default the z axis of the first one that has a radius",
     )
-    wound: Annotated[Maybe[TwoNumbers[NotNegativeNumber]], BeforeValidator(listed)] = Field(
+    wound: Annotated[Maybe[ManyNumbers[NotNegativeNumber]], BeforeValidator(listed)] = Field(
         default=None,
-        description="turns on the drums at the first and the last end, as placed; the rope is fixed behind them",
+        description="turns on the drums at the first and the last end, as placed; the rope is fixed behind them. Or for each point: "
+        "whole turns on a wheel between the ends come on top of the arc",
     )
     friction: Maybe[PositiveNumber] = Field(
         default=None,
@@ -129,9 +130,33 @@ class Rope(ForceElement):
             yield superfluous("radii", "are all zero: such a rope runs from point to point")
         if self.markers is None and self.axis is None:
             yield Problem((), "`axis` is missing: the direction of the axes of the wheels, e.g. `axis: [0, 1, 0]`")
-        for end, turns in enumerate(self.wound or ()):
-            if turns and not self.radii[-end]:
-                yield Problem(("wound", end), "at this end there is no drum; give its radius in `radii`, or 0 turns")
+        yield from self._problems_of_turns(count)
+
+    def _problems_of_turns(self, count: int) -> Iterator[Problem]:
+        if self.wound is None or self.radii is None or len(self.radii) != count:
+            return
+        if len(self.wound) not in (2, count):
+            yield Problem(("wound",), f"turns at both ends, or one number for each of the {count} points, are needed")
+            return
+        radii = self.radii if len(self.wound) == count else (self.radii[0], self.radii[-1])
+        for k, (turns, radius) in enumerate(zip(self.wound, radii, strict=True)):
+            if turns and not radius:
+                where = (
+                    "at this end there is no drum" if k in (0, len(radii) - 1) else "at this point there is no wheel"
+                )
+                yield Problem(("wound", k), f"{where}; give its radius in `radii`, or 0 turns")
+            elif turns % 1.0 and 0 < k < len(radii) - 1:
+                said = "a wheel between the ends has whole turns on top of the arc that follows from the points"
+                yield Problem(("wound", k), f"{said}; give {int(turns)}")
+
+    def turns_at(self, k: int) -> float:
+        """Turns that are wound on the drum at an end, or come on top of the arc of a wheel between the ends."""
+        count = len(self.ends)
+        if self.wound is None:
+            return 0.0
+        if len(self.wound) == count:
+            return self.wound[k]
+        return self.wound[0] if k == 0 else self.wound[-1] if k == count - 1 else 0.0
 
     def _problems_of_way(self, name: str, way: tuple[object, ...]) -> Iterator[Problem]:
         if len(way) < 2:

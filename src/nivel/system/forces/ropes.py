@@ -143,15 +143,20 @@ def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) 
     for k in range(1, len(radii) - 1):
         turned = float(np.angle(parts[k][1] / parts[k - 1][1])) * np.sign(radii[k])
         # from a quarter turn short of touching to what is left of a whole one
-        arcs[k] = (turned + 0.5 * np.pi) % (2.0 * np.pi) - 0.5 * np.pi if radii[k] else 0.0
-    for k, turns in zip((0, -1), rope.wound or (0.0, 0.0), strict=True):
+        arc = (turned + 0.5 * np.pi) % (2.0 * np.pi) - 0.5 * np.pi + 2.0 * np.pi * rope.turns_at(k)
+        arcs[k] = arc if radii[k] else 0.0
+    for k in (0, len(radii) - 1):
         if radii[k]:
-            sign, arcs[k] = np.sign(radii[k]), 2.0 * np.pi * turns
-            touched = float(np.angle(-1j * sign * parts[k][1]))
+            sign, arcs[k] = np.sign(radii[k]), 2.0 * np.pi * rope.turns_at(k)
+            touched = float(np.angle(-1j * sign * parts[min(k, len(parts) - 1)][1]))
             fixed[k] = touched + (-sign if k == 0 else sign) * arcs[k]
     lengths = [part for part, _ in parts]
     length = sum(lengths) + sum(abs(r) * max(arc, 0.0) for r, arc in zip(radii, arcs, strict=True))
-    angles = [float(np.angle(direction)) for _, direction in parts]
+    # α goes on from part to part, by the arc of the wheel between them, so that their difference is that arc
+    angles = [float(np.angle(parts[0][1]))]
+    for k in range(1, len(parts)):
+        turned = float(np.angle(parts[k][1] / parts[k - 1][1]))
+        angles.append(angles[-1] + (float(np.sign(radii[k])) * arcs[k] if radii[k] else turned))
     ways = [
         (part - (radii[k + 1] - radii[k]) * angle, angle)
         for k, ((part, _), angle) in enumerate(zip(parts, angles, strict=True))
@@ -160,6 +165,14 @@ def way_as_placed(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) 
     ends = [1.0 if k in (0, len(radii) - 1) else 0.5 for k in range(len(radii))]
     shares = [part + ends[k] * rims[k] + ends[k + 1] * rims[k + 1] for k, (part, _) in enumerate(parts)]
     return Way(axes, [(body, centre) for body, centre, _ in placed], arcs, fixed, length, lengths, ways, shares)
+
+
+def length_as_placed(machine: MachineRecord, rope: Rope) -> float:
+    """[m] of the way of a rope as its bodies are placed."""
+    if rope.radii is not None:
+        return way_as_placed(machine, rope, rope.radii).length
+    points = np.array([_global(machine, rope, k)[1] for k in range(len(rope.ends))])
+    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
 def first_wheel(radii: tuple[float, ...]) -> int:

@@ -46,7 +46,7 @@ TURNED = 3.0
 # A run of so many steps, which are below this share of what its fastest rate asks for, has steps that are chosen.
 MANY, SLOW, OF_SLOW = 1e6, 1e-3, "dopri5"
 # The length of a slack rope as a share of its way, when it is taken as taut.
-TAUT = 0.5
+TAUT = 0.999
 # What comes in place of it, the first that goes with the machine and its other settings; the latter for vibrations of many modes.
 CHOSEN, OF_MODES = ("radau", "bdf", "generalised-alpha"), ("generalised-alpha", "radau", "bdf")
 FIXED = ("ros2",)

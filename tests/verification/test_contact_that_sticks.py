@@ -443,6 +443,23 @@ def test_a_run_starts_from_equilibrium_on_a_contact_that_sticks():
     assert at[-1] == pytest.approx(at[0], abs=1e-9)
 
 
+@pytest.mark.parametrize("coordinates", ["relative", "absolute"])
+def test_friction_leaves_alone_what_a_joint_holds(coordinates):
+    """A ball on a slope rolls in a plane joint that is oblique to the tangents of its contact: 2/7 m g sin α along it, nothing across."""
+    slope, turn = 0.2, 0.5
+    along, across = np.array([np.cos(turn), np.sin(turn), 0.0]), [-np.sin(turn), np.cos(turn), 0.0]
+    sections = box(0.5) | {
+        "gravity": (G * np.sin(slope) * along - [0, 0, G * np.cos(slope)]).tolist(),
+        "bodies": {"ball": {"mass": MASS, "position": [0, 0, 0.1], "shape": {"type": "sphere", "radius": 0.1}}},
+        "joints": {"plane": {"type": "planar", "bodies": ["ground", "ball"], "point": [0, 0, 0.1], "axis": across}},
+        "forces": {"touch": touching(0.5, body="ball", plane="floor")},
+    }
+    result = simulate(sections, integrator="rk4", coordinates=coordinates, step=1e-4, duration=0.1)
+    friction = np.array([result.array(f"force.touch.friction_{axis}") for axis in "xyz"]).T
+    assert np.abs(friction @ across).max() < 1e-5
+    assert friction[-1] @ along == pytest.approx(-2.0 / 7.0 * MASS * G * np.sin(slope), rel=1e-3)
+
+
 def test_compilation_ahead_knows_what_sticks():
     """The friction of a contact is among what a run of the machine compiles, and of one with the smooth law it is not."""
     smooth = box(0.3)

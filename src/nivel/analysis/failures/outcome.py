@@ -462,7 +462,7 @@ FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
             lambda system: system.frictions,
             "no friction {name} is consistent with the reactions that it causes: the joint jams, or its normal load would grow without "
             "bounds",
-            "Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
+            "Look at {name}: a smaller coefficient; in a joint a longer bearing_length, a smaller radius, or a normal_load. "
             "With Coulomb friction and rigid bodies some positions have no solution (Painlevé). Within a step that is far too long for a "
             "stiff spring it looks the same: then try a shorter --step.",
         ),

@@ -57,8 +57,9 @@ BACKWARD, LEVER = 13, 14
 DEFECT, AHEAD, CHANGE, SLIDES, WANTED = 0, 1, 2, 3, 4
 HOLDS, SLID, CANNOT = 0.0, 1.0, 2.0
 
-# Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
-SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
+# Gauss–Seidel sweeps, then Newton steps, then anchored ones, then, where there are patches, sweeps that are anchored more; efforts agree to
+# TOLERANCE, and must to ENOUGH.
+SWEEPS, STEPS, ANCHORED_STEPS, LAST_SWEEPS = 12, 12, 40, 400
 # Newton steps for the slopes: each leaves a millionth of what they are wrong by.
 SETTLING = 2
 TOLERANCE, ENOUGH = 1e-12, 1e-7
@@ -70,15 +71,15 @@ MORE = 1e-6
 SHARP, RESTED = 1e-1, 1e-3
 # Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
 # acceleration that is left is this share of what the change of effort would do.
-ANCHOR = 1e-3
+ANCHOR, LAST_ANCHOR = 1e-3, 1e-2
 # What an effort moves counts for no more than this times what it would move of the two bodies without their other joints.
 BOUND = 1e3
 # An effort that differs from kinetic friction by this share holds.
 DIFFERENT = 1e-9
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
-# So much of 1/m is added to S_kk of patches, whose motion may be prescribed.
-LEAST = 1e-12
+# So much of the larger S_kk of both tangents of a patch is added to all, where its motion may be prescribed; elsewhere it is taken out.
+LEAST = 1e-4
 # A driver takes up less than this share of an effort that it does not prescribe the motion of [m/m, rad/m, …]: round-off.
 DRIVEN = 1e-12
 # Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
@@ -393,17 +394,14 @@ def want_patch(machine, k, tau, anchor, is_limited):
         return 0.0, 0.0
     b0, b1, b2 = lack_of_patch(machine, k, 0, tau, anchor), lack_of_patch(machine, k, 1, tau, anchor), 0.0
     more = 1.0 + anchor
-    s0, s1, s3 = (
-        more * S[k, k] + LEAST / friction.mass[k],
-        more * S[k, k + 1],
-        more * S[k + 1, k + 1] + LEAST / friction.mass[k + 1],
-    )
+    s0, s1, s3 = more * S[k, k], more * S[k, k + 1], more * S[k + 1, k + 1]
+    least = LEAST * max(1.0 / friction.mass[k], 1.0 / friction.mass[k + 1])
     s2, s4, s5 = 0.0, 0.0, 1.0
     if count == 3 and reach > 0.0:
         b2 = reach * lack_of_patch(machine, k, 2, tau, anchor)
         s2, s4 = more * reach * S[k, k + 2], more * reach * S[k + 1, k + 2]
-        s5 = reach * reach * (more * S[k + 2, k + 2] + LEAST / friction.mass[k + 2])
-    x = limited((s0, s1, s2, s3, s4, s5), (b0, b1, b2), limit if is_limited else np.inf)
+        s5 = reach * reach * more * S[k + 2, k + 2]
+    x = limited((s0, s1, s2, s3, s4, s5), least, (b0, b1, b2), limit if is_limited else np.inf)
     wanted[k], wanted[k + 1] = x[0], x[1]
     if count == 3:
         wanted[k + 2] = reach * x[2]
@@ -548,18 +546,29 @@ def newton(machine, anchor, scale):
 
 
 @stage
+def has_patches(record):
+    """Whether a friction is of a patch."""
+    friction = record.friction
+    for k in range(friction.columns.shape[0]):
+        if friction.columns[k, MODEL] == PATCH:
+            return True
+    return False
+
+
+@stage
 def iterate(machine):
     """Efforts that agree with what they cause, from where they are; returns (largest defect, its friction, largest effort)."""
     record = record_at(machine)
     largest, worst, scale = np.inf, 0, 0.0
-    for iteration in range(SWEEPS + STEPS + ANCHORED_STEPS):
-        anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
+    anchored = SWEEPS + STEPS + ANCHORED_STEPS
+    for iteration in range(anchored + (LAST_SWEEPS if has_patches(record) else 0)):
+        anchor = 0.0 if iteration < SWEEPS + STEPS else ANCHOR if iteration < anchored else LAST_ANCHOR
         largest, worst, scale = residual(machine, anchor, record.friction.work[DEFECT])
-        if largest <= TOLERANCE * scale:
+        if largest <= (TOLERANCE if iteration < anchored else 0.1 * ENOUGH) * scale:
             if is_whole(machine):
                 settle_slopes(machine, scale)
             break
-        if iteration < SWEEPS:
+        if iteration < SWEEPS or iteration >= anchored:
             sweep(machine, anchor)
         else:
             newton(machine, anchor, scale)

@@ -29,6 +29,8 @@ OVER = 11
 NEAR_NORMAL = 0.8
 # More iterations than the multiplier of a limit has ever taken, and what it is known to.
 MOST, EXACT = 60, 1e-15
+# Turns by which efforts come to what holds exactly.
+REFINED = 3
 # A radius of gyration below this share, squared, is none.
 ROUND = 1e-12
 
@@ -150,22 +152,29 @@ def size_of(x):
 
 
 @leaf
-def limited(S, b, limit):
+def limited(S, least, b, limit):
     """x = (S + λ)⁻¹ b with the least λ ≥ 0 for which |x| ≤ limit: of all efforts in the sphere the one that loses most power.
 
-    λ by Newton's iteration for 1/|x|, which comes to it from below (Moré, Sorensen 1983).
+    λ by Newton's iteration for 1/|x|, which comes to it from below (Moré, Sorensen 1983). Where no effort moves anything, S is singular and
+    b is round-off, or a motion that is prescribed. So x is what x = T⁻¹ (b + e x) comes to in REFINED turns, with T = S + e + λ and e =
+    `least`: elsewhere it is exact but for (e T⁻¹) to the power of one more than these.
     """
     if limit == 0.0:
         return 0.0, 0.0, 0.0
     shift, size = 0.0, 0.0
     x = (0.0, 0.0, 0.0)
     for _ in range(MOST):
-        T = (S[0] + shift, S[1], S[2], S[3] + shift, S[4], S[5] + shift)
+        more = least + shift
+        T = (S[0] + more, S[1], S[2], S[3] + more, S[4], S[5] + more)
         x = solve_three(T, b)
+        slope = solve_three(T, x)  # -dx/dλ, by the same turns
+        for _ in range(REFINED):
+            x = solve_three(T, (b[0] + least * x[0], b[1] + least * x[1], b[2] + least * x[2]))
+            slope = solve_three(T, (x[0] + least * slope[0], x[1] + least * slope[1], x[2] + least * slope[2]))
         size = size_of(x)
         if size <= limit:
             return x
-        change = size * size / dot(x, solve_three(T, x)) * (size / limit - 1.0)
+        change = size * size / dot(x, slope) * (size / limit - 1.0)
         shift += change
         if change <= EXACT * shift:
             break

@@ -20,7 +20,13 @@ from nivel.analysis.statics.linear import PivotError, negative_directions, saddl
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.rigid_motions import with_tie
 from nivel.analysis.statics.stability import is_mechanism, softest
-from nivel.analysis.statics.states import depends_on_samples, equilibrate_states, find_moving_states, growing_motions
+from nivel.analysis.statics.states import (
+    depends_on_samples,
+    equilibrate_states,
+    find_moving_states,
+    growing_motions,
+    settle_states,
+)
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -87,11 +93,22 @@ def _settled_with_states(equations: StaticEquations, start: Rest, iteration: Ite
     except StateError:
         raise EquilibriumError("a force, or the state, is not a number", begin) from None
     if equations.states_move:
-        return equilibrate_states(equations, begin, iteration)
+        try:
+            return equilibrate_states(equations, begin, iteration)
+        except EquilibriumError as problem:
+            return _settled_or(problem, equations, start, iteration)
     if error is not None:
         raise error
     assert found is not None
     return found
+
+
+def _settled_or(problem: EquilibriumError, equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:
+    """Where positions and states settle together, from `start` on. Raises the problem where they do not."""
+    try:
+        return settle_states(equations, start, iteration)
+    except EquilibriumError:
+        raise problem from None
 
 
 def _settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:

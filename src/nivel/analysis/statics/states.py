@@ -28,6 +28,8 @@ from nivel.system.system import Array
 LONGEST, MOST = 0.3, 200
 # The least share of a step that is tried, and what a state may change by in one, as a share of its size.
 LEAST_SHARE = 1.0 / 1024.0
+# What a step that leads nowhere is made shorter by, where machines settle.
+MORE = 2.0
 # Motions that grow by less than this share of their own rate are vibrations that neither grow nor decay.
 GROWING = 1e-7
 # Rates below this share of the size of the state in the duration are none.
@@ -99,6 +101,51 @@ def equilibrate_states(equations: StaticEquations, state: Rest, iteration: Itera
         if share == 1.0 and (size <= iteration.tolerance or stalled):
             return Found(state, equations.tangent(state), number, since.moved, tuple(sizes))
     raise EquilibriumError(f"{MOST} iterations are not enough", state, tuple(sizes))
+
+
+def settle_states(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
+    """The equilibrium where positions, in overdamped motion, and states settle from `state` on, at its time.
+
+    Steps are those of Euler's implicit method, as long as what is left over is small, and in the end Newton's: σ is added to the diagonal
+    of positions and states, and falls with what is left over (Kelley, Keyes 1998). What nothing resists yet moves on, as a piston under a
+    given pressure until it meets a stop. Raises EquilibriumError.
+    """
+    since, sigma, sizes = Since.start(equations, state), 1.0, list[float]()
+    f = len(equations.free)
+    try:
+        system = _assembled(equations, state, since)
+        for number in range(1, MOST + 1):
+            own = f + len(system.states)
+            added = np.where(np.arange(len(system.right)) < own, sigma, 0.0)
+            x = factors(csc_matrix(system.matrix + diags(added))).solve(system.right)
+            size = float(np.max(np.abs(x[:own]), initial=0.0))
+            if not size <= LONGEST:
+                sigma *= MORE
+                continue
+            after, moved = _changed(equations, state, system, x), since.further(x[:f])
+            then = _assembled_or_none(equations, after, moved)
+            left = float(np.linalg.norm(system.right))
+            if then is None or np.linalg.norm(then.right) > max(MORE * left, STILL):
+                sigma *= MORE
+                continue
+            state, since, system = after, moved, then
+            sizes.append(size)
+            if size <= iteration.tolerance:
+                return Found(state, equations.tangent(state), number, since.moved, tuple(sizes))
+            sigma *= min(float(np.linalg.norm(then.right)) / left, 1.0)
+    except StateError:
+        raise EquilibriumError("a force, or the state, is not a number", state, tuple(sizes)) from None
+    except PivotError:
+        raise EquilibriumError("nothing resists a motion, or holds a state", state, tuple(sizes)) from None
+    raise EquilibriumError(f"{MOST} iterations are not enough", state, tuple(sizes))
+
+
+def _assembled_or_none(equations: StaticEquations, state: Rest, since: Since) -> _System | None:
+    """The equations at a state that may have no forces."""
+    try:
+        return _assembled(equations, state, since)
+    except StateError:
+        return None
 
 
 def _nearer(

@@ -5,6 +5,7 @@ import pytest
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.stepping import Simulation
+from nivel.analysis.sweep.patched import PatchedRuns, learn, read_values
 from nivel.api import Machine
 from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, SimulationSettings
 from running import run
@@ -81,3 +82,16 @@ def test_they_share_the_centripetal_force_of_a_door_that_is_driven():
     for frame in (0, -1):
         np.testing.assert_allclose(result.array("joint_force")[frame], forces, atol=1e-9 * MASS * spin**2)
         np.testing.assert_allclose(result.array("joint_torque")[frame], torques, atol=1e-9 * MASS * spin**2)
+
+
+def test_variants_of_a_batch_share_them():
+    """Variants whose numbers are patched have the loads of runs that are prepared one by one."""
+    machine = Machine.from_record(door(HEIGHTS["three"], coordinates="relative", integrator="rk4"))
+    runs = PatchedRuns(learn(machine, [{"bodies.door.mass": 20.0}, {"bodies.door.mass": 40.0}]))
+    for mass in (25.0, 35.0):
+        values = {"bodies.door.mass": mass}
+        frames = runs.run(read_values(values))
+        assert frames is not None
+        alone = machine.with_values(values).simulate(verify=False)
+        np.testing.assert_allclose(runs.result(frames).array("joint_force"), alone.array("joint_force"), atol=EXACT)
+        assert alone.array("joint_force")[-1, 0, 2] == pytest.approx(-mass * GRAVITY / 3.0, rel=1e-8)

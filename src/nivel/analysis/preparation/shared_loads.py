@@ -31,8 +31,11 @@ class SharedLoads:
     y: Array
 
     @classmethod
-    def of(cls, prepared: Prepared) -> SharedLoads | None:
-        """None where no reaction is open; and for flexible bodies and beams, whose stiffness decides how loads are shared."""
+    def of(cls, prepared: Prepared, *, keeps_sparse: bool = True) -> SharedLoads | None:
+        """None where no reaction is open; and for flexible bodies and beams, whose stiffness decides how loads are shared.
+
+        keeps_sparse : rows that repeat others everywhere are looked for, which takes as long as some hundred frames of a small machine.
+        """
         of_run, machine = prepared.motion.system, prepared.machine
         if machine is None or not prepared.redundancy.redundant_rows:
             return None
@@ -40,7 +43,7 @@ class SharedLoads:
             return None
         own = replace(prepared.absolute.system, record=copied(prepared.absolute.system.record))
         motion, y = MotionEquations(own, prepared.absolute.kernels), prepared.assembly.y.copy()
-        if not own.units:  # they remember how often they are asked
+        if keeps_sparse and not own.units:  # these remember how often they are asked
             leave_out(own, rows_everywhere(motion, y, machine.simulation.duration))
         return cls(motion, y)
 

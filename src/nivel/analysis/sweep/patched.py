@@ -405,7 +405,7 @@ class PatchedRuns:
         if self._screen is not None and not self._screen.is_followed(float(run.clock[TIME]), run.y):
             return None
         frames = run.frames[: run.counter[FRAMES]]
-        loads = SharedLoads.of(self._blank.prepared) if self._shares else None
+        loads = SharedLoads.of(self._blank.prepared, keeps_sparse=False) if self._shares else None
         if loads is not None:
             loads.share(frames)
         return frames

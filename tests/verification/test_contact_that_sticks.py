@@ -9,6 +9,7 @@ import nivel
 from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
+from nivel.machine.plausible import remarks
 from preparing import prepare
 from references import stick_slip
 from simulating import G, machine, simulate, slide, solid
@@ -458,6 +459,17 @@ def test_friction_leaves_alone_what_a_joint_holds(coordinates):
     friction = np.array([result.array(f"force.touch.friction_{axis}") for axis in "xyz"]).T
     assert np.abs(friction @ across).max() < 1e-5
     assert friction[-1] @ along == pytest.approx(-2.0 / 7.0 * MASS * G * np.sin(slope), rel=1e-3)
+
+
+@pytest.mark.parametrize(("slope", "deeper", "count"), [(0.25, 0.0, 1), (0.15, 0.0, 0), (0.35, 0.0, 0), (0.25, 1.0, 0)])
+def test_a_box_that_just_touches_a_slope_is_remarked_on(slope, deeper, count):
+    """With tan 0.25 = 0.255 between 0.2 and 0.3 it would slide; with the depth that the remark gives it rests."""
+    sections = box(0.2, 0.3, slope)
+    depth = MASS * G * np.cos(slope) / (4 * STIFFNESS)
+    sections["bodies"]["box"]["position"] = [0, 0, SIZE[2] / 2 - deeper * depth]
+    found = [each.message for each in remarks(machine(sections).record) if each.place == "forces.touch"]
+    assert len(found) == count
+    assert all(f"place it {depth:.2g} m deeper" in each for each in found)
 
 
 def test_compilation_ahead_knows_what_sticks():

@@ -18,6 +18,7 @@ from nivel.machine.given import Shown, Usual
 from nivel.machine.hydraulics import Actuator, Component, Volume
 from nivel.machine.hydraulics.machines import RotaryMachine
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.resting_remarks import resting_remarks
 from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
 from nivel.machine.uses.hydraulic_uses import makers, ports_of
 from nivel.machine.uses.references import SECTIONS
@@ -49,6 +50,8 @@ def remarks(machine: MachineRecord) -> Iterator[Remark]:
     yield from _unfillable(machine)
     yield from _hollow(machine)
     yield from _narrow(machine)
+    for name, message in resting_remarks(machine):
+        yield Remark(f"forces.{name}", message, math.inf)
     for place, message in circuit_remarks(machine.hydraulics):
         yield Remark(f"hydraulics.{place}", message, math.inf)
 

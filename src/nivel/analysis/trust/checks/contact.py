@@ -100,8 +100,14 @@ def _passages(result: Readable, pair: HullPair) -> Iterator[Passed]:
     for k in fast[np.argsort(-length[fast])][:MOST_INTERVALS]:
         count = int(np.clip(np.ceil(LOOKS * length[k] / thinnest), 2, MOST_LOOKS))
         shares = np.linspace(0.0, 1.0, count + 1)
-        depth = np.array([_depth(pair, way.between(k, s), *(_between(turn, k, s) for turn in turns)) for s in shares])
-        if depth[0] <= 0.0 and depth[-1] <= 0.0 and depth.max() > 0.0:
+
+        def depth_at(s: float, k: int = k) -> float:
+            return _depth(pair, way.between(k, s), *(_between(turn, k, s) for turn in turns))
+
+        if depth_at(0.0) > 0.0 or depth_at(1.0) > 0.0:
+            continue
+        depth = np.array([depth_at(s) for s in shares])
+        if depth.max() > 0.0:
             lasted = float((depth > 0.0).sum() / count * (time[k + 1] - time[k]))
             at = float(time[k] + shares[np.argmax(depth)] * (time[k + 1] - time[k]))
             yield Passed(

@@ -41,6 +41,8 @@ from nivel.system.system import Array
 # The largest rate times step that an explicit method of order four follows to some digits; of impacts, which last for half a turn: thirty
 # steps in each.
 FOLLOWED, IN_IMPACTS = 1.0, np.pi / 30.0
+# A step that is longer than its bound by less than this follows as well; in words both would be the same.
+NEARLY = 1.001
 # Turns of a body in a step [rad] beyond which forces that depend on its angle are not resolved.
 TURNED = 3.0
 # A run of so many steps, which are below this share of what its fastest rate asks for, has steps that are chosen.
@@ -103,7 +105,7 @@ def fitted(
     if not plan.is_open:
         return plan, prepared
     found = fastest_rate(plan, prepared, prepared.start, 0.0)
-    if found is None or plan.settings.step <= found.followed:
+    if found is None or plan.settings.step <= NEARLY * found.followed:
         slow = None if fixed else _of_slow(plan, found)
         if slow is None:
             return replace(plan, reason=_explicit(plan, found)), prepared
@@ -117,7 +119,7 @@ def fitting(plan: Plan, prepared: Prepared) -> Plan:
     if not plan.is_open:
         return plan
     found = fastest_rate(plan, prepared, prepared.start, 0.0)
-    if found is None or plan.settings.step <= found.followed:
+    if found is None or plan.settings.step <= NEARLY * found.followed:
         return _of_slow(plan, found) or replace(plan, reason=_explicit(plan, found))
     return next(
         _implicit_plans(plan, found, fixed=False), replace(plan, reason=f"{_implicit(plan, found)}; {NONE_GOES}")

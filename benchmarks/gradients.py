@@ -2,7 +2,7 @@
 
     python benchmarks/gradients.py
 
-Each pair is measured in turns, by the processor time of the loop; the median of the ratios is shown. Seeds (14 machines built beside) are
+Each pair is measured in turns, by the processor time of the loop; the median of the ratios is shown. Seeds (28 machines built beside) are
 shown apart. Central differences would take 14 runs.
 """
 

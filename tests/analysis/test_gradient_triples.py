@@ -201,6 +201,21 @@ CASES = {
             "radau": ABSOLUTE | EXACT | {"integrator": "radau"},
         },
     ),
+    # a start of which fast vibrations are left out
+    "cable": Case(
+        "beams/cable.yaml",
+        ("velocity", "joint_coordinate"),
+        ("parameters.height", "parameters.load"),
+        {"alpha": FULL | {"integrator": "generalised-alpha"}},
+        {"duration": 0.01},
+    ),
+    "bicycle": Case(
+        "vehicles/bicycle.yaml",
+        ("position", "joint_coordinate"),
+        ("parameters.front", "parameters.speed", "joints.front_tyre.radius"),
+        {"rk4, absolute": ABSOLUTE | {"integrator": "rk4"}, "rk4, relative": RELATIVE | {"integrator": "rk4"}},
+        {"duration": 0.1},
+    ),
     "flexible": Case(
         "flexible/pendulum.yaml",
         ("hinge.angle", "hinge.angle.rate"),

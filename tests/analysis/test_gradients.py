@@ -1,5 +1,6 @@
 """Gradients of runs against closed forms, and against differences of runs."""
 
+import json
 import sys
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -9,8 +10,10 @@ import pytest
 
 import nivel
 from nivel.analysis.gradients.check import check
+from nivel.analysis.gradients.gradient import Varied
 from nivel.analysis.gradients.outputs import outputs_of, value_of
 from nivel.analysis.gradients.parameters import parameters_of
+from nivel.analysis.plan.plan import plan_run
 from nivel.gradients import jax_function, torch_function, value_and_gradient
 from nivel.report.tornado import tornados
 from nivel.report.write import report_html
@@ -37,6 +40,15 @@ bodies: {block: {mass: mass, inertia: [1, 1, 1], position: [start, 0, 0], veloci
 joints: {rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}}
 forces: {spring: {type: force, body: block, vector: [-stiffness*block.x, 0, 0]}}
 simulation: {duration: 1 s, step: 2 ms, integrator: rk4}
+"""
+
+PRESSED = """
+format: 1
+name: pressed
+gravity: [0, 0, -9.81]
+bodies: {ball: {shape: {type: sphere, radius: 0.1}, mass: 2, position: [0, 0, 0.0996]}}
+forces: {floor: {type: contact, body: ball, plane: {body: ground}, stiffness: 1e6, exponent: 1, restitution: 0.9}}
+simulation: {duration: 0.02 s, step: 2 ms}
 """
 
 # the velocity is not written
@@ -193,9 +205,54 @@ def test_a_wrong_gradient_is_red_and_a_right_one_is_green():
     assert check([np.array([12.0, np.nan])], parameters, run, None)[0].light != "green"
 
 
+def test_round_off_of_an_output_is_no_contradiction():
+    random = np.random.default_rng(1)
+
+    def run(values):
+        return [np.array(3.75 * (1.0 + 1e-14 * random.standard_normal()))]
+
+    assert check([np.array([1e-14, 0.0])], [_Parameter(2.0), _Parameter(3.0)], run, None)[0].light == "green"
+
+
 class _Parameter:
     def __init__(self, value):
         self.value, self.scale = value, abs(value)
+
+
+def test_a_machine_without_integrator_has_the_one_of_its_run(tmp_path):
+    machine = loaded(tmp_path, PRESSED)
+    plan = plan_run(machine.record)
+    assert plan.is_open
+    varied = Varied(machine, plan, "")
+    result = machine.simulate(verify=False)
+    assert (
+        varied.settings.integrator
+        == json.loads(result.attributes["settings"])["integrator"]
+        != plan.settings.integrator
+    )
+    run = varied.run({"bodies.ball.mass": 2.0})
+    assert run.time.shape == result.time.shape
+    np.testing.assert_allclose(run.array("position"), result.array("position"), rtol=1e-9)
+
+
+def test_what_the_file_computes_from_a_parameter_follows_it_in_the_comparison(tmp_path):
+    machine = loaded(tmp_path, FALLING)
+    found = machine.gradient(
+        "ball.position.z", ["parameters.height", "bodies.ball.position.2"], integrator="rk4", duration=0.2
+    )
+    assert found.attrs["verdict"] == "green"
+    for each in ("parameters.height", "bodies.ball.position.2"):
+        assert slope(found, "ball.position.z", each) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_a_wheel_of_another_radius_turns_otherwise():
+    """Angles of a wheel that rolls straight on grow by v t/r, whose slope by r is t (v' - v/r)/r."""
+    machine, radius = nivel.load(EXAMPLES / "vehicles" / "bicycle.yaml"), "parameters.front"
+    angles, speed = ("front_hub.angle at 0.02 s", "front_hub.angle at 0.04 s"), "front_wheel.velocity.x"
+    found = machine.gradient([*angles, speed], [radius], integrator="rk4", duration=0.04, check=False)
+    v, r = float(found[speed]), machine[radius]
+    grown = slope(found, angles[1], radius) - slope(found, angles[0], radius)
+    assert abs(grown) == pytest.approx(abs(0.02 * (slope(found, speed, radius) - v / r) / r), rel=1e-7)
 
 
 def test_what_has_no_gradient_is_refused_by_its_name(tmp_path):

@@ -84,6 +84,7 @@ OF_SLOPES += [
 OF_SLOPES += [
     f"correction_slopes.{name}"
     for name in (
+        "begin_moved",
         "forget_moved",
         "copy_unknowns",
         "keep_made_at",
@@ -91,9 +92,14 @@ OF_SLOPES += [
         "size_of_moved",
         "move_made_at",
         "load_missed",
+        "product",
+        "use_directions",
+        "find_along",
+        "learn_direction",
         "settle_correction",
     )
 ]
+OF_SLOPES += [f"alpha_start.{name}" for name in ("move_here", "add_mixed", "follow_matrices")]
 LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS, *BY_ADDRESS, *OF_SLOPES}
 
 

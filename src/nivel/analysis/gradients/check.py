@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,8 @@ STEP = 1e-4
 # A gradient agrees where it is apart from the differences by this share of its scale, or by what these are apart from each other; from the
 # second share on it is wrong.
 AGREES, WRONG = 1e-5, 1e-2
+# Runs of the same machine repeat a value but for this share of it.
+REPEATED = 1e-13
 SEED = 7
 LIGHTS = ("green", "amber", "red")
 
@@ -57,16 +60,25 @@ def check(
     return tuple(_judge(each, scale * d, *pair) for each, *pair in zip(slopes, near, far, strict=True))
 
 
-def _difference(run: Callable[[Array], Sequence[Array]], base: Array, along: Array, step: float) -> list[Array]:
-    high, low = run(base + step * along), run(base - step * along)
+class _Difference(NamedTuple):
+    """Of an output, and what of it is round-off."""
+
+    value: Array
+    round_off: float
+
+
+def _difference(run: Callable[[Array], Sequence[Array]], base: Array, along: Array, step: float) -> list[_Difference]:
     return [
-        (up - down) / (2.0 * step) if np.shape(up) == np.shape(down) else np.full(np.shape(up), np.nan)
-        for up, down in zip(high, low, strict=True)
+        _Difference((up - down) / (2.0 * step), REPEATED * float(np.max(np.abs(up), initial=0.0)) / step)
+        if np.shape(up) == np.shape(down)
+        else _Difference(np.full(np.shape(up), np.nan), 0.0)
+        for up, down in zip(run(base + step * along), run(base - step * along), strict=True)
     ]
 
 
-def _judge(slope: Array, along: Array, near: Array, far: Array) -> Checked:
-    """near, far : differences over a step and over two; what they say together is of order four."""
+def _judge(slope: Array, along: Array, of_near: _Difference, of_far: _Difference) -> Checked:
+    """Differences over a step and over two; what they say together is of order four."""
+    near, far, round_off = of_near.value, of_far.value, of_near.round_off
     part = np.tensordot(along, slope, axes=(0, 0))
     if np.shape(near) != np.shape(part) or np.shape(far) != np.shape(part):
         return Checked(np.full(np.shape(part), np.nan), np.abs(along), "amber")
@@ -75,7 +87,7 @@ def _judge(slope: Array, along: Array, near: Array, far: Array) -> Checked:
     size = max(size, float(np.max(np.abs(near), initial=0.0)))
     doubt = float(np.max(np.abs(near - far), initial=0.0))
     worst = float(np.max(apart, initial=0.0)) if np.isfinite(apart).all() and np.isfinite(doubt) else np.inf
-    if worst <= AGREES * size or (worst <= doubt <= WRONG * size):
+    if worst <= max(AGREES * size, round_off) or (worst <= doubt <= WRONG * size):
         light = "green"
     else:
         light = "amber" if worst <= WRONG * size or not np.isfinite(worst) or worst <= doubt else "red"

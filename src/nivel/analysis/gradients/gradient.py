@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 import xarray
@@ -19,6 +20,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
+from nivel.analysis.run.fitting import FasterError, fitted, implicit, refuse_faster
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
@@ -45,11 +47,17 @@ HEADLINES = {
 
 
 class Varied:
-    """A machine and its runs with other values of parameters, by the methods and settings of one plan."""
+    """A machine and its runs with other values of parameters, by the methods and settings of one plan.
 
-    def __init__(self, machine: Model, plan: Plan, source: str) -> None:
-        self._machine, self.plan, self._source = machine, plan, source
-        self.prepared = prepare(plan.methods)
+    Where the machine names no integrator, all of them have the one that its own run has.
+    """
+
+    def __init__(self, machine: Model, plan: Plan, source: str, listener: Listener | None = None) -> None:
+        prepared, self._given = prepare(plan.methods), machine.origin.settings_outside
+        if plan.is_open:
+            plan, prepared = _settled(plan, prepared, listener)
+            machine = machine.with_settings({"integrator": plan.settings.integrator, "step": plan.settings.step})
+        self._machine, self.plan, self.prepared, self._source = machine, plan, prepared, source
 
     @property
     def settings(self) -> RunSettings:
@@ -82,9 +90,37 @@ class Varied:
             raise SolveError(message, time=at, advice=advice, result=result)
         return result
 
+    def moved(self, parameters: Sequence[Parameter], point: Array) -> Result:
+        """The run with all parameters away from their values by as much as `point` is. What the file computes from one of them follows it,
+        also where it is itself one of them."""
+        given: dict[str, float] = {}
+        names = [f"parameters.{name}" for name in self._machine.parameters]
+        changes = {each.path: float(value - each.value) for each, value in zip(parameters, point, strict=True)}
+        for path in (name for name in names if name in changes):
+            given[path] = _number_at(self._machine.with_values(given), path) + changes[path]
+        followed = self._machine.with_values(given)
+        others = (path for path in changes if path not in given)
+        return self.run(given | {path: _number_at(followed, path) + changes[path] for path in others})
+
     def _plan_with(self, values: Mapping[str, float]) -> Plan:
         other = self._machine.with_values(dict(values))
-        return plan_run(other.record, other.origin.settings_outside)
+        return plan_run(other.record, self._given)
+
+
+def _number_at(machine: Model, path: str) -> float:
+    return float(cast("float", machine[path]))
+
+
+def _settled(plan: Plan, prepared: Prepared, listener: Listener | None) -> tuple[Plan, Prepared]:
+    """The plan and its machine made ready with the integrator that a run of it has to its end, as in `nivel.analysis.run.simulate`."""
+    plan, prepared = fitted(plan, prepared, listener=listener)
+    if not plan.is_open:
+        return plan, prepared
+    try:
+        refuse_faster(plan, prepared, march(prepared, plan.settings, []))
+    except FasterError as faster:
+        plan, prepared = implicit(replace(plan, is_open=False), prepared, faster.found, listener=listener)
+    return plan, prepared
 
 
 def gradient(
@@ -104,22 +140,21 @@ def gradient(
     refuse(plan)
     parameters = parameters_of(machine, paths)
     listener.say("preparing")
-    varied = Varied(machine, plan, source)
+    varied = Varied(machine, plan, source, listener)
     plain = varied.run({})
     asked = outputs_of(outputs, plain, curves=curves)
     _refuse_events(asked, varied.prepared)
     listener.say("running on dual numbers")
-    slopes = find_slopes(varied.prepared, plan.settings, varied.header, parameters, varied.beside, listener)
+    slopes = find_slopes(varied.prepared, varied.settings, varied.header, parameters, varied.beside, listener)
     found = [slopes.evaluate(output) for output in asked]
     verdicts: Sequence[Checked | None] = [None] * len(asked)
     if checked:
         listener.say("comparing with differences of runs")
 
         def values_at(point: Array) -> list[Array]:
-            given = {each.path: float(value) for each, value in zip(parameters, point, strict=True)}
-            return values_of(asked, varied.run(given))
+            return values_of(asked, varied.moved(parameters, point))
 
-        verdicts = check([each[1] for each in found], parameters, values_at, plan.settings.tolerance)
+        verdicts = check([each[1] for each in found], parameters, values_at, varied.settings.tolerance)
     return _dataset(slopes, plain, asked, found, verdicts)
 
 

@@ -1,7 +1,9 @@
 """Seeds of gradients: slopes of all numbers of a record along parameters of the machine, by differences of machines built beside it.
 
 Every number that follows from a parameter moves with it, those that are derived too: the assembled start, the frames of bodies,
-factors of inertias. A record is smooth in the numbers of a file, and known to round-off.
+factors of inertias. A record is smooth in the numbers of a file, and known to round-off, or to what the assembly and an equilibrium are
+closed to. Differences of order four over a wide step leave little of that. Where the machine cannot be built so far away, or is not smooth
+there, the step is narrow.
 """
 
 from __future__ import annotations
@@ -11,14 +13,21 @@ from typing import Any
 
 import numpy as np
 
+from nivel.analysis.gradients.outputs import Array
 from nivel.analysis.gradients.parameters import Parameter
 from nivel.analysis.gradients.whole_loop import WholeLoop, leaves
 from nivel.analysis.run.dynamics import Loop
 from nivel.errors import Fault, ModelError
+from nivel.kernels.core.arrays import dual_twin
 from nivel.native.duals import DUAL
 
-# parameters of the machines beside are away from their own values by this share of their scales
-ASIDE = 1e-5
+# parameters of the machines beside are away from their own values by these shares of their scales, and twice as far: wide, narrow
+WIDE, NARROW = 1e-3, 1e-5
+# Differences over a step and over two are the same but for this share of the largest where a record is smooth; and what is round-off of
+# them, as a share of the numbers.
+SMOOTH, ROUND_OFF = 1e-2, 1e-6
+# parts of a record that evaluations and solutions overwrite
+OVERWRITTEN = ("saddle", "tree", "newton", "residual", "frames", "control")
 
 
 def seed(
@@ -30,33 +39,75 @@ def seed(
     with which the machine changes otherwise than in numbers.
     """
     faults = []
+    records = (loop.machine.record, whole.machine), (loop.history.record, whole.run)
     for lane, parameter in enumerate(parameters):
-        step = ASIDE * parameter.scale
         try:
-            low, high = (beside(parameter, parameter.value + sign * step) for sign in (-1.0, 1.0))
-            for own, twin, pair in (
-                (loop.machine.record, whole.machine, (low.machine.record, high.machine.record)),
-                (loop.history.record, whole.run, (low.history.record, high.history.record)),
-            ):
-                _seed_record(own, twin, pair, lane)
+            slopes = _slopes_beside([own for own, _ in records], parameter, beside)
         except ModelError as error:
             faults += [
                 Fault("", 0, 0, parameter.path, f"there is no gradient: {each.message}") for each in error.faults
             ]
+            continue
+        for (_, twin), of_record in zip(records, slopes, strict=True):
+            for (_, dual), slope in zip(leaves(twin), of_record, strict=True):
+                if dual.dtype == DUAL:
+                    dual["slopes"][..., lane] = slope
     if faults:
         raise ModelError(faults)
 
 
-def _seed_record(own: Any, twin: Any, pair: tuple[Any, Any], lane: int) -> None:
-    for (name, base), (_, dual), (_, low), (_, high) in zip(*map(leaves, (own, twin, *pair)), strict=True):
-        if not base.shape == low.shape == high.shape:
-            raise ModelError(_other_machine(name))
-        if dual.dtype == DUAL:
-            with np.errstate(invalid="ignore"):  # of what is infinite
-                difference = (high - low) / (2.0 * ASIDE)
-            dual["slopes"][..., lane] = np.where(np.isfinite(difference), difference, 0.0)
-        elif _is_structure(name, base) and not np.array_equal(low, high):
-            raise ModelError(_other_machine(name))
+def _slopes_beside(
+    records: Sequence[Any], parameter: Parameter, beside: Callable[[Parameter, float], Loop]
+) -> list[list[Array]]:
+    """Slopes of all arrays of both records for a change of the parameter by its scale."""
+    try:
+        near, far = (_differences(records, parameter, beside, factor * WIDE) for factor in (1.0, 2.0))
+    except ModelError:
+        near = far = None
+    if near is not None and far is not None and all(map(_is_smooth, records, near, far)):
+        return [[(4.0 * a - b) / 3.0 for a, b in zip(*each, strict=True)] for each in zip(near, far, strict=True)]
+    return _differences(records, parameter, beside, NARROW)
+
+
+def _differences(
+    records: Sequence[Any], parameter: Parameter, beside: Callable[[Parameter, float], Loop], aside: float
+) -> list[list[Array]]:
+    """Central differences of all arrays of both records over steps of this share. Raises ModelError where more than numbers changes."""
+    low, high = (beside(parameter, parameter.value + sign * aside * parameter.scale) for sign in (-1.0, 1.0))
+    return [
+        [
+            _difference(name, base, before, after, aside)
+            for (name, base), (_, before), (_, after) in zip(*map(leaves, three), strict=True)
+        ]
+        for three in zip(records, _records(low), _records(high), strict=True)
+    ]
+
+
+def _records(loop: Loop) -> tuple[Any, Any]:
+    return loop.machine.record, loop.history.record
+
+
+def _difference(name: str, base: Any, low: Any, high: Any, aside: float) -> Array:
+    if not base.shape == low.shape == high.shape:
+        raise ModelError(_other_machine(name))
+    if base.dtype == np.float64:
+        with np.errstate(invalid="ignore"):  # of what is infinite
+            difference = (high - low) / (2.0 * aside)
+        return np.where(np.isfinite(difference), difference, 0.0)
+    if _is_structure(name, base) and not np.array_equal(low, high):
+        raise ModelError(_other_machine(name))
+    return np.zeros(base.shape)
+
+
+def _is_smooth(record: Any, near: Sequence[Array], far: Sequence[Array]) -> bool:
+    """Whether differences over a step and over two are nearly the same, of numbers that no evaluation overwrites."""
+    for (name, base), (_, twin), a, b in zip(leaves(record), leaves(dual_twin(record)), near, far, strict=True):
+        if base.dtype != np.float64 or twin.dtype == DUAL or not base.size or name.startswith(OVERWRITTEN):
+            continue
+        largest = np.max(np.abs(base[np.isfinite(base)]), initial=0.0)
+        if not np.max(np.abs(a - b)) <= SMOOTH * np.max(np.abs(a)) + ROUND_OFF * largest:
+            return False
+    return True
 
 
 def _is_structure(name: str, array: Any) -> bool:

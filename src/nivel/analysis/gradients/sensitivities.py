@@ -49,8 +49,8 @@ def with_sensitivities(
     """
     listener = listener or Listener()
     listener.say("running on dual numbers")
-    varied, parameters = Varied(machine, plan, source), parameters_of(machine, paths)
-    slopes = find_slopes(varied.prepared, plan.settings, varied.header, parameters, varied.beside, listener)
+    varied, parameters = Varied(machine, plan, source, listener), parameters_of(machine, paths)
+    slopes = find_slopes(varied.prepared, varied.settings, varied.header, parameters, varied.beside, listener)
     if slopes.result.time.shape != result.time.shape:
         raise ModelError("the run was interrupted: there are sensitivities of whole runs only")
     light = _verdict(varied, slopes, result, parameters, listener) if checked else "not checked"
@@ -69,8 +69,7 @@ def _verdict(
     found = [slopes.evaluate(output)[1] for output in asked]
 
     def values_at(point: Array) -> list[Array]:
-        given = {each.path: float(value) for each, value in zip(parameters, point, strict=True)}
-        return values_of(asked, varied.run(given))
+        return values_of(asked, varied.moved(parameters, point))
 
     lights = [each.light for each in check(found, parameters, values_at, varied.settings.tolerance)]
     return next((light for light in ("red", "amber") if light in lights), "green")

@@ -29,12 +29,24 @@ from nivel.integrate.newmark.alpha_step import (
     A,
     W,
 )
+from nivel.integrate.newmark.correction_slopes import (
+    FAR,
+    KEPT_LAM,
+    KEPT_VDOT,
+    MISSED,
+    MOVED,
+    MOVED_LAM,
+    Y,
+    copy_unknowns,
+    size_of_moved,
+)
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rotation import rates_of_parameters
 from nivel.kernels.core.lanes import is_whole, slope, unit
 from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate, call_family
-from nivel.kernels.record.record import record_at
+from nivel.kernels.record.hook import call_evaluate, call_family, call_hook
+from nivel.kernels.record.record import NONE, RESIDUAL, record_at
 from nivel.kernels.residual.residual import known_multiplier
 from nivel.kernels.residual.tangent import POSITIONS, differentiate, load_twin, move_unknown
 from nivel.kernels.solve.newton_matrix import factorise, solve
@@ -64,11 +76,97 @@ def is_steep(run, newton):
 
 
 @leaf
-def keep_fast(machine, t, cq, cv, cx, x):
+def move_here(newton, residual, run, far, cq, cv, cx, accelerates):
+    """Move the state in rows Y, KEPT_VDOT and KEPT_LAM of run.stages, `far` times, along the values of its rows MOVED and MOVED_LAM."""
+    stages, n, states = run.stages, residual.vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - states - 2
+    for i in range(run.y.shape[0]):
+        residual.y[i] = stages[Y, i]
+    for k in range(n):
+        along = far * real(stages[MOVED, k])
+        p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
+        residual.y[positions + k] += cv * along
+        residual.vdot[k] = stages[KEPT_VDOT, k] + (along if accelerates else 0.0)
+        if axis == NONE:
+            residual.y[p] += cq * along
+        elif axis == 0:
+            change = newton.last[0:4]
+            turn = (along, far * real(stages[MOVED, k + 1]), far * real(stages[MOVED, k + 2]))
+            rates_of_parameters(stages[Y, p : p + 4], turn, change)
+            for i in range(4):
+                residual.y[p + i] += cq * change[i]
+    for k in range(n, n + states):
+        residual.y[positions + k] += cx * (far * real(stages[MOVED, k]))
+    for k in range(min(residual.lam.shape[0], run.y.shape[0])):
+        residual.lam[k] = stages[KEPT_LAM, k] + (far * real(stages[MOVED_LAM, k]) if accelerates else 0.0)
+
+
+@leaf
+def add_mixed(machine, run, t, cq, cv, cx, of_result):
+    """Add to newton.b the slopes of N x, or of -S y where it is `of_result`, by those of the matrix alone; x, y and its multipliers are in
+    rows MOVED and MOVED_LAM of run.stages. Returns a status."""
+    record, status = record_at(machine), OK
+    newton, residual = record.newton, record.residual
+    b, n, states, rows = newton.b, residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
+    first, size = n + states, size_of_moved(newton, run, cq, cv)
+    if not size > 0.0:
+        return OK
+    far = FAR / size
+    for sign in (1.0, -1.0):
+        move_here(newton, residual, run, sign * far, cq, cv, cx, of_result)
+        if status == OK:
+            status = call_hook(machine, RESIDUAL, 0, t)
+        share = (-sign if of_result else sign) / (2.0 * far)
+        for k in range(n + states):
+            found = residual.value[k] - real(residual.value[k])
+            b[k] += share * found if k < n else -share * found
+        for k in range(rows):
+            row = first + k if k < residual.row.shape[0] else first + 2 * rows + k
+            found = residual.value[row] - real(residual.value[row])
+            if of_result:
+                b[first + k] += share * found / (cq if k < residual.row.shape[0] else 1.0)
+    return status
+
+
+@leaf
+def follow_matrices(machine, run, t, cq, coefficients, x):
+    """Add to newton.b = E x its slopes by those of E = S⁻¹ N: S δ(E x) = N δx + δN x - δS E x, mixed derivatives of the residual
+    by differences of its slopes, as in `nivel.integrate.newmark.correction_slopes`. cq : of N; coefficients : of S. Returns a status."""
+    record, stages = record_at(machine), run.stages
+    newton, residual = record.newton, record.residual
+    b, n, room = newton.b, residual.vdot.shape[0], min(residual.lam.shape[0], run.y.shape[0])
+    first = n + newton.state.shape[0]
+    for i in range(run.y.shape[0]):
+        stages[Y, i] = residual.y[i]
+    copy_unknowns(residual, run, KEPT_VDOT, KEPT_LAM)
+    for k in range(first):
+        stages[MOVED, k], stages[MISSED, k], b[k] = x[k], b[k], 0.0
+    status = add_mixed(machine, run, t, cq, coefficients[1], coefficients[2], False)
+    for k in range(first):
+        stages[MOVED, k] = stages[MISSED, k]
+    for k in range(room):
+        stages[MOVED_LAM, k], b[first + k] = b[first + k], 0.0
+    if status == OK:
+        status = add_mixed(machine, run, t, coefficients[0], coefficients[1], coefficients[2], True)
+    solve(machine)
+    for k in range(first):
+        b[k] += stages[MISSED, k]
+    for i in range(run.y.shape[0]):
+        residual.y[i] = stages[Y, i]
+    for k in range(n):
+        residual.vdot[k] = stages[KEPT_VDOT, k]
+    for k in range(room):
+        residual.lam[k] = stages[KEPT_LAM, k]
+    return status
+
+
+@leaf
+def keep_fast(machine, run, t, cq, coefficients, x):
     """x := E x of accelerations, then of rates of states of forces: E = (M + c_v D + c_q K)⁻¹ (c_v D + c_q K) along the constraints, with
     the factors there are. Of what decays with d or vibrates with ω that is (c_v d + c_q ω²)/(1 + c_v d + c_q ω²), of what is across the
-    constraints nothing. In the numerator c_q may be 0. newton.change must be zero. Returns a status."""
-    record = record_at(machine)
+    constraints nothing. coefficients : c_q, c_v and c_x; cq : that in the numerator, which may be 0. newton.change must be zero. Returns a
+    status."""
+    record, cv, cx = record_at(machine), coefficients[1], coefficients[2]
     newton, here = record.newton, record.residual
     b, n, states = newton.b, here.vdot.shape[0], newton.state.shape[0]
     twin, moving = load_twin(newton, here)
@@ -94,13 +192,15 @@ def keep_fast(machine, t, cq, cv, cx, x):
             along = moving.value[k] - real(moving.value[k])
             b[k] += (1.0 if k < n else -1.0) * number_of(machine, along)
     solve(machine)
+    if is_whole(machine) and status == OK:
+        status = follow_matrices(machine, run, t, cq, coefficients, x)
     for k in range(n + states):
         x[k] = b[k]
     return status
 
 
 @leaf
-def leave_out_fast(machine, run, t, cq, cv, cx):
+def leave_out_fast(machine, run, t, coefficients):
     """SLOPE := (1 - E)³ SLOPE, with the factors there are: of a fast decay less is left than of accelerations. Where steps are fixed,
     JUMP := (1 - E)² (1 + 2 E) JUMP too, which changes what is resolved only to the order of the method; E of dampers alone, for what stiff
     springs store is not lost. Chosen steps get as short as a decay asks for."""
@@ -109,7 +209,7 @@ def leave_out_fast(machine, run, t, cq, cv, cx):
     for _ in range(3):
         for k in range(n):
             stages[FAST, k] = stages[SLOPE, k]
-        if keep_fast(machine, t, cq, cv, cx, stages[FAST]) == OK:
+        if keep_fast(machine, run, t, coefficients[0], coefficients, stages[FAST]) == OK:
             for k in range(n):
                 stages[SLOPE, k] -= stages[FAST, k]
     if run.counter[ALL_STEPS] == 0:
@@ -118,7 +218,7 @@ def leave_out_fast(machine, run, t, cq, cv, cx):
     for k in range(n):
         stages[FAST, k] = stages[JUMP, k]
     for weight in (0.0, 3.0, -2.0):
-        if keep_fast(machine, t, 0.0, cv, cx, stages[FAST]) == OK:
+        if keep_fast(machine, run, t, 0.0, coefficients, stages[FAST]) == OK:
             run.numbers[SMOOTHED] = 1.0
             for k in range(n):
                 stages[JUMP, k] -= weight * stages[FAST, k]
@@ -143,7 +243,7 @@ def smooth(machine, run, t):
     tau, stick[0] = stick[0], np.inf
     status = differentiate(machine, t, cq, cv, cx, POSITIONS)
     if status == OK and factorise(machine) == OK:
-        leave_out_fast(machine, run, t, cq, cv, cx)
+        leave_out_fast(machine, run, t, (cq, cv, cx))
     stick[0] = tau
     run.counter[FACTORISATIONS] += 1
     newton.kept[0] = 0.0

@@ -5,6 +5,10 @@ and depends on the parameters as that state does. Differentiated: A δx = (0, δ
 the second, δA x, is the mixed derivative of the residual along x and the parameters, at the state where A was made:
 
     δ(R(u + ε x) - R(u - ε x))/2 ε
+
+It is linear in x, and corrections of steps with the same matrix have nearly the same directions. So δA is kept along those that were met,
+an orthonormal set of a few, and two evaluations are made only for what of x is across all of them. What is negligible of that waits for
+the next step.
 """
 
 from __future__ import annotations
@@ -22,14 +26,28 @@ from nivel.native.function import leaf
 
 # the largest share of a scale that a difference moves an entry by; corrections below the second share have no slopes worth the difference
 FAR, NOTHING = 1e-4, 1e-14
+# Below this share of the scales what is across the directions known waits.
+NEGLIGIBLE = 1e-10
 # Rows of run.stages: y, accelerations and multipliers where the matrix was made; the correction, its multipliers; accelerations and
-# multipliers now; δA x. Entry of run.numbers: the time where the matrix was made.
+# multipliers now; δA x. Entries of run.numbers: the time where the matrix was made, its coefficients; how many directions are known.
 Y, VDOT, LAM, MOVED, MOVED_LAM, KEPT_VDOT, KEPT_LAM, MISSED = 12, 13, 14, 15, 16, 17, 18, 19
-# turns within the step where the matrix was made
-CHANGE = 20
-ROWS = 21
-MADE_AT = 14
-NUMBERS = 15
+# turns within the step where the matrix was made; what waits of corrections, its multipliers
+CHANGE, REST, REST_LAM = 20, 21, 22
+# directions x, of length 1 as shares of the scales of positions; their multipliers; δA along them
+DIRECTIONS = 6
+DIRECTION = 23
+DIRECTION_LAM = DIRECTION + DIRECTIONS
+ALONG = DIRECTION_LAM + DIRECTIONS
+ROWS = ALONG + DIRECTIONS
+MADE_AT, MADE_CQ, MADE_CV, MADE_CX, KNOWN = 14, 15, 16, 17, 18
+NUMBERS = 19
+
+
+@leaf
+def begin_moved(run):
+    """The correction of a step begins with what waits."""
+    for i in range(run.y.shape[0]):
+        run.stages[MOVED, i], run.stages[MOVED_LAM, i] = run.stages[REST, i], run.stages[REST_LAM, i]
 
 
 @leaf
@@ -37,6 +55,7 @@ def forget_moved(run):
     """No correction yet."""
     for i in range(run.y.shape[0]):
         run.stages[MOVED, i], run.stages[MOVED_LAM, i] = 0.0, 0.0
+        run.stages[REST, i], run.stages[REST_LAM, i] = 0.0, 0.0
 
 
 @leaf
@@ -49,15 +68,16 @@ def copy_unknowns(residual, run, vdot, lam):
 
 
 @leaf
-def keep_made_at(machine, run, t):
-    """The matrix is made at the state in `residual`, at time t."""
+def keep_made_at(machine, run, t, cq, cv, cx):
+    """The matrix is made at the state in `residual`, at time t, with these coefficients."""
     newton, residual = record_at(machine).newton, record_at(machine).residual
     for i in range(run.y.shape[0]):
         run.stages[Y, i] = residual.y[i]
     for k in range(residual.vdot.shape[0]):
         run.stages[CHANGE, k] = newton.change[k]
     copy_unknowns(residual, run, VDOT, LAM)
-    run.numbers[MADE_AT] = t
+    c = run.numbers
+    c[MADE_AT], c[MADE_CQ], c[MADE_CV], c[MADE_CX], c[KNOWN] = t, cq, cv, cx, 0.0
 
 
 @leaf
@@ -127,28 +147,84 @@ def load_missed(newton, run, n):
 
 
 @leaf
-def settle_correction(machine, run, cq, cv, cx):
-    """Add to newton.correction the slopes by δA; it is for further passes then to close the constraints. Returns a status."""
-    record = record_at(machine)
+def product(newton, run, row, other):
+    """Of two rows of corrections, as shares of the scales of positions."""
+    total = 0.0
+    for k in range(newton.place.shape[0]):
+        scale = real(run.scale[newton.place[k, 0]])
+        total += real(run.stages[row, k]) * real(run.stages[other, k]) / (scale * scale)
+    return total
+
+
+@leaf
+def use_directions(newton, run, multipliers):
+    """MISSED := δA x as far as the directions known say it; they are taken out of the correction and its `multipliers`."""
+    n, stages = newton.place.shape[0] + newton.state.shape[0], run.stages
+    for i in range(n):
+        stages[MISSED, i] = 0.0
+    for d in range(np.int64(run.numbers[KNOWN])):
+        share = product(newton, run, MOVED, DIRECTION + d)
+        for i in range(n):
+            stages[MOVED, i] = real(stages[MOVED, i]) - share * real(stages[DIRECTION + d, i])
+            stages[MISSED, i] += share * stages[ALONG + d, i]
+        for i in range(multipliers):
+            stages[MOVED_LAM, i] = real(stages[MOVED_LAM, i]) - share * real(stages[DIRECTION_LAM + d, i])
+
+
+@leaf
+def find_along(machine, run, row):
+    """Row := δA x for the correction there is. Returns a status; overwrites `residual`."""
+    record, c = record_at(machine), run.numbers
     newton, residual = record.newton, record.residual
-    n, states = residual.vdot.shape[0], newton.state.shape[0]
-    size = size_of_moved(newton, run, cq, cv)
-    if residual.row.shape[0] == 0 or not size > NOTHING:
-        return OK
-    far, status = FAR / size, OK
-    copy_unknowns(residual, run, KEPT_VDOT, KEPT_LAM)
-    for k in range(n + states):
-        run.stages[MISSED, k] = 0.0
+    n = residual.vdot.shape[0] + newton.state.shape[0]
+    cq, cv, cx = c[MADE_CQ], c[MADE_CV], c[MADE_CX]
+    far, status = FAR / size_of_moved(newton, run, cq, cv), OK
+    for k in range(n):
+        run.stages[row, k] = 0.0
     for sign in (1.0, -1.0):
         move_made_at(newton, residual, run, cq, cv, cx, sign * far)
         if status == OK:
-            status = call_hook(machine, RESIDUAL, 0, run.numbers[MADE_AT])
-        for k in range(n + states):
-            run.stages[MISSED, k] += sign / (2.0 * far) * residual.value[k]
-    for k in range(n):
-        residual.vdot[k] = run.stages[KEPT_VDOT, k]
-    for k in range(min(residual.lam.shape[0], run.y.shape[0])):
-        residual.lam[k] = run.stages[KEPT_LAM, k]
+            status = call_hook(machine, RESIDUAL, 0, c[MADE_AT])
+        for k in range(n):
+            run.stages[row, k] += sign / (2.0 * far) * residual.value[k]
+    return status
+
+
+@leaf
+def learn_direction(machine, run, size):
+    """Add δA of the correction, whose length is `size`, to MISSED, and its direction to those known. Returns a status."""
+    at = min(np.int64(run.numbers[KNOWN]), DIRECTIONS - 1)
+    status = find_along(machine, run, ALONG + at)
+    for i in range(run.y.shape[0]):
+        run.stages[MISSED, i] += run.stages[ALONG + at, i]
+        run.stages[DIRECTION + at, i] = run.stages[MOVED, i] / size
+        run.stages[DIRECTION_LAM + at, i] = run.stages[MOVED_LAM, i] / size
+        run.stages[ALONG + at, i] /= size
+    run.numbers[KNOWN] = at + 1.0
+    return status
+
+
+@leaf
+def settle_correction(machine, run, waits):
+    """Add to newton.correction the slopes by δA; it is for further passes then to close the constraints. waits : whether what is
+    negligible may wait. Returns a status."""
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    n, multipliers, status = residual.vdot.shape[0], min(residual.lam.shape[0], run.y.shape[0]), OK
+    if residual.row.shape[0] == 0:
+        return OK
+    use_directions(newton, run, multipliers)
+    size = np.sqrt(product(newton, run, MOVED, MOVED))
+    if size > (NEGLIGIBLE if waits else NOTHING):
+        copy_unknowns(residual, run, KEPT_VDOT, KEPT_LAM)
+        status = learn_direction(machine, run, size)
+        for k in range(n):
+            residual.vdot[k] = run.stages[KEPT_VDOT, k]
+        for k in range(multipliers):
+            residual.lam[k] = run.stages[KEPT_LAM, k]
+        forget_moved(run)
+    for i in range(run.y.shape[0]):
+        run.stages[REST, i], run.stages[REST_LAM, i] = run.stages[MOVED, i], run.stages[MOVED_LAM, i]
     if status != OK:
         return status
     load_missed(newton, run, n)

@@ -40,7 +40,13 @@ import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.integrate.loop.step_control import ROUND_OFF
-from nivel.integrate.newmark.correction_slopes import add_moved, forget_moved, keep_made_at, settle_correction
+from nivel.integrate.newmark.correction_slopes import (
+    add_moved,
+    begin_moved,
+    forget_moved,
+    keep_made_at,
+    settle_correction,
+)
 from nivel.integrate.newmark.friction_turns import begin_turns, follow_turns, keep_made, next_seed, release
 from nivel.integrate.newmark.newton_state import find_state
 from nivel.kernels.algebra.analytic import real
@@ -288,9 +294,8 @@ def is_worth_a_new_one(newton, contraction, size, tolerance):
 
 
 @leaf
-def steepness_of_change(machine, scale, cq, cv, cx):
+def steepness_of_change(newton, scale, cq, cv, cx):
     """Largest slope of a change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale."""
-    newton = record_at(machine).newton
     b, moved = newton.b, newton.moved
     n, states = moved.shape[0], newton.state.shape[0]
     positions = scale.shape[0] - n - states - 2
@@ -308,8 +313,8 @@ def settle_slopes(machine, run, t, cq, cv, cx):
     """Slopes of the unknowns, whose values are found: changes with the matrix there, until they change no more (implicit function theorem).
     `residual.y` is the state then. Returns a status."""
     record = record_at(machine)
-    newton, last = record.newton, 0.0
-    status = settle_correction(machine, run, cq, cv, cx) if newton.level[0] == 2 else OK
+    newton, scale, last = record.newton, run.scale, 0.0
+    status = settle_correction(machine, run, True) if newton.level[0] == 2 else OK
     for attempt in range(MOST_SETTLING):
         if status == OK:
             status = find_state(machine, t, cq, cv, cx)
@@ -317,11 +322,13 @@ def settle_slopes(machine, run, t, cq, cv, cx):
             status = call_hook(machine, RESIDUAL, 0, t)
         if status == OK and newton.kept[CQ] == 0.0:
             status = renew(machine, t, cq, cv, cx)
+            if newton.level[0] == 2:
+                keep_made_at(machine, run, t, cq, cv, cx)
         if status != OK:
             return status
         find_change(machine, cq, cv)
         take_change(newton, record.residual, newton.b, newton.moved, 1.0)
-        steepness = steepness_of_change(machine, run.scale, cq, cv, cx)
+        steepness = steepness_of_change(newton, scale, cq, cv, cx)
         contraction = steepness / last if attempt > 0 and last > 0.0 else 1.0
         left = min(1.0, contraction / (1.0 - contraction)) * steepness if contraction < SLOWLY else steepness
         if left <= SETTLED or (attempt > 0 and contraction >= SLOWLY and left <= LOST):
@@ -335,7 +342,8 @@ def settle_slopes(machine, run, t, cq, cv, cx):
 @leaf
 def end_correction(machine, run, t, cq, cv, cx):
     """Before a new matrix is made: slopes of what was corrected with the one there is, and the state with them. Returns a status."""
-    status = settle_correction(machine, run, cq, cv, cx)
+    # without coefficients the factors are of no step
+    status = settle_correction(machine, run, False) if record_at(machine).newton.kept[CQ] != 0.0 else OK
     forget_moved(run)
     if status == OK:
         status = find_state(machine, t, cq, cv, cx)
@@ -355,7 +363,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     stale, inherited, last, share, best = full, True, np.inf, 1.0, np.inf
     begin_turns(record.residual)
     if is_whole(machine) and newton.level[0] == 2:
-        forget_moved(run)
+        begin_moved(run)
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -378,7 +386,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
             counter[FACTORISATIONS] += 1
             stale, inherited = False, False
             if is_whole(machine) and newton.level[0] == 2:
-                keep_made_at(machine, run, t)
+                keep_made_at(machine, run, t, cq, cv, cx)
         if status != OK:
             newton.kept[CQ] = 0.0
             return status

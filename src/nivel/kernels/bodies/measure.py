@@ -39,7 +39,7 @@ def measure(machine, job, t):
             value, rate, bias = driven_turn(machine, k, t)
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         elif coordinates.what[k, 0] >= CONTACT:
-            value, rate, bias = rolling(record.bodies, record.markers, coordinates, k)
+            value, rate, bias = rolling(machine, k)
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         elif coordinates.what[k, 0] >= ALONG:
             status = call_hook(machine, RAIL, k, t)

@@ -157,9 +157,12 @@ class Machine(Model):
         plan = self._plan(self.origin.settings_outside)
         build(preparation_entries(plan.methods), listener)
         from nivel.analysis.check.check import check
+        from nivel.system.forces.stretched_ropes import stretched_ropes
 
         with self._faults_in_file():
-            return replace(check(plan), name_notes=self.name_notes, remarks=tuple(map(str, self.remarks)))
+            ropes = [Fault("", 0, 0, f"forces.{name}", said) for name, said in stretched_ropes(self.record)]
+            remarks = (*self.remarks, *self.origin.placed(ropes))
+            return replace(check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks)))
 
     @checked_arguments
     def mass_properties(

@@ -17,6 +17,7 @@ from nivel.machine.joints.joint import CoordinateRates
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.plausible import excess, in_words, remarks
 from nivel.results.trust import Item, Threshold
+from nivel.system.forces.stretched_ropes import stretched_ropes
 
 SHOWN = 8  # numbers of which each has a line
 THRESHOLD = Threshold(
@@ -41,6 +42,7 @@ class Unusual:
 def look(subject: Run | Equilibria | Positions) -> list[Unusual]:
     """What is farthest beyond the usual."""
     found = [Unusual(each.place, f"{each.place}: {each.message}", each.share) for each in remarks(subject.machine)]
+    found += [Unusual(name, f"forces.{name}: {said}", math.inf) for name, said in stretched_ropes(subject.machine)]
     found += _of_result(subject)
     return sorted(found, key=lambda each: -each.share)[:SHOWN]
 

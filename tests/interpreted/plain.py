@@ -143,5 +143,6 @@ def install():
     # gradients of runs are compiled only
     lanes.is_whole = lambda address: False
     number.number_of = lambda address, x: x.real
+    number.without_slopes = lambda x: x
     block.Handle.__init__ = kept
     handle.reader = lambda *_: record_at

@@ -15,6 +15,7 @@ from nivel.looks.solids import FACETS, FEW_FACETS, FEWEST_FACETS, reach_of, shap
 from nivel.looks.sweeps import rings, swept_bodies
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
+from nivel.report.belt_drawing import belt_points, draw_belt
 from nivel.report.body_drawing import draw_body, draw_sweep
 from nivel.report.drawing import Drawing
 from nivel.report.force_drawing import Plane, draw_force, draw_plane, force_points, planes
@@ -88,6 +89,8 @@ def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touche
         draw_joint(drawing, frame, joint, poses)
     for force in scene.get("forces", []):
         draw_force(drawing, frame, force, poses)
+    for belt in scene.get("belts", []):
+        draw_belt(drawing, frame, belt, scene, poses)
     for plane in touched:
         draw_plane(drawing, frame, plane)
     return drawing
@@ -104,7 +107,7 @@ def _shapes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) points around the shapes."""
     shapes = [in_space(poses[b["name"]], reach_of(b)) for b in scene["bodies"] if shapes_of(b)]
     swept = [rings(sweep, poses, sweep["section"]).reshape(-1, 3) for sweep in scene.get("sweeps", [])]
-    return np.concatenate([np.empty((0, 3)), *shapes, *swept])
+    return np.concatenate([belt_points(scene, poses), *shapes, *swept])
 
 
 def _svg(drawing: Drawing, frame: Frame) -> str:

@@ -19,6 +19,8 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
                    ``bodies`` (names, two or more), ``section`` (corners (y, z), counter-clockwise), and if they are not these:
                    ``hollow`` (corners of a hole; none), ``points`` (of the line, in each body; their origins), ``axes`` (of the line;
                    x), ``across`` (y of the section; y), ``smooth`` (curved between the frames; true)
+``belts``          of machines that have any: list of ``name``, ``type``, ``joints`` (two pulleys, about the axes of these), ``radii``,
+                   ``crossed``
 ``surroundings``   of machines that have any; shapes as those of ``looks``, at global places
 =================  ====================================================================================================
 
@@ -48,10 +50,12 @@ from nivel.machine.bodies.colour import digits_of
 from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube
 from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
-from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper
+from nivel.machine.forces import BeltDrive, Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper
 from nivel.machine.hydraulics.actuators import HydraulicCylinder, TelescopicCylinder
+from nivel.machine.joints.coupling import Belt
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
 from nivel.system.forces.height_fields import ground_surface
@@ -113,7 +117,26 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
         "joints": joints,
         "forces": list(_forces(machine)),
         "markers": markers,
-    } | {name: drawn for name, drawn in (("sweeps", sweeps), ("surroundings", around)) if drawn}
+    } | {
+        name: drawn
+        for name, drawn in (("sweeps", sweeps), ("surroundings", around), ("belts", list(_belts(machine))))
+        if drawn
+    }
+
+
+def _belts(machine: MachineRecord) -> Iterator[dict[str, Any]]:
+    """Belts and chains around two pulleys, which turn about joints."""
+    types = {joint.name: joint.type for joint in machine.joints}
+    known = [(each, each.joints) for each in machine.couplings if isinstance(each, Belt)]
+    elastic = [(each, (each.coordinate, each.against)) for each in machine.forces if isinstance(each, BeltDrive)]
+    for belt, coordinates in (*known, *elastic):
+        yield {
+            "name": belt.name,
+            "type": belt.type,
+            "joints": [find(each, types, "angle")[0] for each in coordinates],
+            "radii": list(belt.radii),
+            "crossed": belt.crossed,
+        }
 
 
 def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:

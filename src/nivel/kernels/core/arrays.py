@@ -18,6 +18,8 @@ from nivel.native.duals import LANES, duals
 F1 = Annotated[NDArray[np.float64], 1, "real"]
 F2 = Annotated[NDArray[np.float64], 2, "real"]
 F3 = Annotated[NDArray[np.float64], 3, "real"]
+# real numbers everywhere: what has no slopes, as the factors of a matrix that only makes an iteration contract
+P2 = Annotated[NDArray[np.float64], 2, "plain"]
 # what an evaluation leaves: dual numbers where it runs on these, for exact derivatives
 W1 = Annotated[NDArray[np.float64], 1, "work"]
 W2 = Annotated[NDArray[np.float64], 2, "work"]
@@ -92,6 +94,6 @@ def _lanes(array: Any) -> Any:
     return array.view(np.float64).reshape(*array.shape, 1 + LANES)
 
 
-_OTHERS: Final = dict.fromkeys(("real", "complex", "index", "count", "address"), _same)
+_OTHERS: Final = dict.fromkeys(("real", "plain", "complex", "index", "count", "address"), _same)
 _TWIN: Final[Mapping[str, Callable[[Any], Any]]] = {"record": dual_twin, "work": duals, **_OTHERS}
 _LANES: Final[Mapping[str, Callable[[Any], Any]]] = {"record": lanes_of, "work": _lanes, **_OTHERS}

@@ -1,4 +1,6 @@
-"""Numbers as a record has them: number_of(machine, x) is the dual number x where all numbers of the record are dual, else its value."""
+"""Numbers as a record has them: number_of(machine, x) is the dual number x where all numbers of the record are dual, else its value;
+without_slopes(x) is the value of a dual number, and any other number itself.
+"""
 
 from __future__ import annotations
 
@@ -13,4 +15,10 @@ def _number_of() -> Any:
     return number_of
 
 
-number_of = Intrinsic(_number_of)
+def _without_slopes() -> Any:
+    from nivel.native.with_numba.numbers import without_slopes
+
+    return without_slopes
+
+
+number_of, without_slopes = Intrinsic(_number_of), Intrinsic(_without_slopes)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from nivel.kernels.algebra.sparse_lu import SparseLU
-from nivel.kernels.core.arrays import A1, C1, C2, F1, F2, F3, U1, U2, W1, W2
+from nivel.kernels.core.arrays import A1, C1, C2, F1, F2, F3, P2, U1, U2, W1, W2
 
 
 class StepResidual(NamedTuple):
@@ -67,7 +67,7 @@ class RealFactors(NamedTuple):
     U: F1
     Dinv: F1
     work: F1
-    matrix: F2  # (N, N) its factors where it is not, or (0, 0)
+    matrix: P2  # (N, N) its factors where it is not, or (0, 0)
     pivot: U1  # (N,)
     b: F1  # (N,) right-hand side of the equations of motion, then solution
     moved: F1  # (n,) change of the positions while accelerations do not change
@@ -152,7 +152,7 @@ class Newton(NamedTuple):
     U: F1
     Dinv: F1
     work: F1
-    matrix: F2  # (N, N) its factors where it is not, or (0, 0)
+    matrix: P2  # (N, N) its factors where it is not, or (0, 0)
     pivot: U1  # (N,)
     b: F1  # (N,) right-hand side, then solution
     last: F1  # (max(N, 4),) work

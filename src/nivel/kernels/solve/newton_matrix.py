@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nivel.kernels.algebra.lu import factorise_lu, solve_lu
 from nivel.kernels.algebra.sparse_lu import factorise_sparse_lu, solve_sparse_lu
+from nivel.kernels.core.number import without_slopes
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
@@ -25,7 +26,7 @@ def factorise_entries(pattern, factors, failure):
     factors.matrix[:, :] = 0.0
     for i in range(size):
         for p in range(pattern.row_start[i], pattern.row_start[i + 1]):
-            factors.matrix[i, pattern.column[p]] = factors.value[p]
+            factors.matrix[i, pattern.column[p]] = without_slopes(factors.value[p])
     return OK if factorise_lu(factors.matrix, factors.pivot) else NOT_CONVERGED
 
 

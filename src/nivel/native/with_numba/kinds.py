@@ -33,6 +33,7 @@ RESULTS: dict[str, types.Type] = {
     "nothing": types.void,
 }
 SCALARS: dict[str, types.Type] = {
+    "plain": types.float64,
     "complex": types.complex128,
     "index": types.uint32,
     "count": types.int64,

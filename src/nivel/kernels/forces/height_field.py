@@ -14,8 +14,10 @@ from nivel.native.function import leaf, part
 # numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes; then the heights,
 # row by row along x, with one more on each side
 ALONG, ACROSS, WIDTH, LENGTH, HIGHEST, HEIGHTS = 0, 1, 2, 3, 4, 5
-# Steps of Newton's method, and halvings of one that does not come nearer; a step below this share of a mesh is none.
-STEPS, HALVINGS, SETTLED = 40, 12, 1e-13
+# Steps of Newton's method, and halvings of one that does not come nearer; behind a step below this share of a mesh one more is the last.
+STEPS, HALVINGS, SETTLED = 40, 12, 1e-11
+# roundings of a squared distance, in units in the last place of what it is formed from
+ROUNDINGS = 8.0 * 2.2e-16
 
 
 @leaf
@@ -101,8 +103,10 @@ def from_heights(n, c):
         if u * u + v * v <= (SETTLED * mesh) ** 2:
             break
         before = real(squared_distance(n, x, y, c0))
+        d = np.sqrt(before)
+        allowed = before + ROUNDINGS * d * (d + np.abs(x) + np.abs(y) + np.abs(c0[2]))
         for _ in range(HALVINGS):
-            if real(squared_distance(n, x + u, y + v, c0)) <= before:
+            if real(squared_distance(n, x + u, y + v, c0)) <= allowed:
                 break
             u, v = 0.5 * u, 0.5 * v
         x, y = x + u, y + v

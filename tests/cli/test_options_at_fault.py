@@ -39,7 +39,12 @@ def said(*arguments):
         ("run", ["--output-interval", "1.5 ms"], "--output-interval", "0.0015 s is not a multiple of the step 0.001 s"),
         ("run", ["--duration", "soon"], "--duration", "`soon` is neither a parameter nor a unit"),
         ("run", ["--step", "1e-18"], "--step", "would take more than"),
-        ("run", ["--output-interval", "1e-5"], "--output-interval", "1e-05 s is shorter than `step` 0.001 s; write `step: 1e-05 s` too, or a longer interval ("),
+        (
+            "run",
+            ["--output-interval", "1e-5"],
+            "--output-interval",
+            "1e-05 s is shorter than `step` 0.001 s; write `step: 1e-05 s` too, or a longer interval (",
+        ),
         ("run", ["--step", "5"], "--step", "`step` 5 s is longer than `duration` 1 s ("),
         ("run", ["--step", "5", "--duration", "2"], "--step", "`step` 5 s is longer than `duration` 2 s"),
         ("run", ["--integrator", "rkx"], "--integrator", "the word `rkx` is not known"),

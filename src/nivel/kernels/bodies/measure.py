@@ -12,6 +12,7 @@ from nivel.kernels.bodies.coordinate import measure as measure_one
 from nivel.kernels.bodies.driven_turn import TURN_X, driven_turn, note_motions
 from nivel.kernels.bodies.patch_coordinate import KEPT, PATCH, PROPOSED, RESTING, RESTS
 from nivel.kernels.bodies.rolling import CONTACT, rolling
+from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import ACCEPTED, ACTIVE, SHOWN, call_hook, family
 from nivel.kernels.record.record import RAIL, record_at
@@ -39,7 +40,9 @@ def measure(machine, job, t):
             value, rate, bias = driven_turn(machine, k, t)
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         elif coordinates.what[k, 0] >= CONTACT:
-            value, rate, bias = rolling(machine, k)
+            value, rate, bias = rolling(record.bodies, record.markers, coordinates, k)
+            if is_whole(machine) and coordinates.what[k, 0] != CONTACT:
+                value *= 0.0
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         elif coordinates.what[k, 0] >= ALONG:
             status = call_hook(machine, RAIL, k, t)

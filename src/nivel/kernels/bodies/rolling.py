@@ -14,8 +14,8 @@ The contact is no material point: ḋ = ρ [-(eᵀa') a + (σ/h)(tᵀa') t] + Ω
     d(bᵀw)/dt = bᵀ[P̈ + α × d + ω × ḋ - Ö - Ω̇ × D - Ω × Ḋ] + (Ω × b)ᵀw
 
 A slip is the rate of nothing that positions have. Its value is zero, and it changes with positions as the row of C_q says: that is its
-slope where positions are dual numbers, all that Newton's iterations for positions ask for. In gradients of runs it has none: positions that
-move with a parameter have nothing to close.
+slope where positions are dual numbers, all that Newton's iterations for positions ask for. In gradients of runs `measure` takes it away:
+positions that move with a parameter have nothing to close.
 Source: O'Reilly 1996 for the sharp disc; Meijaard et al. 2007 for toroidal wheels; here with a plane that may move.
 """
 
@@ -25,8 +25,6 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.lanes import is_whole
-from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
 CONTACT, SLIP = 15, 16
@@ -71,10 +69,8 @@ def virtual_displacement(markers, m, s):
 
 
 @stage
-def rolling(machine, k):
+def rolling(bodies, markers, coordinates, k):
     """(value, rate, second derivative without accelerations of bodies) of coordinate k; its parts of C_q are filled."""
-    record = record_at(machine)
-    bodies, markers, coordinates = record.bodies, record.markers, record.coordinates
     kind, i, j = coordinates.what[k, 0], coordinates.what[k, 1], coordinates.what[k, 2]
     part = coordinates.start[k]
     circle, crown = coordinates.station[part + CENTRE_CIRCLE], coordinates.station[part + CROWN]
@@ -100,6 +96,4 @@ def rolling(machine, k):
     else:
         moved = plus(1.0, virtual_displacement(markers, j, d), -1.0, virtual_displacement(markers, i, D))
         value = dot(b, moved)
-        if is_whole(machine):
-            value *= 0.0
     return value, dot(b, slip), bias

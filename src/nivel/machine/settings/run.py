@@ -198,9 +198,9 @@ class SimulationSettings(Checked):
         if fixed and self.step > self.duration:
             messages.append(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
         if fixed and self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):
+            interval = f"{self.output_interval:g} s"
             messages.append(
-                f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s; write `step: {self.output_interval:g} s` "
-                "too, or a longer interval"
+                f"`output_interval` {interval} is shorter than `step` {self.step:g} s; write `step: {interval}` too, or a longer interval"
             )
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
             messages.append(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")

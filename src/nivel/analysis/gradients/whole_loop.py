@@ -37,6 +37,8 @@ class WholeLoop:
             hooks=twin.hooks._replace(address=_wholly(machine.hooks.address)),
             elements=twin.elements._replace(address=_wholly(machine.elements.address)),
             functions=twin.functions._replace(address=np.array(laws, dtype=np.uint64)),
+            # the elements that hold sliders are those of the twin too by which Newton's matrix is found
+            tree=twin.tree._replace(element=machine.tree.element),
         )
         self.run: Any = whole_twin(loop.history.record)
         self._handles = Handle(self.machine), Handle(self.run)

@@ -17,12 +17,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.lu import solve_lu
-from nivel.kernels.algebra.sparse_lu import solve_sparse_lu
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook, family
 from nivel.kernels.record.record import LOCK, NONE, RESIDUAL, RESUME, record_at
 from nivel.kernels.residual.balance import find_matrix
+from nivel.kernels.solve.newton_matrix import solve_entries
 from nivel.kernels.tree.slider import element_of
 from nivel.native.function import stage
 
@@ -126,6 +127,47 @@ def find_asked(machine, t):
 
 
 @stage
+def load_missed(machine, t):
+    """`newton.balance.b` := the right side once more, `newton.last` := accelerations and multipliers. Returns a status."""
+    record = record_at(machine)
+    own, newton = record.residual, record.newton
+    n, first = own.vdot.shape[0], own.vdot.shape[0] + newton.state.shape[0]
+    for i in range(newton.balance.b.shape[0]):
+        newton.balance.b[i] = 0.0
+    for i in range(n):
+        newton.last[i] = own.vdot[i]
+    for r in range(own.lam.shape[0]):
+        newton.last[first + r] = own.lam[r]
+    status = call_hook(machine, RESIDUAL, 0, t)
+    add_asked(record, 1.0)
+    return status
+
+
+@stage
+def settle_change(machine, t):
+    """Add to the change in `newton.b` the slopes that it has by those of the matrix, of which the factors have none: what the residual,
+    moved by the change, misses of the right side in `newton.balance.b`."""
+    record = record_at(machine)
+    own, newton = record.residual, record.newton
+    f, n, first = newton.balance, own.vdot.shape[0], own.vdot.shape[0] + newton.state.shape[0]
+    for i in range(n):
+        own.vdot[i] += newton.b[i]
+    for r in range(own.lam.shape[0]):
+        own.lam[r] += newton.b[first + r]
+    call_hook(machine, RESIDUAL, 0, t)
+    add_asked(record, -1.0)
+    for i in range(n):
+        own.vdot[i] = newton.last[i]
+    for r in range(own.lam.shape[0]):
+        own.lam[r] = newton.last[first + r]
+    for i in range(f.b.shape[0]):
+        f.b[i] -= real(f.b[i])
+    solve_entries(newton, f)
+    for i in range(f.b.shape[0]):
+        newton.b[i] += f.b[i]
+
+
+@stage
 def go_on(machine, t):
     """The velocities of `residual.y` from those noted, where sliders have left their elements. Returns a status."""
     record = record_at(machine)
@@ -135,18 +177,22 @@ def go_on(machine, t):
     for i in range(n):
         own.y[positions + i] = tree.change[i]
     status = find_asked(machine, t)
+    if status == OK:
+        solve_entries(newton, f)
+        for i in range(f.b.shape[0]):
+            newton.b[i] = f.b[i]
+        if is_whole(machine):
+            status = load_missed(machine, t)
     for k in range(tree.slider.shape[0]):
         tree.element[k, 1] = NONE
         for c in range(6):
             tree.jump[k, c] = 0.0
     if status != OK:
         return status
-    if f.matrix.shape[0] == 0:
-        solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, f.b, f.work)
-    else:
-        solve_lu(f.matrix, f.pivot, f.b)
+    if is_whole(machine):
+        settle_change(machine, t)
     for i in range(n):
-        own.y[positions + i] += f.b[i]
+        own.y[positions + i] += newton.b[i]
     return OK
 
 

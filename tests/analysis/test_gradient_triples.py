@@ -73,6 +73,24 @@ forces: {pull: {type: force, body: mast.end, vector: [0, 0, load]}}
 simulation: {duration: 50 ms, step: 0.5 ms, output_interval: 5 ms}
 """
 
+CROSSING = """
+format: 1
+name: crossing
+parameters: {bending: 300.0, density: 2.0, speed: 3.0, load: 1.5}
+gravity: [0, 0, -9.81]
+beams:
+  rail:
+    from: [0, 0, 0]
+    to: [1, 0, 0]
+    section: {type: general, stiffness: [1e5, 5e4, 5e4, 200, bending, bending], mass: density, inertia: [2e-3, 1e-3, 1e-3]}
+    elements: 4
+bodies: {bead: {mass: load, inertia: [1e-3, 1e-3, 1e-3], position: [0.2, 0, 0], velocity: [speed, 0, 0]}}
+joints:
+  root: {type: fixed, bodies: [ground, rail.start], point: [0, 0, 0]}
+  slide: {type: cylindrical-on-beam, bodies: [bead, rail], point: [0.2, 0, 0]}
+simulation: {duration: 40 ms, step: 1 ms, output_interval: 5 ms}
+"""
+
 SLIDING = """
 format: 1
 name: sliding
@@ -200,6 +218,19 @@ CASES = {
             "bdf": ABSOLUTE | EXACT | {"integrator": "bdf"},
             "radau": ABSOLUTE | EXACT | {"integrator": "radau"},
         },
+    ),
+    # a slider passes a node of the beam that carries it, at the same step for all values of the differences
+    "crossing": Case(
+        CROSSING,
+        ("slide.displacement.rate", "rail.end.position.z", "bead.velocity.z"),
+        ("parameters.load", "parameters.bending", "parameters.speed"),
+        {
+            "rk4": RELATIVE | {"integrator": "rk4", "step": 2e-5, "duration": 0.025},
+            "ros2": RELATIVE | {"integrator": "ros2", "step": 2e-4},
+            "alpha": RELATIVE | CLOSE | {"integrator": "generalised-alpha"},
+            "ros2, absolute": ABSOLUTE | {"integrator": "ros2", "step": 2e-4},
+        },
+        step=1e-5,
     ),
     # a start of which fast vibrations are left out
     "cable": Case(

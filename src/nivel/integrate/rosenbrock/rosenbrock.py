@@ -22,7 +22,7 @@ from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.ledger import balance_mass, mass_apart
 from nivel.kernels.record.hook import call_evaluate
-from nivel.kernels.residual.shifted_along import prepare_shifted, solve_shifted
+from nivel.kernels.residual.shifted_along import prepare_shifted, return_to, solve_shifted
 from nivel.kernels.residual.shifted_slopes import ROWS as OF_SLOPES
 from nivel.kernels.residual.shifted_slopes import settle_solution
 from nivel.native.entry import entry
@@ -70,6 +70,7 @@ def ros2(evaluate, machine, history):
         return status
     for i in range(y.shape[0]):
         second[i] -= 2.0 * first[i]
+    return_to(machine, y, run.rate)
     status = solve_for(machine, run, t, SECOND, share, -1.0)
     for i in range(y.shape[0]):
         y[i] += 0.5 * h * (3.0 * first[i] + second[i])

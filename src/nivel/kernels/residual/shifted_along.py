@@ -28,19 +28,30 @@ from nivel.native.function import leaf
 
 
 @leaf
-def prepare_shifted(machine, t, y, rate, s):
-    """Factors for the state y, last evaluated with the result `rate`. Returns a status."""
+def return_to(machine, y, rate):
+    """The state y with the result `rate`, and the multipliers in newton.lam, in `residual`: an evaluation elsewhere may have left it."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
-    n, states = residual.vdot.shape[0], newton.state.shape[0]
-    positions = np.int64(y.shape[0]) - n - states - 2
+    n = residual.vdot.shape[0]
+    positions = np.int64(y.shape[0]) - n - newton.state.shape[0] - 2
     for i in range(y.shape[0]):
         residual.y[i] = y[i]
     for k in range(n):
         residual.vdot[k] = rate[positions + k]
+    for k in range(residual.lam.shape[0]):
+        residual.lam[k] = newton.lam[k]
+
+
+@leaf
+def prepare_shifted(machine, t, y, rate, s):
+    """Factors for the state y, last evaluated with the result `rate`. Returns a status."""
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    for k in range(residual.vdot.shape[0]):
         newton.change[k] = 0.0
     for k in range(residual.lam.shape[0]):
-        residual.lam[k] = known_multiplier(record, k)
+        newton.lam[k] = known_multiplier(record, k)
+    return_to(machine, y, rate)
     status = differentiate(machine, t, s * s, s, s, ACCELERATIONS)
     return factorise(machine) if status == OK else status
 

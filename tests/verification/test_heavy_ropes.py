@@ -61,6 +61,27 @@ def test_atwoods_machine_with_a_heavy_rope(integrator, coordinates):
     assert np.abs(result.array("energy_error")).max() < 2e-2
 
 
+def test_a_rope_slides_from_a_table():
+    """(m₁ + m₂ + m' L) s'' = (m' (h + s) + m₂) g: the tension on the table, m₁ s'', is less than the rope's weight alone would give."""
+    first, second, on, hangs, small = 0.2, 0.05, 1.2, 0.3, 1e-3
+    sections = atwood(first, second)
+    places = [[-on, small, 0], [0, 0, 0], [small, -hangs, 0]]
+    for name, joint, place, axis in (("a", "ra", places[0], (1, 0, 0)), ("b", "rb", places[2], (0, -1, 0))):
+        sections["bodies"][name]["position"] = place
+        sections["joints"][joint] = slide("ground", name, axis, point=place)
+    sections["forces"]["rope"] |= {"points": places, "radii": [0, -small, 0], "stiffness": 1e6, "damping": 1e3}
+    result = simulate(sections, duration=0.5, output_interval=0.05, integrator="radau", tolerance=1e-8)
+    whole = first + second + PER_LENGTH * (on + hangs + 0.5 * np.pi * small)
+    kappa, lead = np.sqrt(PER_LENGTH * G / whole), hangs + second / PER_LENGTH
+    s = lead * (np.cosh(kappa * result.time) - 1.0)
+    # the corner of the table has a radius of 1 mm
+    np.testing.assert_allclose(result.array("ra.displacement"), s, atol=2e-3)
+    np.testing.assert_allclose(result.array("rb.displacement"), s, atol=2e-3)
+    pull = first * lead * kappa**2 * np.cosh(kappa * result.time)
+    np.testing.assert_allclose(result.array("force.rope.magnitude")[2:], pull[2:], rtol=1e-2)
+    assert np.abs(result.array("energy_error")).max() < 1e-4
+
+
 def held(second=5.0, **more):
     """The same with the first end on the ground."""
     sections = atwood(second=second, **more)

@@ -30,15 +30,14 @@ def three_springs(node, position):
     }
 
 
-def balanced(height):
+def balanced(height, stiffness=STIFFNESS, free=(0.9, 0.95, 0.5)):
     """Where the forces of three springs on a point vanish, with the weight at (0, height); and the pull on the weight."""
-    free = np.array([0.9, 0.95, 0.5])
     ends = np.vstack([ANCHORS[:, :2], [0.0, height]])
 
     def pulls(p):
         way = ends - p
         length = np.linalg.norm(way, axis=1)
-        return (STIFFNESS * (length - free) / length)[:, None] * way
+        return (stiffness * (length - np.asarray(free)) / length)[:, None] * way
 
     p = fsolve(lambda p: pulls(p).sum(axis=0), [0.0, 0.0], xtol=1e-13)
     return p, -pulls(p)[2]
@@ -184,6 +183,23 @@ def test_the_star_hangs_where_statics_says():
     height = result.array("weight.position")[-1, 1]
     _, pull = balanced(height)
     assert pull[1] == pytest.approx(MASS * G, rel=1e-9)
+
+
+@pytest.mark.compiles
+def test_a_node_between_springs_that_push_has_exact_slopes():
+    """Out of the plane the springs push it away, so its energy is at a saddle: its slopes are those of the balance all the same."""
+    free = (1.1, 1.15, 0.7)
+    names = ["forces.star.stiffness.0", "forces.star.free_length.2"]
+    found = machine(star(free_length=list(free))).gradient(["force.star.x", "force.star.y"], names, duration=1e-5, step=1e-5, integrator="rk4")
+    for name, change in zip(names, (np.array([4.0, 0.0, 0.0]), np.array([0.0, 0.0, 1e-3])), strict=True):
+        at = [
+            balanced(-0.6, STIFFNESS + sign * change, free)[0]
+            if "stiffness" in name
+            else balanced(-0.6, STIFFNESS, np.array(free) + sign * change)[0]
+            for sign in (-1.0, 1.0)
+        ]
+        slope = (at[1] - at[0]) / (2.0 * change.max())
+        np.testing.assert_allclose([float(found[f"d(force.star.{axis})/d({name})"]) for axis in "xy"], slope, rtol=1e-4)
 
 
 def test_a_star_of_ropes_lets_one_go_slack():

@@ -121,16 +121,21 @@ def rate_along(machine, k, n, before):
 
 @stage
 def ways(machine, k):
-    """(s_A, s_B, Σ length · h) of the way as its places are laid out."""
+    """(s_A, s_B, Σ length · h) of the way as its places are laid out, and the least h up to p and behind it."""
     record = record_at(machine)
     bodies, elements = record.bodies, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
     p = np.int64(index[FIRST + count + PAST])
     first, second, heavy = 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS]
+    low, other_low = height(bodies, numbers[PLACES : PLACES + WIDTH]), 0.0 * heavy
     before, j = 0, 0
     while j < count:
         own = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
         h = height(bodies, own)
+        if j <= p and real(h) < real(low):
+            low = h
+        if j == p or (j > p and real(h) < real(other_low)):
+            other_low = h
         if real(own[USED]) != 0.0:
             r = own[USED] if real(own[USED]) > 0.0 else -own[USED]
             arc = r * arc_at(machine, k, j, before)
@@ -149,7 +154,7 @@ def ways(machine, k):
             else:
                 second += whole
         before, j = j, i
-    return first, second, heavy
+    return first, second, heavy, low, other_low
 
 
 @stage
@@ -191,14 +196,22 @@ def act(machine, k, n, ahead, behind, density, mean):
 
 
 @leaf
-def tension_of(stiffness, damping, stretch, rate):
-    """(tension, its elastic part) of one half: twice the stiffness and damping of the rope, never a push."""
-    elastic, tension = 0.0 * stretch, 0.0 * stretch
-    if real(stretch) > 0.0:
-        elastic = 2.0 * stiffness * stretch
-        if real(elastic + 2.0 * damping * rate) > 0.0:
-            tension = elastic + 2.0 * damping * rate
+def tension_of(stiffness, damping, stretch, rate, least):
+    """(tension, its elastic part) of one half at height h_m: of twice the stiffness and damping of the rope, not below `least`."""
+    elastic = 2.0 * stiffness * stretch
+    if real(elastic) <= real(least):
+        return least, 0.0 * least
+    tension = elastic + 2.0 * damping * rate
+    if real(tension) < real(least):
+        tension = 0.0 * tension + least
     return tension, elastic
+
+
+@leaf
+def least_of(density, low, mean):
+    """Tension at height h_m of a half that is slack: above h_m it pulls there by less than nothing before its lowest place is slack."""
+    least = density * (mean - low)
+    return least if real(least) < 0.0 else 0.0 * least
 
 
 @family
@@ -214,7 +227,7 @@ def apply(machine, number, t):
         find_parts(numbers, count)
         if let_off(machine, k):
             find_parts(numbers, count)
-        first, second, heavy = ways(machine, k)
+        first, second, heavy, low, other_low = ways(machine, k)
         travel, run = elements.state[index[own + TRAVEL]], elements.state[index[own + RUN]]
         length, speed = 0.0 * first + numbers[UNSTRESSED], 0.0 * first
         if index[LENGTH] != NONE:
@@ -223,10 +236,11 @@ def apply(machine, number, t):
             elements.state_rate[index[LENGTH]] += speed
         ahead, its_rate = first + travel - (length - numbers[base + BEHIND]), rate_along(machine, k, n, True)
         behind, other_rate = second - travel - numbers[base + BEHIND], rate_along(machine, k, n, False)
-        one, one_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], ahead, its_rate + run - speed)
-        two, two_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], behind, other_rate - run)
         per_length, way = numbers[base + PER_LENGTH], first + second
         mass, mean = per_length * length, heavy / way
+        least, other_least = least_of(mass / way, low, mean), least_of(mass / way, other_low, mean)
+        one, one_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], ahead, its_rate + run - speed, least)
+        two, two_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], behind, other_rate - run, other_least)
         elements.state_rate[index[own + TRAVEL]] += run
         elements.state_rate[index[own + RUN]] += (two - one) / mass
         act(machine, k, n, one, two, mass / way, mean)

@@ -71,6 +71,20 @@ def step_to_balance(H, shift, floor, gx, gy, gz):
     return True, -x, -y, -z
 
 
+@leaf
+def step_from_saddle(H, floor, gx, gy, gz):
+    """-H⁻¹ g by cofactors, where H is not positive definite; whether no direction is without stiffness."""
+    a, b, c, d, e, f = H
+    xx, xy, xz, yy, yz, zz = d * f - e * e, c * e - b * f, b * e - c * d, a * f - c * c, b * c - a * e, a * d - b * b
+    whole = a * xx + b * xy + c * xz
+    if not abs(whole) > floor * max(abs(xx), abs(yy), abs(zz)):
+        return False, gx, gy, gz
+    x = (xx * gx + xy * gy + xz * gz) / whole
+    y = (xy * gx + yy * gy + yz * gz) / whole
+    z = (xz * gx + yz * gy + zz * gz) / whole
+    return True, -x, -y, -z
+
+
 @stage
 def balance(machine, k):
     """Where the springs of element k balance, from where they last did: (x, y, z) as numbers."""
@@ -116,6 +130,9 @@ def refined(machine, k, x, y, z):
         gx, gy, gz = gx + T * ux, gy + T * uy, gz + T * uz
     stiff = real(numbers[STIFF])
     found, dx, dy, dz = step_to_balance((xx, xy, xz, yy, yz, zz), 0.0, NO_PIVOT * stiff, gx, gy, gz)
+    if not found:
+        # symmetry holds it where its springs push, as in a plane
+        found, dx, dy, dz = step_from_saddle((xx, xy, xz, yy, yz, zz), NO_PIVOT * stiff, gx, gy, gz)
     if not found:
         # a direction without stiffness: the node stays in it
         found, dx, dy, dz = step_to_balance((xx, xy, xz, yy, yz, zz), SHIFT * stiff, 0.0, gx, gy, gz)

@@ -190,7 +190,8 @@ def test_a_node_between_springs_that_push_has_exact_slopes():
     """Out of the plane the springs push it away, so its energy is at a saddle: its slopes are those of the balance all the same."""
     free = (1.1, 1.15, 0.7)
     names = ["forces.star.stiffness.0", "forces.star.free_length.2"]
-    found = machine(star(free_length=list(free))).gradient(["force.star.x", "force.star.y"], names, duration=1e-5, step=1e-5, integrator="rk4")
+    outputs, run = ["force.star.x", "force.star.y"], {"duration": 1e-5, "step": 1e-5, "integrator": "rk4"}
+    found = machine(star(free_length=list(free))).gradient(outputs, names, **run)
     for name, change in zip(names, (np.array([4.0, 0.0, 0.0]), np.array([0.0, 0.0, 1e-3])), strict=True):
         at = [
             balanced(-0.6, STIFFNESS + sign * change, free)[0]

@@ -8,7 +8,9 @@ that of `nivel.kernels.forces.wound_rope`, both halves are springs of twice the 
 so wound turns turn with their drums, and free parts move along their directions; inertia across the way is left out. A winch feeds L_A with
 rope that runs already. The weight spreads over the way s = s_A + s_B, h the height of a place times g:
 
-    V = M h_m,   h_m = (Σ L (h_a + h_b)/2 + Σ |r| θ h)/s
+    V = M h_m,   h_m = (Σ L (h_P + h_Q)/2 + Σ (|r| θ h - r² (u_out - u_in)·∇h))/s
+
+with the ends P, Q of the free parts on their wheels, at c + r u × n, and their directions u. Turns on drums count at the axle.
 
 The tension of a rope without friction grows by m' g times its height: that is what ∂V gives, with half the weight of a free part at each
 end.
@@ -34,6 +36,8 @@ from nivel.kernels.forces.wound_rope import (
     STIFFNESS,
     UNSTRESSED,
     USED,
+    UX,
+    UY,
     WIDTH,
     X,
     Y,
@@ -59,13 +63,16 @@ PER_LENGTH, BEHIND = 0, 1
 
 
 @leaf
-def gradient(a, b, on_part, on_first, on_last):
-    """∂/∂d of w L + arcs at both ends, each with its weight, in the plane (x, y) and along the axis; and L."""
+def gradient(a, b, on_part, on_first, on_last, rise):
+    """∂/∂d of w L + arcs at both ends, each with its weight, in the plane (x, y) and along the axis; and L.
+
+    `rise`: weight of the mean height of L as the free part turns about the axis.
+    """
     dx, dy, z, rho = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z], b[USED] - a[USED]
     square = dx * dx + dy * dy
     length, _, _ = tangent(dx, dy, rho)
     whole = np.sqrt(length * length + z * z)
-    turned = on_last * b[USED] - on_first * a[USED]
+    turned = on_last * b[USED] - on_first * a[USED] - rise * whole
     fx = on_part * dx / whole - turned * (rho * dx / length - dy) / square
     fy = on_part * dy / whole - turned * (rho * dy / length + dx) / square
     return fx, fy, on_part * z / whole, whole
@@ -76,6 +83,15 @@ def height(bodies, own):
     """Height of a place times g [m²/s²]."""
     g = bodies.gravity
     return -(g[0] * own[CENTRE] + g[1] * own[CENTRE + 1] + g[2] * own[CENTRE + 2])
+
+
+@leaf
+def slopes(bodies, A, own):
+    """Rise of h along the free part that leaves a place, in the plane of the axis, and along u × n, from the centre to the rope [m/s²]."""
+    g, ux, uy = bodies.gravity, own[UX], own[UY]
+    gx = -(g[0] * A[0, 0] + g[1] * A[1, 0] + g[2] * A[2, 0])
+    gy = -(g[0] * A[0, 1] + g[1] * A[1, 1] + g[2] * A[2, 1])
+    return ux * gx + uy * gy, uy * gx - ux * gy
 
 
 @leaf
@@ -101,7 +117,7 @@ def rate_along(machine, k, n, before):
         part = 1.0 if (i <= p) == before else 0.0
         first = 1.0 if is_before(j, p) == before else 0.0
         last = 1.0 if is_before(i, p) == before else 0.0
-        fx, fy, fz, _ = gradient(a, b, part, first, last)
+        fx, fy, fz, _ = gradient(a, b, part, first, last, 0.0)
         dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
         tx, ty = fz * dx - z * fx, fz * dy - z * fy
         v = velocity_of(bodies, markers.body[index[FIRST + i]], b)
@@ -123,23 +139,24 @@ def rate_along(machine, k, n, before):
 def ways(machine, k):
     """(s_A, s_B, Σ length · h) of the way as its places are laid out, and the least h up to p and behind it."""
     record = record_at(machine)
-    bodies, elements = record.bodies, record.elements
+    bodies, markers, elements = record.bodies, record.markers, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
     p = np.int64(index[FIRST + count + PAST])
     first, second, heavy = 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS]
-    low, other_low = height(bodies, numbers[PLACES : PLACES + WIDTH]), 0.0 * heavy
-    before, j = 0, 0
+    A, end = markers.A[index[AXIS]], numbers[PLACES + WIDTH * (count - 1) : PLACES + WIDTH * count]
+    low, other_low = height(bodies, numbers[PLACES : PLACES + WIDTH]), height(bodies, end)
+    into, before, j = 0.0 * heavy, 0, 0
     while j < count:
         own = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
-        h = height(bodies, own)
-        if j <= p and real(h) < real(low):
-            low = h
-        if j == p or (j > p and real(h) < real(other_low)):
-            other_low = h
+        h, along, out = height(bodies, own), 0.0 * heavy, 0.0 * heavy
+        if j < count - 1:
+            along, out = slopes(bodies, A, own)
         if real(own[USED]) != 0.0:
             r = own[USED] if real(own[USED]) > 0.0 else -own[USED]
             arc = r * arc_at(machine, k, j, before)
             heavy += arc * h
+            if 0 < j < count - 1:
+                heavy -= r * r * (along - into)
             if is_before(j, p):
                 first += arc
             else:
@@ -147,13 +164,19 @@ def ways(machine, k):
         i = next_touched(numbers, j, count) if j < count - 1 else count
         if i < count:
             b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
-            _, _, _, whole = gradient(own, b, 0.0, 0.0, 0.0)
-            heavy += whole * 0.5 * (h + height(bodies, b))
+            _, _, _, whole = gradient(own, b, 0.0, 0.0, 0.0, 0.0)
+            ha, hb = h + own[USED] * out, height(bodies, b) + b[USED] * out
+            lower = ha if real(ha) < real(hb) else hb
+            heavy += whole * 0.5 * (ha + hb)
             if i <= p:
                 first += whole
+                if real(lower) < real(low):
+                    low = lower
             else:
                 second += whole
-        before, j = j, i
+                if real(lower) < real(other_low):
+                    other_low = lower
+        into, before, j = along, j, i
     return first, second, heavy, low, other_low
 
 
@@ -167,8 +190,10 @@ def act(machine, k, n, ahead, behind, density, mean):
     g, before, j = bodies.gravity, 0, 0
     while j < count:
         a = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
-        ba, ha = markers.body[index[FIRST + j]], height(bodies, a) - mean
-        on_first = (ahead if is_before(j, p) else behind) + density * ha
+        ba, ha, along, out = markers.body[index[FIRST + j]], height(bodies, a) - mean, 0.0 * mean, 0.0 * mean
+        if j < count - 1:
+            along, out = slopes(bodies, A, a)
+        on_first = (ahead if is_before(j, p) else behind) + density * (ha + a[USED] * out if j > 0 else ha)
         if real(a[USED]) != 0.0:
             r = a[USED] if real(a[USED]) > 0.0 else -a[USED]
             m = density * r * arc_at(machine, k, j, before)
@@ -180,9 +205,10 @@ def act(machine, k, n, ahead, behind, density, mean):
         if i < count:
             b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
             bb, hb = markers.body[index[FIRST + i]], height(bodies, b) - mean
-            on_last = (ahead if is_before(i, p) else behind) + density * hb
-            on_part = (ahead if i <= p else behind) + density * 0.5 * (ha + hb)
-            fx, fy, fz, whole = gradient(a, b, on_part, on_first, on_last)
+            on_last = (ahead if is_before(i, p) else behind) + density * (hb + b[USED] * out if i < count - 1 else hb)
+            both = 0.5 * (a[USED] + b[USED])
+            on_part = (ahead if i <= p else behind) + density * (0.5 * (ha + hb) + both * out)
+            fx, fy, fz, whole = gradient(a, b, on_part, on_first, on_last, density * both * along)
             dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
             gx, gy = A[0, 0] * fx + A[0, 1] * fy + fz * n[0], A[1, 0] * fx + A[1, 1] * fy + fz * n[1]
             gz, m = A[2, 0] * fx + A[2, 1] * fy + fz * n[2], 0.5 * density * whole
@@ -192,19 +218,38 @@ def act(machine, k, n, ahead, behind, density, mean):
             tilt = A[0, 0] * tx + A[0, 1] * ty, A[1, 0] * tx + A[1, 1] * ty, A[2, 0] * tx + A[2, 1] * ty
             c = cross(n, tilt)
             add_torque(bodies, carrier, -c[0], -c[1], -c[2])
+            # weight beside the centres tilts the wheels
+            off, ahead_of = whole * both, 0.0 * both
+            if j > 0:
+                ahead_of -= a[USED] * a[USED]
+            if i < count - 1:
+                ahead_of += b[USED] * b[USED]
+            sx, sy = off * a[UY] + ahead_of * a[UX], ahead_of * a[UY] - off * a[UX]
+            c = cross(
+                (A[0, 0] * sx + A[0, 1] * sy, A[1, 0] * sx + A[1, 1] * sy, A[2, 0] * sx + A[2, 1] * sy),
+                (g[0], g[1], g[2]),
+            )
+            about = c[0] * n[0] + c[1] * n[1] + c[2] * n[2]
+            add_torque(
+                bodies,
+                carrier,
+                density * (c[0] - about * n[0]),
+                density * (c[1] - about * n[1]),
+                density * (c[2] - about * n[2]),
+            )
         before, j = j, i
 
 
 @leaf
 def tension_of(stiffness, damping, stretch, rate, least):
-    """(tension, its elastic part) of one half at height h_m: of twice the stiffness and damping of the rope, not below `least`."""
+    """(tension, its elastic part, energy) of one half at height h_m: of twice the stiffness and damping of the rope, not below `least`."""
     elastic = 2.0 * stiffness * stretch
     if real(elastic) <= real(least):
-        return least, 0.0 * least
+        return least, 0.0 * least, 0.25 * least * least / stiffness
     tension = elastic + 2.0 * damping * rate
     if real(tension) < real(least):
         tension = 0.0 * tension + least
-    return tension, elastic
+    return tension, elastic, 0.5 * elastic * stretch
 
 
 @leaf
@@ -239,12 +284,16 @@ def apply(machine, number, t):
         per_length, way = numbers[base + PER_LENGTH], first + second
         mass, mean = per_length * length, heavy / way
         least, other_least = least_of(mass / way, low, mean), least_of(mass / way, other_low, mean)
-        one, one_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], ahead, its_rate + run - speed, least)
-        two, two_elastic = tension_of(numbers[STIFFNESS], numbers[DAMPING], behind, other_rate - run, other_least)
+        one, one_elastic, one_stored = tension_of(
+            numbers[STIFFNESS], numbers[DAMPING], ahead, its_rate + run - speed, least
+        )
+        two, two_elastic, two_stored = tension_of(
+            numbers[STIFFNESS], numbers[DAMPING], behind, other_rate - run, other_least
+        )
         elements.state_rate[index[own + TRAVEL]] += run
         elements.state_rate[index[own + RUN]] += (two - one) / mass
         act(machine, k, n, one, two, mass / way, mean)
-        control.stored[0] += 0.5 * (one_elastic * ahead + two_elastic * behind) + 0.5 * mass * run * run + mass * mean
+        control.stored[0] += one_stored + two_stored + 0.5 * mass * run * run + mass * mean
         # the winch pulls, and feeds rope that runs and is high
         control.power[0] += speed * (per_length * (0.5 * run * run + mean) - one)
         control.power[1] += (one - one_elastic) * (its_rate + run - speed) + (two - two_elastic) * (other_rate - run)

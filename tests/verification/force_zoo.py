@@ -245,6 +245,8 @@ CASES = {
                          "stiffness": [60, 40, 80, 30], "free_length": [0.1, 0.3, 0.2, 0.1]}),
     "spring node, slack": Case({"type": "spring-node", "node": [0.3, 0.2, 0.1], "markers": ["tip", "floor", "eye"],
                                 "stiffness": [60, 40, 80], "free_length": [0.1, 9.0, 0.2], "only_pulls": True}),
+    "spring node, all slack": Case({"type": "spring-node", "node": [0.3, 0.2, 0.1], "markers": ["tip", "floor", "eye"],
+                                    "stiffness": [60, 40, 80], "free_length": [9.0, 9.0, 9.0], "only_pulls": True}),
     "rope": Case({"type": "rope", "markers": ["tip", "floor", "eye"], "stiffness": 60, "damping": 2, "length": 1.0}),
     "rope, slack": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 2, "length": 9.0}),
     "winch": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 1, "length": 0.3,

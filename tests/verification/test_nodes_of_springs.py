@@ -199,7 +199,7 @@ def test_a_node_between_springs_that_push_has_exact_slopes():
             else balanced(-0.6, STIFFNESS, np.array(free) + sign * change)[0]
             for sign in (-1.0, 1.0)
         ]
-        slope = (at[1] - at[0]) / (2.0 * change.max())
+        slope = np.subtract(at[1], at[0]) / (2.0 * change.max())
         np.testing.assert_allclose([float(found[f"d(force.star.{axis})/d({name})"]) for axis in "xy"], slope, rtol=1e-4)
 
 

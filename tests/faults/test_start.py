@@ -92,3 +92,20 @@ def test_a_ball_begins_at_rest_on_a_plane_with_friction(friction):
     depth = (20 * 9.81 / 1e6) ** (2 / 3)
     assert result.array("ball.position")[:, 2] == pytest.approx(0.3 - depth, abs=1e-9)
     assert abs(result.array("ball.velocity")).max() < 1e-8
+
+
+def test_friction_that_alone_holds_a_body_is_told_where_no_equilibrium_is_found():
+    """A box on a slope lies still in a run; equilibria have no friction of contacts."""
+    sections = {
+        "gravity": [0, 0, -9.81],
+        "bodies": {"box": {"shape": {"type": "box", "size": [0.3, 0.2, 0.2]}, "mass": 2, "position": [0, 0, 0.1]}},
+        "forces": {
+            "floor": {
+                **{"type": "contact", "body": "box", "plane": {"body": "ground", "axis": [0.1, 0, 1]}},
+                **{"stiffness": 1e5, "exponent": 1, "restitution": 0.3, "friction": 0.5},
+            }
+        },
+        "simulation": {"duration": 0.05, "start": "equilibrium"},
+    }
+    with pytest.raises(nivel.SolveError, match="begins with `start: as-given`"):
+        machine(sections).simulate(verify=False)

@@ -79,6 +79,8 @@ MISTAKES = {
     "spring": ("type: force", "type: spring", 12, RATHER.format("spring-damper")),
     "a controller": ("type: force", "type: pid", 12, RATHER.format("servo")),
     "gravity as a force": ("type: force", "type: gravity", 12, "`gravity: [0, 0, -9.81]`"),
+    "t compared": ("vector: [1, 0, 0]", 'vector: ["if(t > 3, 5, 0)", 0, 0]', 12, "the time is written `time`"),
+    "t in a bell": ("vector: [1, 0, 0]", "vector: [exp(-((t - 7)/0.2)^2), 0, 0]", 12, "the time is written `time`"),
     "t for time": ("vector: [1, 0, 0]", "vector: [5 * t, 0, 0]", 12, "the time is written `time`"),
     "unit behind a list": ("[0.5, 0, 0]", "[500, 0, 0] mm", 7, "`[500 mm, 0, 0]`"),
     "numbers without brackets": ("[0.5, 0, 0]", "0.5 0 0", 7, "write `position: [0.5, 0, 0]`"),

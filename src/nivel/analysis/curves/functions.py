@@ -10,6 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
@@ -146,6 +147,27 @@ class LawCurve:
 
 
 @dataclass(frozen=True)
+class TurningCurve:
+    """The angle of a coupling by inverse tangents, which goes on over turns along the time. It has no bounds: those of an inverse
+    tangent are half a turn wide wherever a tangent has a pole."""
+
+    curve: ExpressionCurve
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        return self.curve.signals
+
+    def values(self, known: Mapping[str, Array]) -> Array:
+        """Without jumps of whole turns from one time to the next."""
+        values, order = np.nan_to_num(self.curve.values(known)), np.argsort(known[TIME], kind="stable")
+        values[order] = np.unwrap(values[order])
+        return values
+
+    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+        return None
+
+
+@dataclass(frozen=True)
 class SideOf:
     """The sign of a curve, as an event has it."""
 
@@ -170,15 +192,17 @@ def varying(machine: MachineRecord, *, sampled: bool = False) -> Iterator[Varyin
 
     sampled : those that are looked at in samples only, or those that are looked at in every step.
     """
+    turning = {each.name for each in machine.couplings if isinstance(each, FunctionCoupling) and each.counts_turns}
     for each in machine.functions:
         function = each.function
         if (each.sampling is not None) == sampled and not (
             isinstance(function, Expression) and linear_function(function.tree) is not None
         ):
+            turns = each.section == "couplings" and each.part in turning and isinstance(function, Expression)
             yield Varying(
                 each.name,
                 f"{OF.get(each.section, each.section)}.{each.part}",
-                _curve(function, each.motion),
+                TurningCurve(ExpressionCurve(function)) if turns else _curve(function, each.motion),
                 each.sampling,
                 each.motion,
             )

@@ -20,6 +20,7 @@ from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.errors import Fault, ModelError, SolveError
+from nivel.machine.forces import Contact, Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.system.system import Array
@@ -72,6 +73,15 @@ def methods_at_rest(machine: MachineRecord) -> Methods:
     return methods_of(for_statics(machine, SETTINGS)[0])
 
 
+def _about_friction(machine: MachineRecord) -> str:
+    """What to do where friction of contacts, which no equilibrium has, would hold a body."""
+    if any(isinstance(each, Contact | Contacts) and each.friction for each in machine.forces):
+        return (
+            " Friction of contacts holds nothing in an equilibrium: what it alone holds begins with `start: as-given`."
+        )
+    return ""
+
+
 def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
     """The equilibrium of `machine` at t = 0; given : it is built and assembled already, with a record that may be changed.
 
@@ -83,6 +93,7 @@ def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
         found = settle(equations, equations.start(prepared.start), Iteration())
     except EquilibriumError as error:
         message, advice = no_start(equations, error)
+        advice += _about_friction(machine)
         raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice) from None
     except StateError:
         raise SolveError("the forces at t = 0 are not numbers", time=0.0, advice="Look at their laws.") from None
@@ -90,6 +101,7 @@ def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
     free = loose is not None and is_mechanism(loose)
     if loose is not None and free and not of_whole(equations, found.state, found.tangent).alone:
         message, advice = without_stiffness(equations, found.state, loose)
+        advice += _about_friction(machine)
         raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice)
     equations.follow(found.state)
     reference = equations.record.coordinates.reference.copy()

@@ -91,5 +91,5 @@ class Contacts(ForceElement):
         elif self.friction_transition_speed is not None:
             yield superfluous("friction_transition_speed", "belongs to `friction_model: coulomb`")
         elif len(set(self.between)) == len(self.between) != 1:
-            message = "`contacts` stick between spheres of the same file, where each pair becomes a `contact`; in Python write these"
+            message = "`contacts` stick between spheres of the same file, where each pair becomes a `contact`; write these otherwise"
             yield Problem(("friction_model",), message)

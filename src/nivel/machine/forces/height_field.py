@@ -12,12 +12,15 @@ from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
+from nivel.machine.laws.time_function import check_varying
 from nivel.machine.units.arithmetic import evaluate, render
+from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import (
     Length,
     PositiveLength,
     Whole,
     bound_tree,
+    check_kind,
     expression_fault,
     fault,
     listed,
@@ -25,11 +28,21 @@ from nivel.machine.units.quantity import (
     reported,
     shown,
 )
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError, UnknownNameError
+from nivel.machine.units.tree import (
+    ExpressionError,
+    FaultyParameterError,
+    Node,
+    Parameters,
+    Time,
+    UnknownNameError,
+    leaves,
+    varies,
+)
 
 FEWEST, MOST = 3, 250_000  # heights along a side, and in all
 POINTS: Final = (101, 101)
 PLACE: Final = ("x", "y")
+NAMES: Final = "the place on the plane has the names `x` and `y` [m], as in `0.1*(x^2 + y^2)`"
 
 
 def _of_place(value: Any, info: ValidationInfo) -> str | None:
@@ -38,15 +51,31 @@ def _of_place(value: Any, info: ValidationInfo) -> str | None:
         return None
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise fault(f"an expression of `x` and `y` was expected, as in `0.1*x^2`, got {shown(value)}")
+    text, parameters = str(value).strip(), parameters_of(info)
     try:
-        return render(bound_tree(str(value), parameters_of(info), PLACE))
-    except UnknownNameError as problem:
-        said = f"{problem}; the place on the plane has the names `x` and `y` [m], as in `0.1*(x^2 + y^2)`"
-        raise expression_fault(ExpressionError(said), value, parameters_of(info)) from None
+        return render(_height(text, parameters))
     except ExpressionError as problem:
-        raise expression_fault(problem, value, parameters_of(info)) from None
+        raise expression_fault(problem, value, parameters) from None
     except FaultyParameterError:
         raise reported() from None
+
+
+def _height(text: str, parameters: Parameters) -> Node:
+    """`text` as a length that varies with x and y only. Raises ExpressionError, of another name or a unit in their place with them."""
+    try:
+        tree = bound_tree(text, parameters, PLACE)
+    except UnknownNameError as problem:
+        raise ExpressionError(f"{problem}; {NAMES}") from None
+    if any(isinstance(each, Time) for each in leaves(tree)):
+        raise ExpressionError(f"ground does not change with the time; {NAMES}")
+    if varies(tree):
+        check_varying(tree, text, "length", parameters, PLACE)
+        return tree
+    try:
+        check_kind(text, measure(tree), "length")
+    except ExpressionError as problem:
+        raise ExpressionError(f"{problem}; {NAMES}") from None
+    return tree
 
 
 class HeightField(Checked):

@@ -21,7 +21,7 @@ from nivel.machine.laws.time_function import TimeFunction, signals_of
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.quantity import Length, PositiveLength, Scalar
-from nivel.machine.units.tree import ExpressionError, Lookup, Node, Number, Signal
+from nivel.machine.units.tree import Call, ExpressionError, Lookup, Node, Number, Signal, parts
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind
 
 Terms = tuple[tuple[str, float], ...]
@@ -176,6 +176,11 @@ class FunctionCoupling(Checked):
         return (None,) * len(self.terms)
 
     @cached_property
+    def counts_turns(self) -> bool:
+        """Whether `value` has inverse tangents, which come back after a turn while the coordinate, if it is an angle, goes on."""
+        return not self.from_start and isinstance(self.value, Expression) and _has_inverse_tangents(self.value.tree)
+
+    @cached_property
     def slopes(self) -> dict[tuple[str, ...], Table | Expression | float]:
         """The derivatives of `value`, first by one coordinate (q,), then by two (q, r) in the order of `coordinates`; those that are
         zero are left out. A cubic table stands for its own derivatives: its pieces are differentiated.
@@ -223,6 +228,11 @@ def _tree(value: TimeFunction) -> Node:
                 "a function in Python has no exact derivatives; write an expression or a smooth table"
             )
     return Number(float(value))
+
+
+def _has_inverse_tangents(node: Node) -> bool:
+    own = isinstance(node, Call) and node.function in ("atan", "atan2")
+    return own or any(_has_inverse_tangents(part) for part in parts(node))
 
 
 def _function(node: Node) -> Expression | float:

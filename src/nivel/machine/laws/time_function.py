@@ -35,6 +35,7 @@ from nivel.machine.units.quantity import (
     refuse_celsius,
     reported,
 )
+from nivel.machine.units.slips import is_tonne_compared
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Parameters, varies
 
 TimeFunction = float | Table | Expression | PythonLaw
@@ -86,18 +87,28 @@ def _is_law(given: Mapping[Any, object]) -> bool:
 
 def _read_text(text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> float | Expression:
     refuse_celsius(text, kind)
+    if is_tonne_compared(text, (*parameters, *local)):
+        raise ExpressionError("a mass is compared with a number")
     tree = bound_tree(text, parameters, local)
     if not varies(tree):
         return _read_constant(text, kind, parameters)
+    check_varying(tree, text.strip(), kind, parameters, local)
+    return Expression(render(fold(tree)))
+
+
+def check_varying(tree: Node, text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> None:
+    """Refuse an expression `text` of variables, read as `tree`, that is not of `kind`.
+
+    Raises ExpressionError, with the line to write where plain numbers lack units.
+    """
     try:
-        _check_kind_of_varying(tree, text.strip(), kind)
+        _check_kind_of_varying(tree, text, kind)
     except ExpressionError as problem:
 
         def accepts(other: str, parameters: Parameters) -> None:
             _check_kind_of_varying(bound_tree(other, parameters, local), other, kind)
 
-        raise lacking_unit(problem, text.strip(), kind, parameters, local, accepts) from None
-    return Expression(render(fold(tree)))
+        raise lacking_unit(problem, text, kind, parameters, local, accepts) from None
 
 
 def _read_constant(text: str, kind: Kind, parameters: Parameters) -> float:

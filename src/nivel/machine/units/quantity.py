@@ -24,7 +24,7 @@ from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
 from nivel.machine.units.plain_factors import completed, with_bodies
 from nivel.machine.units.shared_names import shared_names_hint
-from nivel.machine.units.slips import in_kelvin, slip
+from nivel.machine.units.slips import in_kelvin, is_time_meant, slip
 from nivel.machine.units.tree import (
     ExpressionError,
     FaultyParameterError,
@@ -162,6 +162,8 @@ def lacking_unit(
 
     accepts : raises ExpressionError for a text that is still wrong
     """
+    if is_time_meant(text, (*parameters, *local)):
+        return problem
     wanted = tuple(KINDS[one][2] for one in kinds_of(kind))
     answer = completed(text, parameters, tuple(local), wanted, accepts, constant=constant)
     if answer is None:

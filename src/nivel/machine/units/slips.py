@@ -35,6 +35,7 @@ _ANSWERS: Final = (
 )  # fmt: skip
 
 
+_BARE_T: Final = r"(?<![\w.])(?<!\d )t(?![\w.(])"  # no unit behind a number
 _PART: Final = r"k?Nm(?!m)|[kMm]?N|[kMG]?Pa|bar|k?J|k?W|kg|[mck]?m|rad|deg|min|[sghNt]|\d"
 _OF_FORCE: Final = r"[kMm]?N|[kMG]?Pa|bar|k?J|k?W"  # before an `s` that is no plural
 
@@ -63,6 +64,16 @@ def in_kelvin(text: str) -> str:
     return f"{round(degrees + 273.15, 4):g} K"
 
 
+def is_tonne_compared(text: str, taken: Collection[str]) -> bool:
+    """Whether a bare `t` is compared, as in `if(t > 3, 1, 0)`: in plain SI numbers that makes sense, of a thousand kilograms."""
+    return "t" not in taken and re.search(rf"{_BARE_T}\s*[<>]|[<>]=?\s*{_BARE_T}", text) is not None
+
+
+def is_time_meant(text: str, taken: Collection[str]) -> bool:
+    """Whether `t` stands for the time, as it is behind no number and no parameter."""
+    return "t" not in taken and bool(re.search(_BARE_T, text)) and not re.search(r"\d\s*t\b", text)
+
+
 def slip(text: str, taken: Collection[str] = ()) -> str:
     """What is meant by a usual slip in the expression `text`, as the end of the message on it; empty where none is seen.
 
@@ -70,7 +81,7 @@ def slip(text: str, taken: Collection[str] = ()) -> str:
     """
     if re.fullmatch(r"\s*[-+]?\d+,\d+(\s.*)?", text):
         return f"; write `{text.strip().replace(',', '.')}`: decimals stand behind a point"
-    if "t" not in taken and re.search(r"(?<![\w.])t(?![\w.(])", text) and not re.search(r"\d\s*t\b", text):
+    if is_time_meant(text, taken):
         return " (`t` is the unit tonne; the time is written `time`)"
     found = ((re.search(pattern, text), answer) for pattern, answer in _ANSWERS)
     return next((answer for match, answer in found if match and match[0] not in taken), "")

@@ -13,7 +13,7 @@ from nivel.machine.joints.joint import Joint
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.expression import Expression, expression_of
-from nivel.machine.units.tree import Call, Node, Number, Operation, Signal, parts
+from nivel.machine.units.tree import Call, Number, Operation, Signal
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.system.builder import SystemBuilder
 from nivel.system.joints.composition import (
@@ -281,19 +281,12 @@ def _counted(builder: SystemBuilder, coupling: FunctionCoupling) -> TimeFunction
     """The value that a coordinate follows, g; of an angle b by inverse tangents g + 2π n with the whole n that is nearest to b, as these
     come back after a turn while b goes on."""
     g, index = coupling.value, builder.coordinate(coupling.coordinate)
-    if not isinstance(g, Expression) or not _has_inverse_tangents(g.tree):
-        return g
-    if coupling.from_start or units_of(builder, index) != "rad":
+    if not isinstance(g, Expression) or not coupling.counts_turns or units_of(builder, index) != "rad":
         return g
     path = next(name for name, each in builder.joint_coordinates.items() if each == index)
     turns = Operation("/", Operation("-", Signal(path), g.tree), Number(TURN))
     nearest = Call("floor", (Operation("+", turns, Number(0.5)),))
     return expression_of(Operation("+", g.tree, Operation("*", Number(TURN), nearest)))
-
-
-def _has_inverse_tangents(node: Node) -> bool:
-    own = isinstance(node, Call) and node.function in ("atan", "atan2")
-    return own or any(_has_inverse_tangents(part) for part in parts(node))
 
 
 def _smooth(builder: SystemBuilder, function: TimeFunction, order: int) -> int:

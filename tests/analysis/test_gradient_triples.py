@@ -91,6 +91,30 @@ joints:
 simulation: {duration: 40 ms, step: 1 ms, output_interval: 5 ms}
 """
 
+WOUND = """
+format: 1
+name: wound
+parameters: {inertia: 0.05, k: 8e-3}
+gravity: [0, 0, -9.81]
+bodies: {wheel: {mass: 1, inertia: [inertia, inertia, 0.02], centre_of_mass: [0.02, 0, 0], angular_velocity: [0, 30, 0]}}
+joints: {pin: {type: revolute, bodies: [ground, wheel], point: [0, 0, 0], axis: [0, 1, 0]}}
+forces: {coil: {type: joint-spring-damper, coordinate: pin, law: "k*value^3 + 0.01*rate"}}
+simulation: {duration: 0.5 s, step: 1 ms, output_interval: 10 ms}
+"""
+
+STICKING = """
+format: 1
+name: sticking
+parameters: {mu: 0.3, speed: 1.0}
+gravity: [0, 0, -9.81]
+bodies: {block: {mass: 2, inertia: [1, 1, 1], velocity: [speed, 0, 0]}}
+joints: {rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}}
+forces:
+  rub: {type: friction, coordinate: rail.displacement, model: stiction, coefficient: mu}
+  spring: {type: joint-spring-damper, coordinate: rail, stiffness: 40, damping: 0.1}
+simulation: {duration: 0.5 s, step: 1 ms, output_interval: 10 ms}
+"""
+
 SLIDING = """
 format: 1
 name: sliding
@@ -280,6 +304,28 @@ CASES = {
             "alpha": CLOSE | {"integrator": "generalised-alpha"},
             "radau": EXACT | {"integrator": "radau"},
         },
+    ),
+    # a law of an angle that is followed over turns
+    "wound": Case(
+        WOUND,
+        ("pin.angle", "kinetic_energy"),
+        ("parameters.k", "parameters.inertia"),
+        {
+            "ros2": RELATIVE | {"integrator": "ros2"},
+            "ros2, absolute": ABSOLUTE | {"integrator": "ros2"},
+            "radau": EXACT | {"integrator": "radau"},
+        },
+        step=1e-4,
+    ),
+    "stiction": Case(
+        STICKING,
+        ("rail.displacement", "dissipated_energy"),
+        ("parameters.mu", "parameters.speed"),
+        {
+            "rk4": {"integrator": "rk4"},
+            "alpha, chosen": {"integrator": "generalised-alpha", "step_control": "error", "tolerance": 1e-7},
+        },
+        step=1e-5,
     ),
     "contact": Case(
         PRESSED,

@@ -37,8 +37,9 @@ class WholeLoop:
             hooks=twin.hooks._replace(address=_wholly(machine.hooks.address)),
             elements=twin.elements._replace(address=_wholly(machine.elements.address)),
             functions=twin.functions._replace(address=np.array(laws, dtype=np.uint64)),
-            # the elements that hold sliders are those of the twin too by which Newton's matrix is found
+            # what the twin by which Newton's matrix is found shares: elements that hold sliders, whether contacts keep their side
             tree=twin.tree._replace(element=machine.tree.element),
+            watched=twin.watched._replace(followed=machine.watched.followed),
         )
         self.run: Any = whole_twin(loop.history.record)
         self._handles = Handle(self.machine), Handle(self.run)

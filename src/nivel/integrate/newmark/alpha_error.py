@@ -62,7 +62,7 @@ def keep_slow(machine, t, x):
     record = record_at(machine)
     newton, here = record.newton, record.residual
     b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
-    twin, moving = load_twin(newton, here)
+    twin, moving = load_twin(machine)
     for k in range(n):
         moving.vdot[k] += unit(0, real(x[k]))
     status = call_family(newton.address[1], twin, 0, t)

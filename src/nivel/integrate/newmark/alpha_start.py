@@ -169,7 +169,7 @@ def keep_fast(machine, run, t, cq, coefficients, x):
     record, cv, cx = record_at(machine), coefficients[1], coefficients[2]
     newton, here = record.newton, record.residual
     b, n, states = newton.b, here.vdot.shape[0], newton.state.shape[0]
-    twin, moving = load_twin(newton, here)
+    twin, moving = load_twin(machine)
     for k in range(n + states):
         move_unknown(newton, moving, k, unit(0, real(x[k])), cq, cv, cx)
     for k in range(n):
@@ -182,7 +182,7 @@ def keep_fast(machine, run, t, cq, coefficients, x):
     for k in range(n + states, b.shape[0]):
         b[k] = 0.0
     if is_whole(machine):
-        twin, moving = load_twin(newton, here)
+        twin, moving = load_twin(machine)
         for k in range(n + states):
             move_unknown(newton, moving, k, x[k] - real(x[k]), cq, cv, cx)
         for k in range(n):

@@ -24,7 +24,7 @@ def find_time_slope(machine, t, out):
     """out := ∂/∂t of all entries of `residual.value`, of functions of time alone. Returns a status."""
     record = record_at(machine)
     newton = record.newton
-    twin, moving = load_twin(newton, record.residual)
+    twin, moving = load_twin(machine)
     status = call_family(newton.address[1], twin, 0, t + unit(0, 1.0))
     if status != OK:
         return status

@@ -92,7 +92,7 @@ def add_slopes(machine, t, r, s):
     """Add to newton.b, the right-hand side for the value of r, what its slopes ask for: all of them in one evaluation. Returns a status."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
-    twin, moving = load_twin(newton, residual)
+    twin, moving = load_twin(machine)
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
     move_along(newton, residual, moving, r, s, True)
     status = call_family(newton.address[1], twin, 0, t)
@@ -111,7 +111,7 @@ def solve_shifted(machine, t, r, s, ahead):
     """Overwrite r (ny,) with x, the solution of (1 - s ∂f/∂y) x = r + s ahead ∂f/∂t. Returns a status."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
-    twin, moving = load_twin(newton, residual)
+    twin, moving = load_twin(machine)
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
     move_along(newton, residual, moving, r, s, False)

@@ -10,7 +10,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor
 from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.core.lanes import slope, unit
+from nivel.kernels.core.lanes import is_whole, slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_family, call_hook
 from nivel.kernels.record.record import NONE, TANGENT, record_at
@@ -85,10 +85,37 @@ def add_compliance(newton, entries):
 
 
 @leaf
-def load_twin(newton, here):
+def take_values(into, of):
+    """The values of numbers that may be dual."""
+    for k in range(of.shape[0]):
+        into[k] = real(of[k])
+
+
+@leaf
+def carry_over(record, twin):
+    """What the run on dual numbers carries from state to state beside y: its twin has the memory of the run without slopes."""
+    here, moving = record.residual, twin.residual
+    take_values(twin.coordinates.reference, record.coordinates.reference)
+    for e in range(record.elements.memory.shape[0]):
+        take_values(twin.elements.memory[e], record.elements.memory[e])
+    take_values(twin.watched.held, record.watched.held)
+    take_values(twin.friction.anchor, record.friction.anchor)
+    take_values(twin.control.stick, record.control.stick)
+    take_values(moving.begun, here.begun)
+    take_values(moving.bidden, here.bidden)
+    take_values(moving.frozen, here.frozen)
+    take_values(moving.span, here.span)
+
+
+@leaf
+def load_twin(machine):
     """The twin's residual at the same state, accelerations and multipliers, without slopes. Returns the twin's address and its residual."""
+    record = record_at(machine)
+    newton, here = record.newton, record.residual
     twin = (newton.address[0],)
     moving = record_at(twin).residual
+    if is_whole(machine):
+        carry_over(record, record_at(twin))
     for i in range(here.y.shape[0]):
         moving.y[i] = real(here.y[i])
     for i in range(here.vdot.shape[0]):
@@ -108,7 +135,7 @@ def differentiate(machine, t, cq, cv, cx, level):
     """
     record = record_at(machine)
     newton, here = record.newton, record.residual
-    twin, moving = load_twin(newton, here)
+    twin, moving = load_twin(machine)
     n, held, groups = here.vdot.shape[0], here.row.shape[0], np.int64(newton.group_start.shape[0]) - 1
     for first in range(0, groups, LANES):
         last = min(first + LANES, groups)

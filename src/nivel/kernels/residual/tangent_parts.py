@@ -127,7 +127,7 @@ def differentiate_first(machine, parts, out, t):
     """Fill out[part], the entries of the first `parts` parts, for `residual.y`, `vdot` and `lam`. Returns a status."""
     record = record_at(machine)
     newton = record.newton
-    twin, moving = load_twin(newton, record.residual)
+    twin, moving = load_twin(machine)
     behind, next_one = parts * (np.int64(newton.group_start.shape[0]) - 1), np.int64(0)
     while next_one < behind:
         status, next_one = differentiate_columns(machine, twin, moving, next_one, behind, out, t)

@@ -7,7 +7,7 @@ from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.stepping import Simulation
 from nivel.analysis.sweep.patched import PatchedRuns, learn, read_values
 from nivel.api import Machine
-from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, SimulationSettings
+from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 
 # N: iterations leave a share of 1e-9
@@ -95,3 +95,33 @@ def test_variants_of_a_batch_share_them():
         alone = machine.with_values(values).simulate(verify=False)
         np.testing.assert_allclose(runs.result(frames).array("joint_force"), alone.array("joint_force"), atol=EXACT)
         assert alone.array("joint_force")[-1, 0, 2] == pytest.approx(-mass * GRAVITY / 3.0, rel=1e-8)
+
+
+def test_a_linkage_that_moves_shares_side_loads_alike_in_all_coordinates():
+    """A four-bar linkage with four hinges and a force across its plane falls: loads are those of its place, not of where the run began."""
+    ends = {"crank": ((0.0, 0.0), (0.1, 0.2)), "rod": ((0.1, 0.2), (0.6, 0.4)), "rocker": ((0.6, 0.4), (0.5, 0.0))}
+    bodies = [
+        Body(name=name, mass=1.0, inertia=(0.02, 0.03, 0.01), position=((p[0] + q[0]) / 2, 0.0, (p[1] + q[1]) / 2))
+        for name, (p, q) in ends.items()
+    ]
+    links = ("ground", *ends, "ground")
+    joints = [
+        Joint(name=f"h{k}", type="revolute", bodies=links[k : k + 2], point=(x, 0.0, z), axis=(0.0, 1.0, 0.0))
+        for k, (x, z) in enumerate([*(p for p, _ in ends.values()), (0.5, 0.0)])
+    ]
+    record = MachineRecord(
+        name="linkage",
+        gravity=(0.0, 0.0, -GRAVITY),
+        bodies=tuple(bodies),
+        joints=tuple(joints),
+        forces=(PointForce(name="side", body="rod", vector=(0.0, 30.0, 0.0), position=(0.1, 0.0, 0.0)),),
+        simulation=SimulationSettings(duration=0.2, step=1e-3, output_interval=0.05, integrator="rk4"),
+    )
+    runs = [
+        run(record.replace(simulation=record.simulation.replace(coordinates=coordinates)))
+        for coordinates in ("absolute", "independent", "relative")
+    ]
+    assert np.ptp(runs[0].joint_coordinate[:, 0]) > 0.1
+    for other in runs[1:]:
+        np.testing.assert_allclose(other.joint_force, runs[0].joint_force, atol=1e-5)
+        np.testing.assert_allclose(other.joint_torque, runs[0].joint_torque, atol=1e-5)

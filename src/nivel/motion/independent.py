@@ -21,6 +21,7 @@ from nivel.kernels.record.hook import apply_forces, finish_forces
 from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.solve.embedding import embed, generalised_forces
 from nivel.kernels.solve.partition import divide, solve_dependent, solve_multipliers
+from nivel.kernels.solve.saddle import PIVOTED
 from nivel.motion.direct import STEEP
 from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
 from nivel.motion.newton_euler import normalise, read_state, write_rate
@@ -53,6 +54,8 @@ def embedded_accelerations(machine):
     solve_dependent(record.partition, rank, record.constraints.gamma)
     embed(machine)
     solve_multipliers(record.partition, rank, record.partition.Q, record.constraints.lam)
+    # S is of an earlier state: `least_multipliers` would share loads by it
+    record.control.rank[PIVOTED] = 1
     return OK
 
 

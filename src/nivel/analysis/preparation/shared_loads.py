@@ -1,4 +1,4 @@
-"""Loads of redundant joints in frames, shared by least norm: of runs in relative coordinates, and of equilibria.
+"""Loads of redundant joints in frames, shared by least norm: of runs in relative and independent coordinates, and of equilibria.
 
 Costs one evaluation of the constraints a frame, and nothing where no constraint is redundant.
 """
@@ -80,8 +80,12 @@ class SharingSink:
             sink.take(frames)
 
 
+def are_open(prepared: Prepared) -> bool:
+    """Whether frames of a run lack the loads of least norm, which those in absolute coordinates have already."""
+    return bool(prepared.motion.system.tree_names or prepared.path.dependent)
+
+
 def sharing(prepared: Prepared, sinks: Sequence[Sink]) -> Sequence[Sink]:
     """The sinks, behind shared loads where these are needed."""
-    # in absolute coordinates frames have the loads of least norm already
-    loads = SharedLoads.of(prepared) if prepared.motion.system.tree_names else None
+    loads = SharedLoads.of(prepared) if are_open(prepared) else None
     return sinks if loads is None else (SharingSink(loads, sinks),)

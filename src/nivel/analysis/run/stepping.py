@@ -19,7 +19,7 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.preparation.shared_loads import SharedLoads
+from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.carried_state import Structure, carry_over, refuse_other_structure, structure_of
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
@@ -154,7 +154,7 @@ class Simulation:
         self._y, self._previous = self._run.y.data, self._run.previous.data
         self._feeds_back = bool(system.record.control.stabilise[:2].any())
         layout = self._prepared.motion.system.layout
-        self._loads = SharedLoads.of(self._prepared) if self._prepared.motion.system.tree_names else None
+        self._loads = SharedLoads.of(self._prepared) if are_open(self._prepared) else None
         self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
         motion = self._prepared.motion

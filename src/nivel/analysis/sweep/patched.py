@@ -20,7 +20,7 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.preparation.shared_loads import SharedLoads
+from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import Loop, start_loop, taken_events
 from nivel.analysis.run.fitting import FOLLOWED, fitted
@@ -386,7 +386,7 @@ class PatchedRuns:
         self._header = Header(layout, run_attributes(plan.machine, "", prepared, plan.settings, plan.reason))
         self.loop_seconds = 0.0
         self._screen = Screen(prepared, plan.settings.step) if plan.is_open else None
-        self._shares = bool(prepared.motion.system.tree_names)
+        self._shares = are_open(prepared)
 
     def run(self, x: Array, limit: float | None = None) -> Array | None:
         """Frames (n, width) of the variant with parameters x, valid until the next run; None where it did not come to its end as it

@@ -116,7 +116,9 @@ simulation:
 )
 CLASHES = {
     "`coordinates`: 'relative' does not go with `integrator: energy-momentum`": ":10:16)",
-    "`stabilisation`: 'direct' does not go with `integrator: energy-momentum`": "(the default)",
+    "`stabilisation`: 'direct' does not go with `integrator: energy-momentum`": (
+        "write `stabilisation: none`; the file leaves `stabilisation` at its default"
+    ),
     "`forces.rub.model`: 'stiction' does not go with `integrator: energy-momentum`": ":8:51)",
 }
 

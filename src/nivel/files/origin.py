@@ -88,7 +88,7 @@ class Origin:
         if not self.source or path in self.outside:
             return ""
         if path.startswith("simulation.") and not stands_in(self.source, path):
-            return " (the default)"
+            return f"; the file leaves `{path.removeprefix('simulation.')}` at its default"
         line, column = locate(self.source, path)
         return f" ({self.file}:{line}:{column})"
 

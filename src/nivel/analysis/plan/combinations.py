@@ -94,7 +94,7 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
     if settings.stabilisation != "none":
         message = (
             f"'{settings.stabilisation}' does not go with {name}: it solves the position constraints itself, and a change of "
-            f"velocities after a step would change the energy that it conserves: use none"
+            f"velocities after a step would change the energy that it conserves: write `stabilisation: none`"
         )
         faults.append(_fault("stabilisation", message))
     if settings.corrector.iteration == "functional":

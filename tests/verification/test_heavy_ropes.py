@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.errors import ModelError
+from nivel.errors import ModelError, SolveError
 from simulating import G, hinge, machine, simulate, slide, solid
 
 PER_LENGTH, RADIUS = 2.0, 0.05
@@ -167,6 +167,15 @@ def test_a_winch_feeds_rope_that_runs():
     np.testing.assert_allclose(-result.array("rb.displacement"), speed * result.time, atol=3e-5)
     np.testing.assert_allclose(result.array("force.rope.last_tension")[-1], 5.0 * G, rtol=1e-2)
     assert np.abs(result.array("energy_error")).max() < 1e-2
+
+
+def test_an_end_within_a_wheel_is_told():
+    sections = held()
+    sections["bodies"]["b"] |= {"position": [0.5 * RADIUS, -0.2, 0], "velocity": [0, 3.0, 0]}
+    sections["joints"]["rb"] = slide("ground", "b", (0, 1, 0), point=[0.5 * RADIUS, -0.2, 0])
+    sections["forces"]["rope"]["points"][-1] = [0.5 * RADIUS, -0.2, 0]
+    with pytest.raises(SolveError, match="an end of rope come into one of its wheels"):
+        simulate(sections, duration=0.2, integrator="rk4", step=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -41,9 +41,12 @@ def broken_function(motion: MotionEquations, time: float, step: float, y: Array)
         )
         broken += [f"the motion of {owner_of(system.rows[row])}" for row in rows[~known]]
         if broken:
-            advice = "a division by zero, or a root or logarithm of a negative number, or their derivatives?"
-            return (
-                f"{broken[0]} {NO_NUMBER} {at:.6g} s",
-                f"Look at the law of {broken[0].split()[-1]}: {advice}",
-            )
+            name = broken[0].split()[-1]
+            advice = f"Look at the law of {name}: a division by zero, or a root or logarithm of a negative number, or their derivatives?"
+            if f"force.{name}.stretch" in names:
+                advice = (
+                    f"Has an end of {name} come into one of its wheels, or a wheel into another? The rope has no way there: "
+                    "end the run before, by an event, or hold the bodies apart by a stop."
+                )
+            return f"{broken[0]} {NO_NUMBER} {at:.6g} s", advice
     return None

@@ -100,7 +100,12 @@ OF_SLOPES += [
     )
 ]
 OF_SLOPES += [f"alpha_start.{name}" for name in ("move_here", "add_mixed", "follow_matrices")]
-OF_SLOPES += ["element_crossing.load_missed", "element_crossing.settle_change", "tangent.take_values", "tangent.carry_over"]
+OF_SLOPES += [
+    "element_crossing.load_missed",
+    "element_crossing.settle_change",
+    "tangent.take_values",
+    "tangent.carry_over",
+]
 LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS, *BY_ADDRESS, *OF_SLOPES}
 
 

@@ -5,7 +5,9 @@ import pytest
 from numba.core.errors import NumbaError
 
 from nivel.analysis.plan.compilation import all_entries
+from nivel.kernels.record.hook import Family
 from nivel.native.function import OPTIONS, leaf
+from nivel.system.hydraulics.tangent import slopes_by_family
 
 
 def test_a_kernel_that_allocates_does_not_compile():
@@ -24,3 +26,10 @@ def test_functions_and_entries_are_compiled_without_the_runtime_that_allocates()
 def test_names_and_symbols_of_entries_are_their_own():
     entries = all_entries()
     assert len({entry.name for entry in entries}) == len({entry.symbol for entry in entries}) == len(set(entries))
+
+
+def test_slopes_of_components_by_hand_are_among_all_entries():
+    """A run calls them by their addresses, so that nothing else asks for their code."""
+    by_hand = {each.code for each in slopes_by_family().values() if isinstance(each, Family)}
+    assert len(by_hand) > 5
+    assert by_hand <= set(all_entries())

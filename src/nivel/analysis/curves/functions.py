@@ -198,11 +198,13 @@ def varying(machine: MachineRecord, *, sampled: bool = False) -> Iterator[Varyin
         if (each.sampling is not None) == sampled and not (
             isinstance(function, Expression) and linear_function(function.tree) is not None
         ):
-            turns = each.section == "couplings" and each.part in turning and isinstance(function, Expression)
+            turns = each.section == "couplings" and each.part in turning
             yield Varying(
                 each.name,
                 f"{OF.get(each.section, each.section)}.{each.part}",
-                TurningCurve(ExpressionCurve(function)) if turns else _curve(function, each.motion),
+                TurningCurve(ExpressionCurve(function))
+                if turns and isinstance(function, Expression)
+                else _curve(function, each.motion),
                 each.sampling,
                 each.motion,
             )

@@ -35,6 +35,7 @@ from nivel.system.beams.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.elements import families as families_of_circuits
 from nivel.system.hydraulics.elements import families_of
+from nivel.system.hydraulics.tangent import slopes_by_family
 from nivel.system.joints.joints import JOINTS
 
 # in these equations every machine is assembled
@@ -241,7 +242,8 @@ def all_entries() -> list[Entry]:
     residuals = [module for module in (*(path.residual for path in paths), *over_steps) if module]
     twins = [twin for module in dict.fromkeys((*residuals, *WITH_DERIVATIVES)) for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
-    entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
+    slopes = [each for each in slopes_by_family().values() if isinstance(each, Family)]
+    entries = [*_entries(module for module in modules if module), *(each.code for each in (*families, *slopes)), *twins]
     return [*dict.fromkeys(entries)]
 
 

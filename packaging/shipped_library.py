@@ -21,6 +21,7 @@ from nivel.fmu.binary import entries_source, own_sources, tables_source
 from nivel.fmu.binary import link as link_shared
 from nivel.native import library, shipped, store, workers
 from nivel.native.entry import Entry
+from nivel.native.processor import LEVELS
 from nivel.native.sources import fingerprint
 
 # what C compilers can ask a processor for; what else a level needs comes with these
@@ -51,12 +52,12 @@ def built(machine: str) -> Iterator[str]:
 
 def families() -> list[str]:
     """Families of processors that a library can be built for."""
-    return sorted({level.machine for level in shipped.LEVELS.values()})
+    return sorted({level.machine for level in LEVELS.values()})
 
 
 def levels(machine: str) -> list[str]:
-    """Levels of a family of processors."""
-    return [name for name, level in shipped.LEVELS.items() if level.machine == machine]
+    """Levels of a family of processors that a wheel has libraries for."""
+    return [name for name, level in LEVELS.items() if level.machine == machine and level.comes_with_wheels]
 
 
 def tool(name: str, machine: str) -> str:
@@ -77,7 +78,7 @@ def units(machine: str) -> list[str]:
 
 def compile_entries(entries: list[Entry], folder: Path, machine: str) -> None:
     """Object files of all entries, in a folder for each level, and for each other system."""
-    targets_of = {level: shipped.LEVELS[level].target for level in levels(machine)}
+    targets_of = {level: LEVELS[level].target for level in levels(machine)}
     targets_of |= {system: PLATFORMS[system].target for system in units(machine) if system.endswith("windows")}
     for name in targets_of:
         (folder / name).mkdir()
@@ -102,7 +103,7 @@ def compile_entries(entries: list[Entry], folder: Path, machine: str) -> None:
 def link(folder: Path, level: str) -> None:
     """The library of a level."""
     target = shipped.FOLDER / shipped.file_of(level)
-    linker = tool("gcc", shipped.LEVELS[level].machine)
+    linker = tool("gcc", LEVELS[level].machine)
     objects = sorted((folder / level).glob("*.o"))
     subprocess.run([linker, "-shared", "-o", target, *objects, "-Wl,--no-undefined", "-lm", "-s"], check=True)
     print(f"{target.name}: {target.stat().st_size / 1e6:.1f} MB", flush=True)
@@ -146,9 +147,9 @@ def merged(folder: Path, level: str, table: str, machine: str) -> Path:
 
 def condition(level: str) -> str:
     """What a processor of a level can do, as C compilers for x86 ask for it."""
-    if shipped.LEVELS[level].machine != "x86_64":
+    if LEVELS[level].machine != "x86_64":
         return "1"
-    asked = sorted({*shipped.LEVELS[level].flags} & ASKED)
+    asked = sorted({*LEVELS[level].flags} & ASKED)
     return " && ".join(f'__builtin_cpu_supports("{each}")' for each in asked)
 
 

@@ -14,6 +14,7 @@ import yaml
 
 import check_wheel
 from nivel.native import shipped
+from nivel.native.processor import LEVELS
 
 ROOT = Path(__file__).parent.parent
 SYSTEM = "manylinux_2_17_x86_64"
@@ -42,7 +43,7 @@ def project(tmp_path):
 def with_library(project):
     """The same with files where the library would be."""
     (project / SHIPPED).mkdir(parents=True)
-    for name in ("manifest.json", *map(shipped.file_of, shipped.LEVELS)):
+    for name in ("manifest.json", *map(shipped.file_of, LEVELS)):
         (project / SHIPPED / name).write_text("{}")
     (project / SHIPPED / "NOTICE").write_text("functions of Numba")
     return project
@@ -79,7 +80,7 @@ def test_a_wheel_with_the_library_is_for_one_system_and_carries_every_licence(wi
     assert licences(names) == {"LICENSE", "src/nivel/view/page/NOTICE", f"{SHIPPED}/NOTICE"}
     assert "three.js authors" in text
     assert "Leon Sorokin" in text  # of uPlot
-    assert {f"nivel/native/shipped/{shipped.file_of(level)}" for level in shipped.LEVELS} <= {*names}
+    assert {f"nivel/native/shipped/{shipped.file_of(level)}" for level in LEVELS} <= {*names}
 
 
 def test_a_plain_wheel_and_the_sources_carry_the_licences_of_the_page(project):

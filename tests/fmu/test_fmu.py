@@ -25,6 +25,7 @@ from nivel.demos.catalogue import demo_file
 from nivel.fmu.description import base_unit
 from nivel.native import library, shipped
 from nivel.native.sources import fingerprint
+from patience import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -445,7 +446,7 @@ def test_a_missing_compiler_is_named(tmp_path, monkeypatch, ball_machine):
 def test_the_binary_of_a_wheel_needs_no_compiler(tmp_path, monkeypatch, ball_machine, ball):
     """It is linked as the wheel's is, of the entries of one machine for two levels."""
     entries = dict.fromkeys(run_entries(ball_machine._plan({})))
-    levels = [name for name, level in shipped.LEVELS.items() if level.machine == platform.machine()]
+    levels = shipped_library.levels(platform.machine())
     for level in levels:
         (tmp_path / level).mkdir()
         for entry in entries:
@@ -499,7 +500,7 @@ def test_on_windows_it_moves_as_on_linux_to_the_last_bit(tmp_path):
         *(str(unit.reference[name]) for name in names),
     ]
     own = {**os.environ, "WINEPREFIX": str(tmp_path / "wine"), "WINEDEBUG": "-all"}
-    printed = subprocess.run(command, check=True, capture_output=True, text=True, env=own, timeout=300).stdout
+    printed = subprocess.run(command, check=True, capture_output=True, text=True, env=own, timeout=PATIENCE).stdout
     instance = unit.instance().start()
     for k in range(200):
         instance.step(1e-3 * k, 1e-3)

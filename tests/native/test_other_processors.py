@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import toy_entries as toys
 
-from nivel.native import library, shipped, store, workers
+from nivel.native import library, store, workers
+from nivel.native.processor import LEVELS
 
 X = np.array([3.0, 4.5, -5.25])
 # `e_machine` of an ELF file
@@ -25,17 +26,17 @@ int main(void) { double x[] = {3.0, 4.5, -5.25}; printf("%a", toy_entries_square
 def objects(tmp_path_factory):
     """The object file of an entry for every level."""
     folder = tmp_path_factory.mktemp("levels")
-    paths = {name: folder / f"{name}.o" for name in shipped.LEVELS}
-    targets = [(str(path), shipped.LEVELS[name].target) for name, path in paths.items()]
+    paths = {name: folder / f"{name}.o" for name in LEVELS}
+    targets = [(str(path), LEVELS[name].target) for name, path in paths.items()]
     workers.compile_all([library.job_of(toys.squares, targets)])
     for path in paths.values():
         path.write_bytes(store.read(path))
     return paths
 
 
-@pytest.mark.parametrize("name", shipped.LEVELS)
+@pytest.mark.parametrize("name", LEVELS)
 def test_the_object_is_of_the_family(objects, name):
-    assert struct.unpack_from("<H", objects[name].read_bytes(), 18)[0] == ELF_MACHINE[shipped.LEVELS[name].machine]
+    assert struct.unpack_from("<H", objects[name].read_bytes(), 18)[0] == ELF_MACHINE[LEVELS[name].machine]
 
 
 @pytest.mark.skipif(

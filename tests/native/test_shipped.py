@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import toy_entries as toys
 
-from nivel.native import library, shipped, store, workers
+from nivel.native import library, processor, shipped, store, workers
+from nivel.native.processor import LEVELS
 from nivel.native.sources import fingerprint
 
 pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="no compiler that links")
@@ -20,14 +21,12 @@ X = np.array([3.0, 4.5, -5.25])
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """A folder with the library, as `packaging/build_wheel.py` leaves it."""
-    level = next((name for name, each in shipped.LEVELS.items() if shipped._runs_here(each)), "")
+    level = processor.asked_level() or next((name for name, each in LEVELS.items() if processor.runs_here(each)), "")
     if not level:
         pytest.skip("a processor below all levels")
     assert all(entry.address for entry in ENTRIES)  # what is compiled by itself
     targets = {entry: tmp_path / f"{entry.symbol}.o" for entry in ENTRIES}
-    workers.compile_all(
-        library.job_of(entry, [(str(path), shipped.LEVELS[level].target)]) for entry, path in targets.items()
-    )
+    workers.compile_all(library.job_of(entry, [(str(path), LEVELS[level].target)]) for entry, path in targets.items())
     for path in targets.values():
         path.write_bytes(store.read(path))
     command = ["cc", "-shared", "-o", tmp_path / shipped.file_of(level), *targets.values(), "-Wl,--no-undefined", "-lm"]
@@ -71,7 +70,7 @@ def test_other_sources_are_not_taken_from_it(folder):
 
 
 def test_a_processor_without_the_level_does_not_use_it(folder, monkeypatch):
-    monkeypatch.setattr(shipped, "processor_flags", lambda: frozenset({"sse2"}))
+    monkeypatch.setattr(processor, "processor_flags", lambda: frozenset({"sse2"}))
     _forget()
     assert shipped.level() == ""
     assert shipped.address_in_library(toys.squares) is None

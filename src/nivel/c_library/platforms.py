@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from nivel.c_library.exported import refusal
-from nivel.native import library, shipped
+from nivel.native import library
 from nivel.native.entry import Entry
+from nivel.native.processor import LEVELS
 from nivel.words.wording import unknown_word
 
 
@@ -31,7 +32,7 @@ PLATFORMS = {
         ("x86_64-windows", "win64"), ".dll", ("x86-64-v3", "", "x86_64-w64-windows-gnu"), "x86_64-w64-mingw32-gcc"
     ),
     "aarch64-linux": Platform(
-        ("aarch64-linux", "aarch64-linux"), ".so", shipped.LEVELS["armv8-a"].target, "aarch64-linux-gnu-gcc"
+        ("aarch64-linux", "aarch64-linux"), ".so", LEVELS["armv8-a"].target, "aarch64-linux-gnu-gcc"
     ),
 }
 HERE = {"Linux": "linux", "Windows": "windows"}

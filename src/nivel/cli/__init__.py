@@ -12,6 +12,7 @@ import click
 
 from nivel import __version__
 from nivel.cli.failures import told
+from nivel.errors import ModelError
 
 
 class CommandPlace(NamedTuple):
@@ -83,6 +84,7 @@ class LazyGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         with told():
+            _asked_level()
             try:
                 return super().invoke(ctx)
             except click.NoSuchOption as problem:
@@ -107,14 +109,28 @@ def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
     return click.NoSuchOption(problem.option_name, message, ctx=problem.ctx)
 
 
-def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
-    if not asked:
+def _say_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if not wanted:
         return
     from nivel.native.shipped import level
 
-    came = f"machine code: the library for {level()} that came with it"
-    click.echo(f"nivel {__version__}\n{came if level() else 'machine code: compiled when it is first needed'}")
+    with told():
+        asked = _asked_level()
+    made = f"compiled {f'for {asked} ' if asked else ''}when it is first needed"
+    click.echo(
+        f"nivel {__version__}\nmachine code: {f'the library for {level()} that came with it' if level() else made}"
+    )
     ctx.exit()
+
+
+def _asked_level() -> str:
+    """The level of processors that the environment asks for; empty: none. Raises ModelError where it cannot be had."""
+    from nivel.native import processor
+
+    try:
+        return processor.asked_level()
+    except processor.CompilationError as problem:
+        raise ModelError(str(problem)) from None
 
 
 @click.group(cls=LazyGroup, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})

@@ -11,6 +11,7 @@ from typing import Any
 
 from nivel.native import store, workers
 from nivel.native.entry import Entry
+from nivel.native.processor import target
 from nivel.native.shipped import address_in_library, fits
 from nivel.native.signature import Signature
 from nivel.native.sources import fingerprint
@@ -34,7 +35,7 @@ def missing(entries: Iterable[Entry]) -> list[Entry]:
 
 
 def object_code(entry: Entry) -> bytes:
-    """The object file of an entry, for this processor. Raises CompilationError where nothing is installed that compiles."""
+    """The object file of an entry, for this processor or the level asked for. Raises CompilationError."""
     path = _path(entry)
     code = store.read(path)
     if code is None:
@@ -72,7 +73,7 @@ def address_of_law(text: str, signature: Signature) -> int:
         return found
     code = store.read(path)
     if code is None:
-        job = {"text": text, "file": f"<{path.stem}>", "symbol": "nivel_law", "path": str(path)}
+        job = {"text": text, "file": f"<{path.stem}>", "symbol": "nivel_law", "path": str(path), "target": target()}
         try:
             workers.compile_all([{**job, "result": signature.result, "arguments": signature.arguments}])
         except workers.CompilationError as problem:
@@ -96,7 +97,7 @@ def _path(entry: Entry) -> Any:
 
 
 def _job(entry: Entry) -> dict[str, Any]:
-    return job_of(entry, [(str(_path(entry)), None)])
+    return job_of(entry, [(str(_path(entry)), target())])
 
 
 def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str, str] | None]]) -> dict[str, Any]:

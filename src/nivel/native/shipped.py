@@ -7,46 +7,18 @@ from __future__ import annotations
 
 import ctypes
 import json
-import platform
 import sys
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from nivel.native.entry import Entry
+from nivel.native.processor import LEVELS, asked_level, runs_here
 from nivel.native.sources import fingerprint
-from nivel.native.store import processor_flags
 
 FOLDER = Path(__file__).parent / "shipped"
 MANIFEST = "manifest.json"
-
-
-class Level(NamedTuple):
-    """Processors that a library is for. machine : their family, as `platform.machine()` names it. flags : what a processor must have
-    beyond the level below, as Linux names it. target : what LLVM compiles for (processor, features, system).
-    """
-
-    machine: str
-    flags: frozenset[str]
-    target: tuple[str, str, str]
-
-
-# the best level of a family first
-LEVELS = {
-    "x86-64-v4": Level(
-        "x86_64",
-        frozenset({"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl", "avx2", "fma", "bmi2"}),
-        ("x86-64-v4", "", "x86_64-unknown-linux-gnu"),
-    ),
-    "x86-64-v3": Level(
-        "x86_64",
-        frozenset({"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"}),
-        ("x86-64-v3", "", "x86_64-unknown-linux-gnu"),
-    ),
-    # every processor on which Linux calls itself so has floating point and vectors of 128 bits
-    "armv8-a": Level("aarch64", frozenset(), ("generic", "+fp-armv8,+neon", "aarch64-unknown-linux-gnu")),
-}
 
 
 def address_in_library(entry: Entry) -> int | None:
@@ -64,12 +36,9 @@ def fits(entry: Entry) -> bool:
 
 @cache
 def level() -> str:
-    """The level of the library that is used; empty: none."""
-    return next((name for name in manifest()["levels"] if _runs_here(LEVELS[name])), "")
-
-
-def _runs_here(level: Level) -> bool:
-    return level.machine == platform.machine() and processor_flags() >= level.flags
+    """The level of the library that is used: the best one, or that which the user asks for; empty: none."""
+    possible = [name for name in manifest()["levels"] if runs_here(LEVELS[name])]
+    return next((name for name in possible if asked_level() in ("", name)), "")
 
 
 @cache

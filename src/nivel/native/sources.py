@@ -17,7 +17,7 @@ _NAME = re.compile(r"\w+")
 PACKAGE = Path(__file__).resolve().parent.parent
 # of Numba's side of this package, what is only about finding, keeping and loading machine code does not change it
 PASSIVE = (
-    *(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources", "shipped")),
+    *(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources", "shipped", "processor")),
     # and what is said of integrators, beside their steps, does not either
     "nivel.integrate.facts",
 )

@@ -20,6 +20,8 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from nivel.native.processor import described
+
 DIGEST = 32  # bytes
 MOST_BESIDE = 10  # names that are tried where folders or devices stand in the place of files
 
@@ -95,33 +97,14 @@ def write(path: Path, code: bytes) -> None:
 
 @cache
 def compiler() -> tuple[str, ...]:
-    """What makes machine code, and for which processor."""
+    """What makes machine code, and for which processor or level of processors."""
     versions = []
     for package in ("numba", "llvmlite", "numpy"):
         try:
             versions.append(version(package))
         except PackageNotFoundError:
             versions.append("none")
-    return (*versions, f"{sys.version_info[:2]}", platform.machine(), _processor())
-
-
-def _processor() -> str:
-    return "\n".join(_cpuinfo(key) for key in ("model name", "flags", "Features")) or platform.processor()
-
-
-def processor_flags() -> frozenset[str]:
-    """What this processor can do, as Linux names it."""
-    return frozenset(_cpuinfo("flags").partition(":")[2].split())
-
-
-@cache
-def _cpuinfo(key: str) -> str:
-    """The first line of /proc/cpuinfo that begins with `key`."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-    except OSError:
-        return ""
-    return next((line for line in lines if line.startswith(key)), "")
+    return (*versions, f"{sys.version_info[:2]}", platform.machine(), described())
 
 
 def _user_cache() -> Path:

@@ -74,10 +74,8 @@ def _compile(job: dict[str, Any]) -> None:
     from nivel.native.with_numba.laws import object_code_of_law
 
     if "text" in job:
-        signature, machine = (
-            Signature(job["result"], tuple(job["arguments"])),
-            translate.target_machine(*translate.host()),
-        )
+        signature = Signature(job["result"], tuple(job["arguments"]))
+        machine = translate.target_machine(*(job["target"] or translate.host()))
         store.write(Path(job["path"]), object_code_of_law(job["text"], job["file"], signature, machine))
         return
     seen.check(job["entry"].partition(":")[0], job["sources"])

@@ -22,6 +22,8 @@ START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.nat
 NEEDS_NUMBA = "NeedsNumbaError"
 # and of what cannot be compiled, because there is no compiler
 NO_COMPILER = "NoCompilerError"
+# and of a level of processors that there is not, or that this one is below
+UNKNOWN_LEVEL = "UnknownLevelError"
 
 
 class CompilationError(Exception):

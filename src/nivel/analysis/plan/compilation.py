@@ -10,7 +10,7 @@ from time import perf_counter
 from nivel.analysis.curves.switches import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
-from nivel.errors import NivelError
+from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
@@ -29,7 +29,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
-from nivel.native.workers import NO_COMPILER, CompilationError
+from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
 from nivel.system.beams.beams import ELASTIC, family_of
 from nivel.system.beams.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
@@ -74,12 +74,21 @@ COMPLETIONS = (
 def build(entries: Iterable[Entry], listener: Listener | None) -> float:
     """Compile those of these entries that have no machine code, and tell how far it is. Returns the wall time [s].
 
-    Without a listener a bar on standard error tells it, so that a script that compiles does not look as if it hung.
+    Without a listener a bar on standard error tells it, so that a script that compiles does not look as if it hung. Raises ModelError where
+    the environment asks for a level of processors that there is not here.
     """
     begin = perf_counter()
-    if missing := library.missing(entries):
-        with nullcontext(listener) if listener else _bar() as hearer:
-            _compile(missing, hearer, begin)
+    try:
+        if missing := library.missing(entries):
+            with nullcontext(listener) if listener else _bar() as hearer:
+                _compile(missing, hearer, begin)
+    except CompilationError as problem:
+        if problem.kind == UNKNOWN_LEVEL:
+            raise ModelError(str(problem)) from None
+        if problem.kind == NO_COMPILER:
+            what = "the library of this installation is for other sources or another processor"
+            raise NivelError(f"{what}, and {problem}") from None
+        raise
     return perf_counter() - begin
 
 
@@ -93,13 +102,7 @@ def _compile(missing: Sequence[Entry], listener: Listener, begin: float) -> None
         listener.say(f"compiled {done} of {count}, about {left:.0f} s left: {in_words(name)}")
 
     listener.say(f"compiling {count} part{'s'[: count > 1]} of the machine code (only the first run does this)")
-    try:
-        library.build(missing, tell)
-    except CompilationError as problem:
-        if problem.kind == NO_COMPILER:
-            what = "the library of this installation is for other sources or another processor"
-            raise NivelError(f"{what}, and {problem}") from None
-        raise
+    library.build(missing, tell)
 
 
 @contextmanager

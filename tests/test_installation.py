@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from browsing import PATIENCE, chromium, until, watched
+from browsing import chromium, until, watched
 from lanes import tail
+from patience import PATIENCE
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -15,6 +15,7 @@ import pytest
 import nivel
 from nivel.demos.catalogue import demo_file
 from nivel.results.frames.csv_table import columns
+from patience import PATIENCE
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 CASES = {
@@ -32,7 +33,7 @@ pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no 
 
 
 def build(folder, *targets):
-    subprocess.run(["make", "-s", "-C", folder, *targets], check=True, capture_output=True, timeout=120)
+    subprocess.run(["make", "-s", "-C", folder, *targets], check=True, capture_output=True, timeout=PATIENCE)
     return folder
 
 
@@ -42,7 +43,9 @@ def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
     written = machine.export_c(tmp_path / "c", select="*")
     header = (written.folder / f"{written.name}.h").read_text(encoding="utf-8")
     assert f"Written by nivel {nivel.__version__}." in header
-    done = subprocess.run([build(written.folder) / "example"], check=True, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [build(written.folder) / "example"], check=True, capture_output=True, text=True, timeout=PATIENCE
+    )
     names, *rows = csv.reader(io.StringIO(done.stdout))
     result = machine.simulate(output_interval=machine.record.simulation.step)
     count = min(len(rows), len(result.time))
@@ -260,7 +263,7 @@ def test_on_another_system_it_moves_the_same(platform, tmp_path):
         build(folder, *(["CC=cc", "AR=ar"] if name == "x86_64-linux" else []), "example")
         program = next(path for path in (folder / "example.exe", folder / "example") if path.exists())
         own = {**os.environ, "WINEPREFIX": str(tmp_path / "wine"), "WINEDEBUG": "-all"}
-        done = subprocess.run([*run, program], check=True, capture_output=True, text=True, timeout=300, env=own)
+        done = subprocess.run([*run, program], check=True, capture_output=True, text=True, timeout=PATIENCE, env=own)
         printed.append(np.array([line.split(",") for line in done.stdout.splitlines()[1:]], dtype=float))
     assert len(printed[0]) > 1000
     # the arctangent of Windows rounds otherwise

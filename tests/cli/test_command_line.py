@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import click
@@ -14,7 +13,7 @@ from click.testing import CliRunner
 from nivel.cli import COMMANDS, failures, main
 from nivel.errors import ModelError, SolveError
 from nivel.files import parse_machine, read_machine
-from pace import free_share
+from patience import PATIENCE
 
 HEAVY = ("pydantic", "numpy", "numba", "xarray", "pint", "yaml", "rich", "scipy", "matplotlib", "h5py")
 
@@ -23,18 +22,13 @@ def nivel(*arguments):
     return CliRunner().invoke(main, [str(argument) for argument in arguments], prog_name="nivel")
 
 
-def test_help_is_there_at_once_and_loads_nothing_heavy():
+def test_help_loads_nothing_heavy():
     code = (
         "import sys\nfrom nivel.cli import main\n"
         "try: main(['--help'])\nexcept SystemExit: pass\n"
         f"sys.exit(any(name in sys.modules for name in {HEAVY}))"
     )
-    times = []
-    for _ in range(3):
-        begin = time.perf_counter()
-        assert subprocess.run([sys.executable, "-c", code], check=False, capture_output=True).returncode == 0
-        times.append(time.perf_counter() - begin)
-    assert min(times) * free_share() < 0.3
+    assert subprocess.run([sys.executable, "-c", code], check=False, capture_output=True).returncode == 0
 
 
 @pytest.mark.parametrize(
@@ -206,6 +200,6 @@ def test_a_reader_that_has_enough_is_no_failure(arguments, tmp_path):
     reading, writing = os.pipe()
     os.close(reading)
     command = [sys.executable, "-m", "nivel", *arguments]
-    ended = subprocess.run(command, cwd=tmp_path, stdout=writing, stderr=writing, check=False, timeout=60)
+    ended = subprocess.run(command, cwd=tmp_path, stdout=writing, stderr=writing, check=False, timeout=PATIENCE)
     os.close(writing)
     assert ended.returncode == (0 if arguments == ["--help"] else 2)

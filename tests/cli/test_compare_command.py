@@ -12,6 +12,7 @@ from click.testing import CliRunner
 
 from nivel.cli import main
 from nivel.results.comparison.comparison import Comparison
+from patience import PATIENCE
 
 PENDULUM = """\
 format: 1
@@ -168,13 +169,13 @@ def test_an_interrupt_ends_with_code_130_and_writes_what_there_is(folder):
     # a shell that runs the tests in the background has SIGINT ignored, and children inherit that
     heard = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
     with subprocess.Popen([*command, "1000000"], cwd=folder, **pipes, **heard) as process:
-        end = time.monotonic() + 240
+        end = time.monotonic() + PATIENCE
         while not (folder / "runs").exists() or (folder / "runs").stat().st_size < IN_THE_FIRST_CELL:
             assert process.poll() is None, process.communicate()
             assert time.monotonic() < end, "the comparison did not start"
             time.sleep(0.1)
         process.send_signal(signal.SIGINT)
-        out, errors = process.communicate(timeout=240)
+        out, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, errors
     assert "cells are missing" in out
     assert Comparison.from_json((folder / "pendulum-compare.json").read_text(encoding="utf-8")).outcome == "interrupted"

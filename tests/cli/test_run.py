@@ -18,6 +18,7 @@ from click.testing import CliRunner
 from nivel.cli import main
 from nivel.methods import known_words
 from nivel.results import Result
+from patience import PATIENCE
 
 PENDULUM = """\
 format: 1
@@ -47,7 +48,7 @@ def nivel(folder, *arguments):
 def process(folder, *arguments, **options):
     """The same by a process of its own."""
     command = [sys.executable, "-m", "nivel", *map(str, arguments)]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300, **options)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=PATIENCE, **options)
 
 
 @pytest.fixture(scope="module")
@@ -314,7 +315,7 @@ def start_long_run(folder):
     command = [sys.executable, "-m", "nivel", "run", "pendulum.yaml", "--duration", "20000", "--output-interval", "0.1"]
     running = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     path = folder / "pendulum.nc"
-    deadline = time.monotonic() + 240
+    deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline:
         time.sleep(0.2)
         assert running.poll() is None, running.communicate()
@@ -332,7 +333,7 @@ def start_long_run(folder):
 def test_interruption_keeps_what_was_computed(folder):
     running, path = start_long_run(folder)
     running.send_signal(signal.SIGINT)
-    _, errors = running.communicate(timeout=240)
+    _, errors = running.communicate(timeout=PATIENCE)
     assert running.returncode == 130, errors
     result = Result.open(path)
     assert result.outcome == "interrupted"
@@ -344,7 +345,7 @@ def test_interruption_keeps_what_was_computed(folder):
 def test_killed_run_leaves_a_readable_result(folder):
     running, path = start_long_run(folder)
     running.kill()
-    running.communicate(timeout=240)
+    running.communicate(timeout=PATIENCE)
     result = Result.open(path)
     assert result.outcome == "running"
     assert len(result.time) > 100

@@ -12,6 +12,7 @@ import pytest
 
 import nivel
 from needing import needs
+from patience import PATIENCE
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "exchange"
 
@@ -70,7 +71,7 @@ def test_a_machine_follows_topics_of_mqtt_and_publishes_its_state(trolley):
     sim = operate(trolley, client, duration=0.4)
     client.disconnect()
     client.loop_stop()
-    broker.join(timeout=5)
+    broker.join(timeout=PATIENCE)
     assert {topic for topic, _ in broker.published} == {"nivel/trolley/state"}
     states = [state for _, state in broker.published]
     assert len(states) == 20

@@ -7,7 +7,9 @@ from tempfile import TemporaryDirectory
 
 from nivel.api import Machine
 from nivel.files.reader import parse_machine
+from nivel.integrate.loop.paced import DONE
 from nivel.live.opening import session_of
+from patience import PATIENCE
 
 MASS, FORCE, DAMPING = 2.0, 20.0, 3.0
 CART = f"""
@@ -27,7 +29,6 @@ sensors:
   speed: {{coordinate: rail, quantity: rate}}
 simulation: {{duration: 2, step: 1 ms}}
 """
-PATIENCE = 60.0
 
 
 def machine():
@@ -51,8 +52,11 @@ def until(condition, what=""):
 
 
 def operate(session, values, seconds):
-    """Hold values for a while, as a page does."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
+    """Hold values for so much simulated time, as a page does; until the run is over where that is earlier."""
+
+    def is_done():
         session.operate(values)
-        time.sleep(0.02)
+        return int(session.live.control[DONE]) >= last or session.mode in ("ended", "failed")
+
+    last = int(session.live.control[DONE]) + round(seconds / session.pace.tick)
+    until(is_done, f"{seconds} s of the machine")

@@ -2,7 +2,6 @@
 
 import os
 import signal
-import time
 
 import numpy as np
 import pytest
@@ -16,7 +15,6 @@ from nivel.live.opening import session_of
 from nivel.live.recording import Recording
 from nivel.live.replay import replay
 from nivel.live.source import LiveSource, gauges
-from nivel.live.timing import timing_of
 
 
 @pytest.fixture(scope="module")
@@ -99,19 +97,14 @@ def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
         until(page, "!!nivel.app.live.status")
         processes = [each for each in descendants(os.getpid()) if "chrom" in name_of(each)]
         assert processes
-        before, ticks, begin = timing_of(session.live), int(session.live.control[DONE]), time.monotonic()
+        ticks = int(session.live.control[DONE])
         for each in processes:
             os.kill(each, signal.SIGSTOP)
         try:
-            time.sleep(2.0)
+            cart.until(lambda: session.live.control[DONE] >= ticks + 2000, "2 s of the machine")
         finally:
             for each in processes:
                 os.kill(each, signal.SIGCONT)
-        after, passed = timing_of(session.live), time.monotonic() - begin
-        done = (int(session.live.control[DONE]) - ticks) * session.pace.tick
-        stretched = after.stretched - before.stretched
-        assert done == pytest.approx(passed - stretched, abs=0.2)
-        assert after.own - before.own == 0
         until(page, "nivel.app.live.status.mode === 'running'")
 
 

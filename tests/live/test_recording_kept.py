@@ -22,10 +22,10 @@ from nivel.live.journal import FIRST_LINE, PART, TICKS, Journal, journal_of
 from nivel.live.preparation import live_plan
 from nivel.live.recording import about_run, read_recording
 from nivel.live.replay import replay
+from patience import PATIENCE
 
 needs("websockets")
 SOME = 40_000  # bytes of the journal: some hundred ticks
-ENDED = 20.0  # s
 
 
 class Run:
@@ -78,7 +78,7 @@ class Run:
     def ended(self):
         """Wait for the server; its exit code."""
         if self.popen is not None:
-            return self.popen.wait(ENDED)
+            return self.popen.wait(PATIENCE)
         _, status = os.waitpid(self.process, 0)
         return os.waitstatus_to_exitcode(status)
 
@@ -124,7 +124,7 @@ def recording(folder, **given):
             if not is_over(each):
                 os.kill(each, signal.SIGKILL)
         if run.popen is not None:
-            run.popen.wait(ENDED)
+            run.popen.wait(PATIENCE)
 
 
 def assert_played(path):

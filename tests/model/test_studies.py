@@ -20,6 +20,7 @@ from nivel.analysis.sweep.variant import run_variant
 from nivel.errors import ModelError
 from nivel.machine.study import StudyRecord
 from nivel.studies import load_study
+from patience import PATIENCE
 
 MACHINE = """
 format: 1
@@ -270,7 +271,7 @@ def test_a_study_that_is_killed_goes_on_to_the_same_table_to_the_last_bit(spring
 
 
 def wait_for(came, process):
-    end = time.monotonic() + 120
+    end = time.monotonic() + PATIENCE
     while not came() and process.poll() is None and time.monotonic() < end:
         time.sleep(0.01)
 

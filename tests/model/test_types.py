@@ -17,6 +17,7 @@ import nivel
 import nivel.machine
 from nivel.machine.core.record import Record
 from nivel.machine.units.quantity import Quantity
+from patience import PATIENCE
 
 SCRIPTS = Path(__file__).parent / "typed"
 
@@ -62,7 +63,7 @@ def said(folder):
     (Path(folder) / "nivel").symlink_to(Path(nivel.__file__).parent)  # these sources, whatever is installed
     files = [SCRIPTS / "accepted.py", SCRIPTS / "refused.py", every]
     command = [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable, *map(str, files)]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=600, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=PATIENCE, check=False)
     found = {file.name: [] for file in files}
     for each in json.loads(done.stdout)["generalDiagnostics"]:
         found[Path(each["file"]).name].append((each["severity"], each["range"]["start"]["line"] + 1, each["message"]))

@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 from example_files import EXAMPLES
+from patience import PATIENCE
 
 RUN = """
 import sys
@@ -19,7 +20,9 @@ for words in ({}, {"verify": False}):
 def test_simulate_verifies_unless_told_otherwise():
     # a process of its own: in the tests the default is one run, for their time
     file = str(EXAMPLES / "mechanisms" / "simple-pendulum.yaml")
-    done = subprocess.run([sys.executable, "-c", RUN, file], capture_output=True, text=True, timeout=300, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", RUN, file], capture_output=True, text=True, timeout=PATIENCE, check=True
+    )
     by_default, single = done.stdout.splitlines()
     assert "not verified" not in by_default
     assert 0.0 < float(by_default.rpartition("error ")[2]) < 1e-3

@@ -11,6 +11,7 @@ import pytest
 
 import synthetic_run as pendulum
 from nivel.results import Memory
+from patience import PATIENCE
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 pytestmark = pytest.mark.skipif(
@@ -101,7 +102,7 @@ def browse(page, width):
         f"--window-size={width},1200",
     ]
     command += ["--virtual-time-budget=4000", "--dump-dom", (page / "driven.html").as_uri()]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=True)
     said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     title = re.search(r"<title>(\{.*?\})</title>", done.stdout, re.DOTALL)
     return said, json.loads(title[1].replace("&amp;", "&")) if title else None

@@ -13,6 +13,7 @@ from nivel.report.compare_page import COLUMNS, comparison_html
 from nivel.report.log_axis import LogAxis, power_of_ten
 from nivel.report.work_precision import WIDE, curves, diagram
 from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread
+from patience import PATIENCE
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 VOID = {"meta", "link", "br", "hr", "img", "input"}
@@ -185,7 +186,7 @@ def test_the_page_works_in_a_browser(tmp_path, width):
     command = [BROWSER, "--headless=new", "--disable-gpu", "--hide-scrollbars", "--enable-logging=stderr", "--v=0"]
     command += ["--no-sandbox"] * (os.geteuid() == 0) + [f"--user-data-dir={tmp_path / 'profile'}"]
     command += [f"--window-size={width},1200", "--virtual-time-budget=2000", "--dump-dom", page.as_uri()]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=True)
     assert [line for line in done.stderr.splitlines() if "CONSOLE" in line] == []
     seen = json.loads(re.search(r"<title>(\{.*?\})</title>", done.stdout, re.DOTALL)[1].replace("&amp;", "&"))
     motions = [text for text in seen["rising"] if text]

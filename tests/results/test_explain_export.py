@@ -13,6 +13,7 @@ import synthetic_run as pendulum
 from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.results import Result, Store
+from patience import PATIENCE
 
 TIME = np.linspace(0.0, 1.0, 11)
 
@@ -114,4 +115,4 @@ def test_a_reader_that_has_enough_is_no_failure(folder):
         assert process.stdout.readline().startswith(b"time [s]")
         process.stdout.close()
         assert process.stderr.read() == b""
-        assert process.wait(timeout=240) == 0
+        assert process.wait(timeout=PATIENCE) == 0

@@ -11,6 +11,7 @@ import pytest
 
 import needing
 from nivel.view.server import Address, Viewing, start
+from patience import PATIENCE
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 NO_BROWSER = "no chromium on this machine: what the page does in a browser is not tested"
@@ -24,7 +25,6 @@ FLAGS = [
     "--disable-sync",
     "--no-first-run",
 ]
-PATIENCE = 90.0  # seconds: a machine in use may be ten times slower than one at rest
 LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 
 

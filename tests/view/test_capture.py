@@ -20,6 +20,7 @@ from nivel.results import Store
 from nivel.view import browser, capture
 from nivel.view.capture import Look, film, still
 from nivel.view.sources import Playback
+from patience import PATIENCE
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 SMALL = Look(width=320, height=240)
@@ -149,7 +150,7 @@ def view(folder, *arguments):
 
 def view_in_a_process(folder, *arguments):
     command = [sys.executable, "-m", "nivel", "view", *map(str, arguments)]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=PATIENCE)
 
 
 def test_an_export_is_one_file_and_is_not_replaced_unasked(stored, tmp_path):

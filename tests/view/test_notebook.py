@@ -6,6 +6,7 @@ import pytest
 
 from browsing import chromium, until, watched
 from needing import needs
+from patience import PATIENCE
 
 needs("ipykernel")
 nbformat, nbclient, nbconvert = needs("nbformat"), needs("nbclient"), needs("nbconvert")
@@ -22,7 +23,7 @@ def test_a_notebook_shows_a_motion_that_plays(tmp_path):
         "result.view(result, height=300)",
     ]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
-    nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3").execute(cwd=str(tmp_path))
+    nbclient.NotebookClient(notebook, timeout=int(PATIENCE), kernel_name="python3").execute(cwd=str(tmp_path))
     shown = [cell.outputs[-1].data for cell in notebook.cells[1:]]
     assert all("<iframe" in each["text/html"] for each in shown)
     assert "result.export_scene" in shown[0]["text/plain"]

@@ -10,12 +10,13 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
-from browsing import PATIENCE, chromium, drawn, landed, served, until, watched
+from browsing import chromium, drawn, landed, served, until, watched
 from example_files import RIGID
 from lanes import tail
 from nivel.results import Memory
 from nivel.view.export import write_scene
 from nivel.view.sources import Playback
+from patience import PATIENCE
 from playing import assert_plays_and_scrubs
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"

@@ -13,7 +13,7 @@ import pytest
 import websockets
 
 import synthetic_run as pendulum
-from browsing import PATIENCE, served
+from browsing import served
 from many_bodies import moment, stage
 from nivel.errors import ModelError
 from nivel.results import Memory
@@ -22,6 +22,7 @@ from nivel.view.package import Block
 from nivel.view.records import COLUMN, FRAME, PACKAGE
 from nivel.view.server import MOST_PAGES, Address, Viewing, start
 from nivel.view.sources import Live, Playback
+from patience import PATIENCE
 
 
 def swinging():

@@ -143,7 +143,7 @@ def test_a_pyramid_of_balls_stands_by_friction_alone():
         ({"between": ["ball_0"]}, "at least two"),
         ({"between": ["ball_0", "box"]}, "sphere"),
         ({"between": ["ball_0", "ball_0"]}, "twice"),
-        ({"friction": 0.3}, "friction_transition_speed"),
+        ({"friction": 0.3, "friction_model": "coulomb"}, "friction_transition_speed"),
         ({"planes": ["flor"]}, "flor"),
     ],
 )
@@ -152,6 +152,26 @@ def test_what_cannot_be_a_heap_is_refused(changes, said):
     forces = {"heap": {"type": "contacts", "between": ["ball_0", "ball_1"], **PAIR, **changes}}
     with pytest.raises(ModelError, match=said):
         simulate({"bodies": bodies, "markers": {"floor": FLOOR}, "forces": forces}, duration=0.1)
+
+
+@pytest.mark.parametrize(
+    ("given", "sticks"),
+    [
+        ({}, True),
+        ({"friction_transition_speed": 0.05}, False),
+        ({"friction_model": "stiction"}, True),
+        ({"friction_model": "coulomb", "friction_transition_speed": 0.05}, False),
+    ],
+)
+@pytest.mark.parametrize("kind", ["contact", "contacts"])
+def test_one_default_of_friction_for_one_word(kind, given, sticks):
+    """A given transition speed makes friction smooth, as in files from before contacts could stick; without one, contacts stick."""
+    ends = {"body": "ball_0", "plane": "floor"} if kind == "contact" else {"between": "all", "planes": ["floor"]}
+    forces = {"it": {"type": kind, **ends, **PAIR, "friction": 0.3, **given}}
+    record = machine({"bodies": balls([0, 0, 0], [1, 0, 0]), "markers": {"floor": FLOOR}, "forces": forces}).record
+    kinds = {force.type for force in record.forces}
+    assert kinds == ({"contact"} if kind == "contact" or sticks else {"contacts"})
+    assert all(force.sticks == sticks for force in record.forces if force.type == "contact")
 
 
 def test_what_cells_find_is_what_all_pairs_give(monkeypatch):

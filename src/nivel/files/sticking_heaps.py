@@ -15,7 +15,7 @@ KEPT: Final = ("stiffness", "exponent", "restitution", "friction", "static_frict
 
 
 def divide_heaps(tree: Tree) -> None:
-    """Put single contacts in place of `contacts` with `friction_model: stiction`: NAME_A_B of two bodies, NAME_A_1 of a body and the first
+    """Put single contacts in place of `contacts` whose friction sticks: NAME_A_B of two bodies, NAME_A_1 of a body and the first
     plane. Those with faults stay, and are reported where the record is made. Faults go to `tree.faults`."""
     given = section_of(tree, "forces")
     forces: dict[str, Any] = {}
@@ -28,7 +28,8 @@ def divide_heaps(tree: Tree) -> None:
         planes = planes if isinstance(planes, list) else [planes]
         count = len(names) * (len(names) - 1) // 2 + len(names) * len(planes)
         if count > MOST_PAIRS:
-            message = f"`{name}` has {count} pairs, and friction that sticks can be found for {MOST_PAIRS}: use `friction_model: coulomb`"
+            message = f"`{name}` has {count} pairs, and friction that sticks can be found for {MOST_PAIRS}"
+            message += "; with a `friction_transition_speed` they creep"
             tree.report(("forces", name), message)
             continue
         kept = {key: force[key] for key in KEPT if key in force}
@@ -51,9 +52,10 @@ def divide_heaps(tree: Tree) -> None:
 
 def _spheres(tree: Tree, force: Any) -> list[str] | None:
     """The bodies of `contacts` that stick; None of all else, and where anything is wrong."""
-    if not isinstance(force, dict) or force.get("type") != TYPE or force.get("friction_model") != "stiction":
+    if not isinstance(force, dict) or force.get("type") != TYPE or not force.get("friction"):
         return None
-    if "friction" not in force or set(force) - {*KEPT, "type", "name", "friction_model", "between", "planes"}:
+    model = force.get("friction_model") or ("coulomb" if "friction_transition_speed" in force else "stiction")
+    if model != "stiction" or set(force) - {*KEPT, "type", "name", "friction_model", "between", "planes"}:
         return None
     if not {"stiffness", "restitution"} <= set(force):
         return None

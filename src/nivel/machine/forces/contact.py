@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator
 
@@ -31,7 +31,19 @@ from nivel.machine.units.quantity import Whole, listed
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
 ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at the nearest points
+FrictionModel = Literal["stiction", "coulomb"]
+FRICTION_MODELS: Final = (
+    "stiction sticks; with coulomb friction goes as tanh(sliding speed / friction_transition_speed), so bodies creep; "
+    "default coulomb where a friction_transition_speed is given, else stiction"
+)
 SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
+
+
+def friction_model_of(contact: Any) -> FrictionModel:
+    """The `friction_model` of a `contact` or of `contacts`: as given; else coulomb where its transition speed is given, as in files that
+    were written before contacts could stick, and stiction where none is.
+    """
+    return contact.friction_model or ("stiction" if contact.friction_transition_speed is None else "coulomb")
 
 
 class Material(Record):
@@ -98,12 +110,9 @@ class Contact(ForceElement):
     )
     friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
     static_friction: Maybe[PositiveNumber] = Field(default=None, description="coefficient, default `friction`")
-    friction_model: Literal["stiction", "coulomb"] = Field(
-        default="stiction",
-        description="stiction sticks; with coulomb friction goes as tanh(sliding speed / friction_transition_speed), so bodies creep",
-    )
+    friction_model: Maybe[FrictionModel] = Field(default=None, description=FRICTION_MODELS)
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
-        default=None, description="of `friction_model: coulomb`; stiction makes no use of it"
+        default=None, description="of `friction_model: coulomb`; stiction makes no use of it in motion"
     )
     friction_work: bool = Field(
         default=False, description="the heat of friction since the start is an output too, and a state of the run"
@@ -137,7 +146,7 @@ class Contact(ForceElement):
     @property
     def sticks(self) -> bool:
         """Whether friction can hold the bodies at rest."""
-        return self.friction > 0 and self.friction_model == "stiction"
+        return self.friction > 0 and friction_model_of(self) == "stiction"
 
     def _problems_of_friction(self) -> Iterator[Problem]:
         if self.static < self.friction:

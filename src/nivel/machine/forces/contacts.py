@@ -11,7 +11,7 @@ from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, PositiveNumber, PositiveSpeed, Restitution
 from nivel.machine.core.marker import ManyMarkers
 from nivel.machine.core.record import GROUND, BodyName
-from nivel.machine.forces.contact import HERTZ
+from nivel.machine.forces.contact import FRICTION_MODELS, HERTZ, FrictionModel, friction_model_of
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.power_stiffness import PowerStiffness
@@ -53,9 +53,9 @@ class Contacts(ForceElement):
     static_friction: Maybe[PositiveNumber] = Field(
         default=None, description="of stiction: coefficient, default `friction`"
     )
-    friction_model: Literal["stiction", "coulomb"] = Field(
-        default="coulomb",
-        description=f"stiction sticks, for at most {MOST_PAIRS} pairs, which become single contacts; with coulomb bodies creep",
+    friction_model: Maybe[FrictionModel] = Field(
+        default=None,
+        description=f"{FRICTION_MODELS}; stiction is for at most {MOST_PAIRS} pairs, which become single contacts",
     )
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="friction goes as tanh(sliding speed / this), so bodies creep"
@@ -73,7 +73,7 @@ class Contacts(ForceElement):
         if len(set(self.between)) < len(self.between):
             twice = next(each for each in self.between if self.between.count(each) > 1)
             yield Problem(("between",), f"`{twice}` is there twice")
-        if self.friction_model == "stiction":
+        if friction_model_of(self) == "stiction" and (self.friction or self.friction_model):
             yield from self._problems_of_sticking()
         elif self.friction > 0 and self.friction_transition_speed is None:
             message = "`friction_transition_speed` is missing: below it friction lets the bodies creep"

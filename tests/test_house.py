@@ -14,6 +14,7 @@ import pytest
 
 from lanes import FULL
 from needing import MUST_RUN
+from patience import PATIENCE
 
 ROOT = Path(__file__).parent.parent
 BIN = Path(sys.executable).parent
@@ -33,7 +34,13 @@ CHECKS = {
 def done(command, environment):
     own = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     return subprocess.run(
-        command, cwd=ROOT, env={**own, **environment}, capture_output=True, text=True, check=False, timeout=1800
+        command,
+        cwd=ROOT,
+        env={**own, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=10 * PATIENCE,
     )
 
 

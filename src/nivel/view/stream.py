@@ -68,7 +68,6 @@ class Stream:
         self._wished = asyncio.Event()
         self.frame_count = 0
         self.dropped_count = 0  # messages that were not understood, or too many
-        self.send_seconds = 0.0
 
     def has_news(self) -> None:
         """The source has a new frame."""
@@ -97,14 +96,12 @@ class Stream:
             self._sampled, samples = self._source.samples(self._sampled)
             if len(samples):
                 await self._connection.send(samples_message(samples))
-            begin = time.thread_time()  # of this thread alone, however busy the machine is
             newest = self._source.frame()
             if newest is None:
                 continue
             self._number += 1
             content = message(self._number, *newest)
             self._seen.clear()
-            self.send_seconds += time.thread_time() - begin
             self.frame_count += 1
             await self._connection.send(content)
 

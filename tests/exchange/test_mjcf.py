@@ -214,11 +214,18 @@ MANY = '<replicate count="100000"><replicate count="1000"><geom size="1"/></repl
         ("<worldbody>", '<include file="model.xml"/><worldbody>', "is included twice, or leads back to itself"),
         ('type="box"', 'type="bix"', "MuJoCo cannot compile the model: "),
         ("<mujoco", "<!DOCTYPE a []><mujoco", "a document type"),
+        ('<geom type="box"', '<geom rgba="0.3 0.5 nan 1" type="box"', r'xml:5:.*<geom>: rgba="0\.3 0\.5 nan 1" is not finite'),
+        ('density="800"', 'density="1e999"', 'density="1e999" is not finite'),
+        ("<worldbody>", '<worldbody><replicate count="inf"><geom size="1"/></replicate>', 'count="inf" is not finite'),
     ],
 )  # fmt: skip
 def test_what_is_wrong_or_hostile_is_refused(tmp_path, old, new, message):
     with pytest.raises(nivel.ModelError, match=message):
         read_model(written(tmp_path, TREE.replace(old, new, 1)))
+
+
+def test_a_name_may_look_like_a_number(tmp_path):
+    assert "inf" in read_model(written(tmp_path, TREE.replace('name="yaw"', 'name="inf"', 1))).data["joints"]
 
 
 def test_the_example_of_a_leg_is_the_translation_of_its_model():

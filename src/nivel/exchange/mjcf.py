@@ -67,8 +67,11 @@ def read_mjcf(path: Path, document: Document, base: str | None) -> Mechanism:
 
 
 def _check_source(document: Document, path: Path, seen: set[Path], depth: int = 0) -> None:
-    """Refuse what would make a model larger than its file, and files outside of the folder of the model."""
+    """Refuse numbers that are not finite, what would make a model larger than its file, and files outside of the folder of the model."""
     folder = path.parent.resolve()
+    _check_finite(document)
+    if document.faults:
+        return
     for element, count in _repeated(document.root, 1):
         if count > MOST_LINKS:
             document.fault(element, f"{count} repetitions; up to {MOST_LINKS} are read")
@@ -82,6 +85,27 @@ def _check_source(document: Document, path: Path, seen: set[Path], depth: int = 
                 document.fault(element, f'{key}="{given}" leaves the folder of the model, and is not read')
         if element.tag == "include" and not document.faults:
             _include(document, element, folder, seen, depth)
+
+
+def _check_finite(document: Document) -> None:
+    """Note attributes of numbers of which one is not finite. A word that the file gives to an element as its name is none."""
+    pending, names, given = [document.root], {""}, []
+    while pending:
+        element = pending.pop()
+        pending += element.children
+        names |= {element.get("name"), element.get("class")}
+        given += [(element, key, each.split()) for key, each in element.attributes.items()]
+    for element, key, words in given:
+        numbers = [] if " ".join(words) in names else [_number(word) for word in words]
+        if None not in numbers and not np.all(np.isfinite(np.array(numbers, dtype=float))):
+            document.fault(element, f'{key}="{" ".join(words)}" is not finite')
+
+
+def _number(word: str) -> float | None:
+    try:
+        return float(word)
+    except ValueError:
+        return None
 
 
 def _include(document: Document, element: Element, folder: Path, seen: set[Path], depth: int) -> None:

@@ -224,6 +224,20 @@ def test_what_is_wrong_or_hostile_is_refused(tmp_path, old, new, message):
         read_model(written(tmp_path, TREE.replace(old, new, 1)))
 
 
+def test_names_with_a_hyphen_stand_in_expressions(tmp_path):
+    """Torque 5 min(u, 2) of an actuator `left-hip` on a joint of that name, which is told to be called otherwise."""
+    text = TREE.replace('"bend"', '"left-hip"').replace(
+        "</worldbody>",
+        '</worldbody><actuator><position name="left-hip" joint="left-hip" kp="5" ctrllimited="true" ctrlrange="-2 2"/></actuator>',
+    )
+    model = read_model(written(tmp_path, text))
+    assert "left_hip was left-hip" in "\n".join(model.summary())
+    machine = nivel.import_model(tmp_path / "model.xml")
+    assert [*machine.inputs] == ["left_hip"]
+    (force,) = [each for each in machine.record.forces if each.name == "left-hip"]
+    assert "left_hip.value" in str(force.effort)
+
+
 def test_a_name_may_look_like_a_number(tmp_path):
     assert "inf" in read_model(written(tmp_path, TREE.replace('name="yaw"', 'name="inf"', 1))).data["joints"]
 

@@ -61,7 +61,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         for suffix, force in forces_of(each, names, effective + each.armature, mechanism).items():
             forces[names.new(f"{each.name}_{suffix}", "force")] = force
     for actuator in mechanism.actuators:
-        control = names.new(actuator.name, "input")
+        control = names.name("input", actuator.name)
         inputs[control], forces[names.new(actuator.name, "force")] = actuated(actuator, control, mechanism, names)
     for link, point, vector in mechanism.lifts:
         group = groups[link]
@@ -70,7 +70,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
             force = {"type": "force", "body": names.name("body", group.first), "position": triple(at.origin)}
             forces[names.new(f"{link}_gravcomp", "force")] = force | {"vector": [number(each) for each in vector]}
     markers = _markers(mechanism, groups, names)
-    changed = names.changed(("body", "marker", "joint"))
+    changed = names.changed(("body", "marker", "joint", "input"))
     if changed:
         mechanism.notes.change("names that nivel does not take were changed", "; ".join(changed))
         data["description"] = f"Names in {mechanism.format}: {'; '.join(changed)}."

@@ -11,6 +11,7 @@ from nivel.machine.core.record import GROUND, NAME
 
 # kinds of elements that share their names
 SHARED: Final = {"marker": "body", "coupling": "joint", "driver": "joint"}
+IN_EXPRESSIONS: Final = ("input", "joint")  # where `-` is the minus sign
 
 
 @dataclass
@@ -29,7 +30,8 @@ class Names:
     def new(self, wanted: str, kind: str) -> str:
         """A name that nothing of this kind has yet, the wanted one if possible."""
         taken = self.taken.setdefault(SHARED.get(kind, kind), {GROUND})
-        plain = re.sub(r"[^\w-]+", "_", wanted).strip("_") or kind
+        other = r"\W+" if kind in IN_EXPRESSIONS else r"[^\w-]+"
+        plain = re.sub(other, "_", wanted).strip("_") or kind
         base = plain if NAME.fullmatch(plain) else f"{kind}_{plain}"
         name, count = base, 2
         while name in taken:
@@ -40,4 +42,5 @@ class Names:
     def changed(self, kinds: Iterable[str]) -> list[str]:
         """Names of these kinds that are not those of the source, as `new was old`."""
         kinds = tuple(kinds)
-        return [f"{new} was {old}" for (kind, old), new in self.of.items() if kind in kinds and old != new]
+        changed = [(old, new) for (kind, old), new in self.of.items() if kind in kinds and old != new]
+        return [f"{new} was {old}" for old, new in dict.fromkeys(changed)]

@@ -198,9 +198,9 @@ def test_the_press_takes_its_work_from_the_flywheel_and_stops_at_the_top():
     assert np.ptp(result.array("bearing.angle")[result.time > 1.3]) < 1e-9
     # the clutch is locked, slips while the blow asks for more than its capacity, and locks again
     slip = np.abs(result.array("force.clutch.slip"))
-    assert slip[(result.time > 0.6) & (result.time < 0.72)].max() < 1e-9
+    assert slip[(result.time > 0.6) & (result.time < 0.72)].max() < 1e-7 * slip.max()  # ten times the tolerance
     assert slip.max() > 1.0
-    assert slip[(result.time > 1.05) & (result.time < 1.16)].max() < 1e-9
+    assert slip[(result.time > 1.05) & (result.time < 1.16)].max() < 1e-7 * slip.max()
     assert np.abs(result.array("force.workpiece.magnitude")).max() > 4e5
     assert np.abs(result.array("energy_error")).max() < 1e-3 * result.array("kinetic_energy").max()
 

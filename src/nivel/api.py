@@ -316,7 +316,7 @@ class Machine(Model):
         that it is for, as in `export_fmu`; by default this one.
         Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
         """
-        plan = self._plan({})
+        plan = self._plan({}, stepwise=True)
         build(run_entries(plan), listener)
         from nivel.c_library.writer import write_c_library
 
@@ -354,7 +354,7 @@ class Machine(Model):
             raise ModelError(Fault("", 0, 0, "fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
         self._refuse_target(path, force)
         values = defaults_of(self, paths)
-        plan = self._plan({})
+        plan = self._plan({}, stepwise=True)
         build(run_entries(plan), listener)
         with self._faults_in_file():
             nominal = export(plan, "an FMU", chosen)
@@ -367,7 +367,7 @@ class Machine(Model):
                 platforms=systems,
                 values=values,
                 units=units_of(self, paths),
-                vary=lambda changes: export(same.with_values(changes)._plan({}), "an FMU"),
+                vary=lambda changes: export(same.with_values(changes)._plan({}, stepwise=True), "an FMU"),
             )
 
     @overload
@@ -443,7 +443,7 @@ class Machine(Model):
         """
         given = _given(settings)
         chosen = self.with_settings(given)
-        plan = chosen._plan({*given, *self.origin.settings_outside})
+        plan = chosen._plan({*given, *self.origin.settings_outside}, stepwise=True)
         build(_entries_of(plan, chosen.record), listener)
         from nivel.analysis.run.stepping import Simulation
 
@@ -466,7 +466,7 @@ class Machine(Model):
         if len(rows) != n:
             raise ModelError(Fault("", 0, 0, "values", f"lists of {n} values are needed; there are {len(rows)}"))
         machines = [chosen.with_values(row) for row in rows]
-        plans = [each._plan(each.origin.settings_outside) for each in machines]
+        plans = [each._plan(each.origin.settings_outside, stepwise=True) for each in machines]
         with chosen._faults_in_file():
             return Simulations(plans, source=self.origin.source)
 
@@ -1051,11 +1051,14 @@ class Machine(Model):
         with chosen._faults_in_file():
             return compare(chosen.record, grid, repeat=repeat, listener=listener)
 
-    def _plan(self, given: Collection[str]) -> Plan:
-        """What a run will be. Raises ModelError where settings do not go together or have no effect though `given`, or joints do not
-        meet the beams that they slide along."""
+    def _plan(self, given: Collection[str], *, stepwise: bool = False) -> Plan:
+        """What a run will be; stepwise : in steps of one length.
+
+        Raises ModelError where settings do not go together or have no effect though `given`, or joints do not meet the
+        beams that they slide along.
+        """
         with self._faults_in_file():
-            return plan_run(self.record, given)
+            return plan_run(self.record, given, stepwise=stepwise)
 
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""

@@ -28,7 +28,7 @@ class RunSettingsDict(TypedDict, total=False):
     start: Annotated[Start | None, "--start NAME", "Initial state: as assembled, or the equilibrium at rest:"]
     free: Annotated[Sequence[str] | str | None, "--free NAMES", "Joint coordinates without stiffness that an equilibrium leaves where they are placed."]
     step_control: Annotated[StepControl | None, "--step-control NAME", "Steps fixed, or chosen by their error; own: as the integrator does:"]
-    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, for integrators that choose their steps."]
+    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named."]
     largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
     corrector: Mapping[str, Any] | None
     newmark: Mapping[str, Any] | None
@@ -53,7 +53,7 @@ class StepSettingsDict(TypedDict, total=False):
     start: Annotated[Start | None, "--start NAME", "Initial state: as assembled, or the equilibrium at rest:"]
     free: Annotated[Sequence[str] | str | None, "--free NAMES", "Joint coordinates without stiffness that an equilibrium leaves where they are placed."]
     step_control: Annotated[StepControl | None, "--step-control NAME", "Steps fixed, or chosen by their error; own: as the integrator does:"]
-    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, for integrators that choose their steps."]
+    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named."]
     largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
     corrector: Mapping[str, Any] | None
     newmark: Mapping[str, Any] | None
@@ -124,7 +124,7 @@ class MachineSweepSettingsDict(TypedDict, total=False):
     start: Annotated[Start | None, "--start NAME", "Initial state: as assembled, or the equilibrium at rest:"]
     free: Annotated[Sequence[str] | str | None, "--free NAMES", "Joint coordinates without stiffness that an equilibrium leaves where they are placed."]
     step_control: Annotated[StepControl | None, "--step-control NAME", "Steps fixed, or chosen by their error; own: as the integrator does:"]
-    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, for integrators that choose their steps."]
+    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named."]
     largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
     corrector: Mapping[str, Any] | None
     newmark: Mapping[str, Any] | None

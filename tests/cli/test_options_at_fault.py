@@ -18,6 +18,7 @@ simulation:
   duration: 1
   step: 1 ms
   output_interval: 10 ms
+  integrator: rk4
 """
 
 
@@ -145,7 +146,8 @@ def test_the_argument_that_clashes_with_the_file_is_named(sticking):
 
 
 def test_what_clashes_within_the_file_keeps_its_line(sticking, tmp_path):
-    text = STICKING.replace("  coordinates: relative", "  integrator: energy-momentum\n  coordinates: relative")
+    text = STICKING.replace("  integrator: rk4\n", "")
+    text = text.replace("  coordinates: relative", "  integrator: energy-momentum\n  coordinates: relative")
     (tmp_path / "sticking.yaml").write_text(text)
     lines = said("check", sticking).splitlines()
     for place in ("8:51  forces.rub.model", "9:1  simulation.stabilisation", "11:16  simulation.coordinates"):

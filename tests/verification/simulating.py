@@ -16,7 +16,10 @@ G = 9.81
 
 
 def machine(sections: Mapping[str, Any]) -> Machine:
-    """The machine of `sections`; every YAML reader reads JSON."""
+    """The machine of `sections`; every YAML reader reads JSON. A `step` without an integrator is one of rk4."""
+    settings = sections.get("simulation", {})
+    if "step" in settings and not settings.keys() & {"integrator", "step_control"}:
+        sections = {**sections, "simulation": {**settings, "integrator": "rk4"}}
     return Machine.from_record(parse_machine(json.dumps({"format": 1, **sections}, default=_plain), allow_code=True))
 
 

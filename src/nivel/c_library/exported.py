@@ -154,7 +154,7 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
         f"{each.what} of the block `{each.name}`" for each in plan.machine.control if isinstance(each, UnitBlock)
     ]:
         raise refusal(f"{what} cannot have what others have compiled: {named[0]}")
-    plan, prepared = fitted(plan, prepare(plan.methods), fixed=True)
+    plan, prepared = fitted(plan, prepare(plan.methods))
     loop = _endless(start_loop(prepared, plan.settings))
     entries = tuple(dict.fromkeys(run_entries(plan)))
     twins = [prepared.motion.twin] if prepared.motion.twin is not None else []

@@ -61,7 +61,9 @@ def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]
     for note in notes:
         out.print(f"note: {note}", markup=False, soft_wrap=True)
     if reason := result.settings.get("reason"):
-        out.print(f"method: {result.settings['integrator']}, because {reason}", markup=False, soft_wrap=True)
+        method, later = result.settings["integrator"], result.settings.get("went_on")
+        more = f"; stiff at t = {later['from']:.4g} s, where {later['integrator']} went on" if later else ""
+        out.print(f"method: {method}, because {reason}{more}", markup=False, soft_wrap=True)
     for line in assembly_lines(result):
         out.print(line)
     for line in in_words(result.events, result.stopped_by):

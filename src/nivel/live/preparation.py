@@ -78,13 +78,13 @@ def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float |
     simulation = changed(machine.simulation, {**settings, "duration": LONGEST})
     pace = pace_of(simulation.step, tick)
     simulation = simulation.replace(output_interval=pace.every * pace.tick)
-    plan = plan_run(machine.replace(inputs=tuple(driven), simulation=simulation), set(settings))
+    plan = plan_run(machine.replace(inputs=tuple(driven), simulation=simulation), set(settings), stepwise=True)
     if plan.settings.steps == 0:
         message = f"`{plan.settings.integrator}` chooses its steps; live operation needs fixed ones, for instance of rk4 or ros2"
         raise ModelError(Fault("", 0, 0, "simulation.integrator", message))
     if plan.is_open:
         # the machine of the plan names what is chosen, so that a recording is replayed with it
-        plan, _ = fitted(plan, prepare(plan.methods), fixed=True)
+        plan, _ = fitted(plan, prepare(plan.methods))
     return plan, pace
 
 

@@ -18,6 +18,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome, counts_of
 from nivel.analysis.run.simulate import close_run
+from nivel.analysis.trust.subject import run_of
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files.target import check_target
@@ -109,7 +110,7 @@ def replay(
         raise ModelError("this take has no tick: there is nothing to replay")
     if out is not None:
         check_target(Path(out), "result file", force=force)
-    plan = plan_run(recording.machine)
+    plan = plan_run(recording.machine, stepwise=True)
     compile_seconds = build([*run_entries(plan), drive], listener)
     again = prepared_run(plan, recording.pace)
     prepared = again.prepared
@@ -124,7 +125,7 @@ def replay(
         sink.take(frames)
         found.take(frames)
     seconds = {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
-    result = close_run(sink, replace(plan, machine=machine), prepared, outcome, None, seconds)
+    result = close_run(sink, run_of(replace(plan, machine=machine), prepared, outcome, sink.result()), seconds)
     return found.replay(result)
 
 

@@ -61,6 +61,11 @@ class Memory:
         self._buffer[self._count : end] = frames
         self._count = end
 
+    @property
+    def frames(self) -> NDArray[np.float64]:
+        """(n, width) what was taken."""
+        return self._buffer[: self._count]
+
     def discard(self) -> None:
         """Give up what was taken."""
         self._header, self._count = None, 0

@@ -27,7 +27,6 @@ from nivel.analysis.plan.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.run.fitting import fitting
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.core.status import OK
@@ -298,7 +297,6 @@ def _vector(values: tuple[float, ...], digits: int = 6) -> str:
 def check(plan: Plan) -> Check:
     """Assemble the machine of a plan. Raises ModelError with what is wrong."""
     prepared, unsettled = _prepared(plan.methods)
-    plan = fitting(plan, prepared)
     own, machine, settings = plan.machine, plan.methods.machine, plan.settings
     system = prepared.absolute.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly

@@ -3,7 +3,7 @@ minimum or a maximum of expressions of time alone changes sides."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import lru_cache
 from typing import TypeGuard
@@ -23,6 +23,7 @@ from nivel.machine.units.tree import TIME, ExpressionError, Node, signals
 SAMPLES = 2000
 # Slopes of a table that differ by less, as a share of the largest, make no corner.
 STRAIGHT = 1e-9
+FEW = 64
 # [s] What jumps at the time 0 begins with what is written for it: a first part of a step ends here, and the method begins anew.
 BEGUN = 1e-12
 # Corners are found to less than NEAR of their time, as functions pass them within that. The first is no limit [s].
@@ -39,7 +40,7 @@ def corners(machine: MachineRecord, *, with_values: bool = False, at_begin: bool
         if each.sampling is None and _knows_corners(function):
             found |= {
                 time
-                for time in corners_of(function, end)
+                for time in corners_of(function, end, all_points=with_values)
                 if not with_values or isinstance(function, Table) or _holds(function, time)
             }
             if at_begin and isinstance(function, Expression) and _jumps_at_begin(function, end):
@@ -60,9 +61,13 @@ def _jumps_at_begin(expression: Expression, end: float) -> bool:
     return abs(second - first) > STRAIGHT * max(abs(first), abs(second))
 
 
-def corners_of(function: Table | Expression, end: float) -> list[float]:
-    """Corners of a function of time after the begin of a run, up to its `end` [s]; those of a table ascending."""
-    times = _of_table(function) if isinstance(function, Table) else _of_expression(function, end)
+def corners_of(function: Table | Expression, end: float, *, all_points: bool = False) -> list[float]:
+    """Corners of a function of time after the begin of a run, up to its `end` [s]; those of a table ascending. all_points : of a table of
+    FEW points all of them, so that slopes by its values have the same corners whatever these are."""
+    if all_points and isinstance(function, Table) and len(function.times) <= FEW:
+        times: Iterable[float] = map(float, function.times)
+    else:
+        times = _of_table(function) if isinstance(function, Table) else _of_expression(function, end)
     return [time for time in times if 0.0 < time <= end * (1.0 + NEAR)]
 
 

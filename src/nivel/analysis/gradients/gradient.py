@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
@@ -14,13 +13,14 @@ from nivel.analysis.gradients.check import LIGHTS, Checked, check
 from nivel.analysis.gradients.outputs import Array, Output, outputs_of
 from nivel.analysis.gradients.parameters import Parameter, parameters_of
 from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
-from nivel.analysis.plan.plan import Plan, plan_run
+from nivel.analysis.plan.choice import FOR_STIFF
+from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.plan.plan import Plan, other_run, plan_run
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
-from nivel.analysis.run.fitting import FasterError, fitted, implicit, refuse_faster
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
@@ -55,8 +55,11 @@ class Varied:
     def __init__(self, machine: Model, plan: Plan, source: str, listener: Listener | None = None) -> None:
         prepared, self._given = prepare(plan.methods), machine.origin.settings_outside
         if plan.is_open:
-            plan, prepared = _settled(plan, prepared, listener)
-            machine = machine.with_settings({"integrator": plan.settings.integrator, "step": plan.settings.step})
+            named = _settled(plan, prepared, listener).machine.simulation
+            known = {name: getattr(named, name) for name in ("integrator", "step", "tolerance")}
+            machine = machine.with_settings(known)
+            plan = plan_run(machine.record, self._given)
+            prepared = prepare(plan.methods)
         self._machine, self.plan, self.prepared, self._source = machine, plan, prepared, source
 
     @property
@@ -111,16 +114,16 @@ def _number_at(machine: Model, path: str) -> float:
     return float(cast("float", machine[path]))
 
 
-def _settled(plan: Plan, prepared: Prepared, listener: Listener | None) -> tuple[Plan, Prepared]:
-    """The plan and its machine made ready with the integrator that a run of it has to its end, as in `nivel.analysis.run.simulate`."""
-    plan, prepared = fitted(plan, prepared, listener=listener)
-    if not plan.is_open:
-        return plan, prepared
-    try:
-        refuse_faster(plan, prepared, march(prepared, plan.settings, []))
-    except FasterError as faster:
-        plan, prepared = implicit(replace(plan, is_open=False), prepared, faster.found, listener=listener)
-    return plan, prepared
+def _settled(plan: Plan, prepared: Prepared, listener: Listener | None) -> Plan:
+    """The plan of a machine that names no integrator with one that a run of it keeps to its end: slopes of another one would be those of
+    the time at which it goes on, too."""
+    if plan.methods.stiff is None or march(prepared, plan.settings, [], listener=listener).went_on is None:
+        return plan
+    stiff = other_run(plan, FOR_STIFF)
+    if stiff is None:
+        return plan
+    build(run_entries(stiff), listener)
+    return stiff
 
 
 def gradient(

@@ -1,7 +1,10 @@
-"""Choice of coordinates for `coordinates: auto`: the ones in which an evaluation of its equations costs least.
+"""Choice of the integrator and of the coordinates of a run that leaves them to nivel.
 
-Joints named in `cut` are a wish about relative coordinates: where these are possible, they are taken. Velocities named in `independent`
-are one about independent coordinates.
+Steps are chosen by their error. `dopri5` begins; where stability bounds its steps, `radau` goes on from that time. Friction that sticks
+has `radau` from the start, circuits have `extrapolated-euler`, beams `generalised-alpha`.
+
+For `coordinates: auto` the ones are taken in which an evaluation of the equations costs least. Joints named in `cut` are a wish about
+relative coordinates: where these are possible, they are taken. Velocities named in `independent` are one about independent coordinates.
 
 Counted are, in relative coordinates, the bodies of the tree and the rows that are left with the joint velocities on their way to the
 ground; in absolute ones the rows with the bodies that they touch; and in both the entries of S. Weights are nanoseconds, fitted to
@@ -12,14 +15,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
+from math import ceil
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.integrate.catalogue import INTEGRATORS, step_for
-from nivel.machine.forces import Friction, is_sticking
+from nivel.machine.forces import Contact, Contacts, Friction, Stop, is_sticking
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
+from nivel.methods import chooses
 from nivel.system.beams.nodes import with_nodes
 
 # relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
@@ -27,7 +32,14 @@ TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
 BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
 # Tangents in relative coordinates are full matrices: of more bodies than this the sparse ones of absolute coordinates are faster.
 MOST_DENSE = 60
+# What goes on where stability bounds the steps of an explicit method, and the tolerance of a run that names neither.
+FOR_STIFF, USUAL_TOLERANCE = "radau", 1e-8
+# why a run has its integrator
+EXPLICIT = f"no method is named; where it is stiff, {FOR_STIFF} goes on"
+STICKING = "friction that sticks is stiff"
 STIFF_CIRCUITS = "circuits are stiff, and every step of it costs the same"
+STIFF_BEAMS = "beams have rates beyond all steps"
+FIXED = "other settings depend on a fixed step"
 
 
 def names_no_integrator(machine: MachineRecord) -> bool:
@@ -35,11 +47,34 @@ def names_no_integrator(machine: MachineRecord) -> bool:
     return "integrator" not in machine.simulation.model_fields_set and machine.simulation.step_control == "own"
 
 
-def with_integrator(machine: MachineRecord) -> MachineRecord:
-    """The machine with an integrator that suits it, where none was asked for: circuits are stiff, and have one of fixed cost."""
-    if not machine.hydraulics or not names_no_integrator(machine):
+def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
+    """(integrator, why it is taken) for a machine that names none: the first one goes that its other settings allow."""
+    if machine.hydraulics:
+        return (("extrapolated-euler", STIFF_CIRCUITS),)
+    if machine.beams:
+        impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
+        names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
+        return tuple((name, STIFF_BEAMS) for name in names)
+    if any(map(is_sticking, machine.forces)):
+        return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))
+    return (("dopri5", EXPLICIT), ("rk4", FIXED))
+
+
+def with_integrator(machine: MachineRecord, name: str, **changes: float) -> MachineRecord:
+    """The machine with this integrator and other changes of its settings; where it names no tolerance, with the usual one."""
+    settings = machine.simulation
+    own = {} if "tolerance" in settings.model_fields_set else {"tolerance": USUAL_TOLERANCE}
+    return machine.replace(simulation=settings.replace(integrator=name, **{**own, **changes}))
+
+
+def with_dividing_step(machine: MachineRecord) -> MachineRecord:
+    """The machine whose fixed steps, where `step` is not given, divide `output_interval`."""
+    settings, interval = machine.simulation, machine.simulation.output_interval
+    is_chosen = chooses(settings.integrator, settings.step_control)
+    if interval is None or is_chosen or "step" in settings.model_fields_set:
         return machine
-    return machine.replace(simulation=machine.simulation.replace(integrator="extrapolated-euler"))
+    step = interval / ceil(interval / settings.step * (1.0 - 1e-9))
+    return machine.replace(simulation=settings.replace(step=step))
 
 
 def choose_coordinates(machine: MachineRecord) -> str:

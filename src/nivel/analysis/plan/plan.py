@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
 
 from nivel.analysis.plan.choice import (
-    STIFF_CIRCUITS,
+    FOR_STIFF,
     choose_coordinates,
     choose_cut,
+    integrators_for,
     names_no_integrator,
     slides,
+    with_dividing_step,
     with_integrator,
 )
 from nivel.analysis.plan.combinations import refuse_combinations
@@ -86,7 +88,8 @@ class Methods:
     """How the equations of motion of a machine are written.
 
     machine : with the nodes of its beams as bodies. cut : its settings with the joints that are cut in relative coordinates. path : where
-    the equations are. sliding : whether beams carry bodies that slide along them.
+    the equations are. sliding : whether beams carry bodies that slide along them. stiff : the same equations with the integrator that
+    goes on where stability bounds the steps of this one; None where this one stays.
     """
 
     machine: MachineRecord
@@ -96,6 +99,7 @@ class Methods:
     sliding: bool
     path: PathFacts
     integrator: IntegratorFacts
+    stiff: Methods | None = None
 
     @property
     def solves_residual(self) -> bool:
@@ -117,7 +121,8 @@ class Methods:
 class Plan:
     """One run: the machine as it was written, its settings completed, and its methods.
 
-    is_open : the machine names no integrator, and has the usual one. reason : why it has its integrator where nobody asked for it.
+    is_open : the machine names no integrator. reason : why it has its integrator where nobody asked for it. asked : the machine as it was
+    written, where nivel has chosen the methods of `machine`.
     """
 
     machine: MachineRecord
@@ -125,6 +130,7 @@ class Plan:
     methods: Methods
     is_open: bool = False
     reason: str = ""
+    asked: MachineRecord | None = None
 
     @property
     def stabilisation(self) -> ModuleType:
@@ -132,21 +138,67 @@ class Plan:
         return STABILISATIONS[self.settings.stabilisation]
 
 
-def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
+def plan_run(machine: MachineRecord, given: Collection[str] = (), *, stepwise: bool = False) -> Plan:
     """The run of `machine` with its own settings. given : settings that were asked for this run, and must have an effect.
 
+    stepwise : steps of one length are needed, as of a machine that is stepped or that goes into another program.
     Raises ModelError with everything that does not go together.
     """
-    is_open, machine = names_no_integrator(machine), with_integrator(machine)
-    coordinates, formulation = choose_coordinates(machine), machine.simulation.formulation
-    settings: list[RunSettings] = []
+    if not names_no_integrator(machine) or (stepwise and not machine.hydraulics):
+        return replace(_planned(machine, given), is_open=names_no_integrator(machine))
+    refused: list[ModelError] = []
+    for name, reason in integrators_for(machine):
+        try:
+            plan = _planned(with_integrator(machine, name), given)
+        except ModelError as error:
+            refused.append(error)
+            continue
+        return replace(with_stiff(plan), is_open=True, reason=reason, asked=machine)
+    raise refused[-1]
 
-    def complete_settings() -> None:
-        settings.append(complete(machine.simulation, coordinates))
-        refuse_samples_between_steps(machine, settings[0].step, fixed=settings[0].steps > 0)
+
+def other_run(plan: Plan, name: str, **changes: float) -> Plan | None:
+    """The run of a plan whose machine names no integrator, with this one and other changes of its settings; None where that does not go."""
+    assert plan.asked is not None
+    try:
+        new = _planned(with_integrator(plan.asked, name, **changes), ())
+    except ModelError:
+        return None
+    return replace(with_stiff(new), is_open=True, reason=plan.reason, asked=plan.asked)
+
+
+def with_stiff(plan: Plan) -> Plan:
+    """The plan whose explicit integrator is followed by an implicit one where stability bounds its steps, where that goes."""
+    methods, settings = plan.methods, plan.settings
+    machine = with_integrator(plan.machine, FOR_STIFF)
+    if methods.integrator.name != "dopri5" or _faults_of(machine, settings.coordinates):
+        return plan
+    other = with_nodes(machine)
+    stiff = replace(methods, machine=other, integrator=integrator_of(other, settings.coordinates))
+    return replace(plan, methods=replace(methods, stiff=stiff))
+
+
+def _planned(machine: MachineRecord, given: Collection[str]) -> Plan:
+    """The run of a machine with the integrator that it has."""
+    machine = with_dividing_step(machine)
+    coordinates = choose_coordinates(machine)
+    faults = [*unused_settings(given, machine.simulation, coordinates), *_faults_of(machine, coordinates)]
+    if faults:
+        raise ModelError(faults)
+    methods = methods_of(machine, machine.simulation.formulation, coordinates)
+    return Plan(machine, complete(machine.simulation, coordinates), methods)
+
+
+def _faults_of(machine: MachineRecord, coordinates: str) -> list[Fault]:
+    """What does not go together in a run of a machine."""
+    formulation = machine.simulation.formulation
+
+    def check_settings() -> None:
+        settings = complete(machine.simulation, coordinates)
+        refuse_samples_between_steps(machine, settings.step, fixed=settings.steps > 0)
 
     checks: list[Callable[[], object]] = [
-        complete_settings,
+        check_settings,
         lambda: refuse_for_shared_mass(machine, formulation, coordinates),
         lambda: refuse_flexible_lagrange(machine, formulation),
         lambda: refuse_conserved_drivers(machine),
@@ -155,17 +207,13 @@ def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
         lambda: refuse_rolling_by_positions(machine, coordinates),
         lambda: refuse_friction_at_jumps(machine),
     ]
-    faults: list[Fault] = [*unused_settings(given, machine.simulation, coordinates)]
+    faults: list[Fault] = []
     for check in checks:
         try:
             check()
         except ModelError as error:
             faults += error.faults
-    if faults:
-        raise ModelError(faults)
-    methods = methods_of(machine, formulation, coordinates)
-    reason = STIFF_CIRCUITS if is_open and machine.hydraulics else ""
-    return Plan(machine, settings[0], methods, is_open and not machine.hydraulics, reason)
+    return faults
 
 
 def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordinates: str = "absolute") -> Methods:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Protocol
 
 import nivel
+from nivel.analysis.plan.choice import names_no_integrator
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.flexible.body.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
@@ -34,15 +35,18 @@ def run_attributes(
     source : text of the machine's file. reason : why it has its integrator where nobody asked for it.
     """
     system, assembly = prepared.motion.system, prepared.assembly
+    unnamed = {"integrator"} if names_no_integrator(machine) else set()  # what the file says to leave to nivel
     coordinates = system.layout.coordinates["joint_coordinate"]
     return {
         "machine": machine.name,
-        "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
+        "machine_record": machine.model_dump_json(
+            by_alias=True, exclude_none=True, exclude={"simulation": unnamed} if unnamed else None
+        ),
         "machine_source": source,
         "scene": json.dumps(
             scene(with_nodes(machine), prepared.absolute.system)
         ),  # relative coordinates move body frames
-        "settings": json.dumps({**settings.as_dict(), **({"reason": reason} if reason else {})}),
+        "settings": settings_in_json(settings, reason),
         "nivel_version": nivel.__version__,
         RESULT_FORMAT: FORMAT,
         "outcome": "running",
@@ -59,6 +63,14 @@ def run_attributes(
             }
         ),
     }
+
+
+def settings_in_json(settings: Settings, reason: str = "", went_on: tuple[str, float] | None = None) -> str:
+    """The attribute `settings`. went_on : the integrator that went on, and from when [s]."""
+    out = settings.as_dict() | ({"reason": reason} if reason else {})
+    if went_on is not None:
+        out["went_on"] = {"integrator": went_on[0], "from": went_on[1]}
+    return json.dumps(out)
 
 
 def _bodies(machine: MachineRecord) -> list[BodySource]:

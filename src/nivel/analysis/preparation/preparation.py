@@ -81,7 +81,7 @@ class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
     absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
     of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s];
-    its functions that jump with the motion, in words; the machine itself."""
+    its functions that jump with the motion, in words; the machine itself; the methods."""
 
     path: PathFacts
     motion: MotionEquations
@@ -96,6 +96,7 @@ class Prepared:
     allowed: Array | None = None
     jumping: tuple[str, ...] = ()
     machine: MachineRecord | None = None
+    methods: Methods | None = None
 
     def again(self) -> Prepared | None:
         """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to units."""
@@ -181,7 +182,16 @@ def prepare(
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
         jumping,
         machine,
+        methods,
     )
+
+
+def with_integrator(prepared: Prepared, methods: Methods, y: Array) -> Prepared:
+    """A machine in motion, in the state y, for another integrator of the same equations. What it remembers stays: records have their
+    arrays in common."""
+    motion, integrator = prepared.motion, methods.integrator
+    equipped = with_residual(motion, y, methods.coordinates, _wanted(motion, methods), methods.path)
+    return replace(prepared, motion=equipped, integrator=integrator, methods=methods, corners=())
 
 
 def _exactly_constrained(

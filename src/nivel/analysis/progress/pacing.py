@@ -6,6 +6,7 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from time import perf_counter
 from typing import Protocol
 
 import numpy as np
@@ -34,17 +35,19 @@ class Pacing(Protocol):
 
 @dataclass
 class Leader:
-    """Tells how far a run is and how long its steps were. begun : set when its first step is about to begin."""
+    """Tells how far a run is and how long its steps were. begun : set when its first step is about to begin. deadline : of
+    `time.perf_counter` [s], when it ends."""
 
     changed: threading.Condition = field(default_factory=threading.Condition)
     begun: threading.Event = field(default_factory=threading.Event)
     taken: Array = field(default_factory=lambda: np.zeros(PARTS))
     time: float = 0.0
     over: bool = False
+    deadline: float = math.inf
 
     def before(self, run: Run) -> bool:
         self.begun.set()
-        return True
+        return perf_counter() < self.deadline
 
     def after(self, run: Run) -> None:
         with self.changed:

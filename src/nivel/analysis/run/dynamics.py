@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 import time as clock_of_python
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from re import sub
 from types import ModuleType
@@ -20,15 +21,17 @@ from nivel.analysis.failures.divergence import GROWN, UNBOUND
 from nivel.analysis.failures.fastest import fastest_beyond, held_step
 from nivel.analysis.failures.lockup import Jam, can_be_asked, find_jam
 from nivel.analysis.failures.outcome import Stop, failure
+from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
-from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.preparation.preparation import Prepared, with_integrator
 from nivel.analysis.preparation.shared_loads import sharing
 from nivel.analysis.progress.interrupt import interruptible
-from nivel.analysis.progress.listener import Progress
+from nivel.analysis.progress.listener import Listener, Progress
 from nivel.analysis.progress.pacing import Pacing
-from nivel.analysis.run.history import start_history
+from nivel.analysis.run.history import go_on_with, start_history
 from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions
+from nivel.integrate.explicit.dormand_prince import STIFF
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
     ACCEPTED,
@@ -76,6 +79,7 @@ MOST_STEPS = 1_000_000_000
 GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
 # What a method may end with near a position that its machine cannot pass.
 BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
+_ONE_AT_A_TIME = threading.Lock()
 
 
 @dataclass
@@ -86,6 +90,7 @@ class RunOutcome:
     steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end, of a
     run that failed in the last state that was accepted. status : of the compiled loop.
     ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses : of `NarrowFeatures`.
+    went_on : the integrator that went on where the run became stiff, and from when [s].
     """
 
     outcome: str
@@ -99,6 +104,7 @@ class RunOutcome:
     status: int = DONE
     ends: Array | None = None
     impulses: dict[str, float] = field(default_factory=dict)
+    went_on: tuple[str, float] | None = None
 
 
 class Loop(NamedTuple):
@@ -132,12 +138,13 @@ def march(
     pacing: Pacing | None = None,
     loop: Loop | None = None,
     shared: bool = True,
+    listener: Listener | None = None,
 ) -> RunOutcome:
     """Run `prepared` and give every frame to all `sinks` (already begun).
 
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
     the result does not depend on it. pacing : accompanies the run from chunk to chunk. loop : at its start; by default a new one.
-    shared : redundant joints share their loads.
+    shared : redundant joints share their loads. listener : hears of machine code that is compiled where the run becomes stiff.
     """
     system, loop = prepared.motion.system, loop or start_loop(prepared, settings)
     run, sinks = loop.history.record, sharing(prepared, sinks) if shared else sinks
@@ -150,6 +157,12 @@ def march(
             loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl, narrow
         )
         loop_seconds += spent
+        if status == STIFF:
+            prepared, loop = gone_on(prepared, settings, loop, listener)
+            settings, run = replace(settings, integrator=prepared.integrator.name), loop.history.record
+            finished.went_on, status = (settings.integrator, float(run.clock[TIME])), BUDGET_SPENT
+            if narrow is not None:
+                narrow.follow(prepared)
         if status in BEFORE_A_JAM:
             jam = jam_of(prepared, settings, run)
         if status == OPEN and jam is None and can_be_asked(prepared):
@@ -185,6 +198,20 @@ def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
     step = facts.step
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
+
+
+def gone_on(
+    prepared: Prepared, settings: RunSettings, loop: Loop, listener: Listener | None = None
+) -> tuple[Prepared, Loop]:
+    """The machine and the loop of a run that has become stiff, with the integrator that goes on from the accepted state; compiled first
+    where there is no machine code."""
+    methods = None if prepared.methods is None else prepared.methods.stiff
+    assert methods is not None
+    with _ONE_AT_A_TIME:  # the second run does the same at about that time
+        build([*preparation_entries(methods), methods.integrator.step], listener or Listener())
+        other = with_integrator(prepared, methods, loop.history.record.y)
+    run = go_on_with(other, settings, loop.history.record)
+    return other, loop._replace(step=other.integrator.step, machine=other.motion.handle, history=Handle(run))
 
 
 def _kept_ends(prepared: Prepared, settings: RunSettings) -> int:
@@ -245,10 +272,10 @@ def march_in_chunks(
                 narrow.hold(run)
                 if not narrow.is_whole(run, goes_on=status in GOES_ON) and not interrupted():
                     continue
-                if not interrupted() and not narrow.stands(run, goes_on=status in (BUDGET_SPENT, DONE)):
+                if not interrupted() and not narrow.stands(run, goes_on=status in (BUDGET_SPENT, DONE, STIFF)):
                     status = BUDGET_SPENT
                     continue
-                give_held(narrow, run, system, sinks, finished, goes_on=status in GOES_ON)
+                give_held(narrow, run, system, sinks, finished, goes_on=status in (*GOES_ON, STIFF))
             give_frames(run, sinks)
             finished.events += taken_events(run, system.events)
             if progress is not None:

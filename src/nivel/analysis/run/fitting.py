@@ -1,11 +1,9 @@
-"""The method of a run whose machine names none, by the fastest rate of the machine.
+"""The method of a machine that is moved in steps of one length and names none, by its fastest rate: live, stepped, in C libraries and FMUs.
 
-The default is explicit and has steps of one length, which costs least. It is left where a step turns the fastest rate by more than it
-follows: rates at the start are eigenvalues of the equations there (`nivel.analysis.failures.fastest`); those of contacts and end stops
-that may touch later follow from their stiffness and the masses beside them, those of beams from their elements, those of slack ropes from
-the same machine with taut ones. What comes in its place is implicit: with steps that it chooses, or for live operation, stepping and C
-libraries with steps of one length and one cost. A long run of a slow machine, with more than a million steps, has an explicit method
-that chooses its steps.
+The default is explicit, which costs least. It is left where a step turns the fastest rate by more than it follows: rates at the start are
+eigenvalues of the equations there (`nivel.analysis.failures.fastest`); those of contacts and end stops that may touch later follow from
+their stiffness and the masses beside them, those of beams from their elements, those of slack ropes from the same machine with taut ones.
+What comes in its place is implicit, with steps of one length and one cost.
 """
 
 from __future__ import annotations
@@ -22,16 +20,13 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.kernels.core.status import NOT_FINITE
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces import BeltDrive, Contact, Contacts, Rope, Shaft, Stop, is_sticking
+from nivel.machine.forces import BeltDrive, Contact, Contacts, Rope, Shaft, Stop
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
-from nivel.methods import chooses
 from nivel.system.forces.contacts import tangent_stiffness
 from nivel.system.forces.heaps import spheres_between
 from nivel.system.forces.ropes import length_as_placed
@@ -45,17 +40,11 @@ FOLLOWED, IN_IMPACTS = 1.0, np.pi / 30.0
 NEARLY = 1.001
 # Turns of a body in a step [rad] beyond which forces that depend on its angle are not resolved.
 TURNED = 3.0
-# A run of so many steps, which are below this share of what its fastest rate asks for, has steps that are chosen.
-MANY, SLOW, OF_SLOW = 1e6, 1e-3, "dopri5"
 # The length of a slack rope as a share of its way, when it is taken as taut.
 TAUT = 0.999
-# What comes in place of it, the first that goes with the machine and its other settings; the latter for vibrations of many modes.
-CHOSEN, OF_MODES = ("radau", "bdf", "generalised-alpha"), ("generalised-alpha", "radau", "bdf")
-FIXED = ("ros2",)
+IMPLICIT = "ros2"
 # loads at which the stiffness of a contact is taken, as multiples of the weight
 HIT = 10.0
-# Shares of the swing of a contact in which friction stops what it can hold; chosen steps pass over it where nothing changes.
-STOPPING = 1e-3
 STANDARD_GRAVITY = 9.81
 NONE_GOES = "no implicit method goes with its other settings"
 
@@ -69,115 +58,23 @@ class Rate:
     what: str
 
 
-class FasterError(Exception):
-    """What a run that names no integrator became too fast for."""
-
-    def __init__(self, found: Rate) -> None:
-        super().__init__(found.what)
-        self.found = found
-
-
-def refuse_faster(plan: Plan, prepared: Prepared, finished: RunOutcome) -> None:
-    """Raise FasterError where steps of the plan do not follow the rates in the state that a run has come to: of a part, or of the motion
-    where it has grown beyond all numbers. A motion alone may be fast at a singular position, where no method helps."""
-    if finished.last is None or finished.asked_to_stop:
-        return
-    time, y = finished.last
-    turning = _of_turning(prepared, y, time)
-    if turning is not None and plan.settings.step > turning.followed and not chooses(*_method(plan)):
-        raise FasterError(replace(turning, what=f"{turning.what} (at t = {time:.4g} s)"))
-    found = _at(prepared, y, time)
-    if found is None or not plan.settings.step > FOLLOWED / found.rate:
-        return
-    if found.part or finished.status == NOT_FINITE:
-        what = f"{found.part or 'the motion'} (at t = {time:.4g} s)"
-        raise FasterError(Rate(found.rate, FOLLOWED / found.rate, what))
-
-
-def fitted(
-    plan: Plan, prepared: Prepared, *, fixed: bool = False, listener: Listener | None = None
-) -> tuple[Plan, Prepared]:
+def fitted(plan: Plan, prepared: Prepared, listener: Listener | None = None) -> tuple[Plan, Prepared]:
     """The plan and its machine made ready, with another integrator where none was asked for and its own misses the fastest rate.
 
-    fixed : steps of one length and one cost. The plan says in `reason` why it has its integrator.
-    Raises SolveError as preparing does.
+    The plan says in `reason` why it has its integrator. Raises SolveError as preparing does.
     """
-    if not plan.is_open:
+    if not plan.is_open or plan.machine.hydraulics:
         return plan, prepared
     found = fastest_rate(plan, prepared, prepared.start, 0.0)
     if found is None or plan.settings.step <= NEARLY * found.followed:
-        slow = None if fixed else _of_slow(plan, found)
-        if slow is None:
-            return replace(plan, reason=_explicit(plan, found)), prepared
-        build(run_entries(slow), listener)
-        return slow, prepare(slow.methods)
-    return implicit(plan, prepared, found, fixed=fixed, listener=listener)
-
-
-def fitting(plan: Plan, prepared: Prepared) -> Plan:
-    """The plan that a run of it will have."""
-    if not plan.is_open:
-        return plan
-    found = fastest_rate(plan, prepared, prepared.start, 0.0)
-    if found is None or plan.settings.step <= NEARLY * found.followed:
-        return _of_slow(plan, found) or replace(plan, reason=_explicit(plan, found))
-    return next(
-        _implicit_plans(plan, found, fixed=False), replace(plan, reason=f"{_implicit(plan, found)}; {NONE_GOES}")
-    )
-
-
-def implicit(
-    plan: Plan, prepared: Prepared, found: Rate, *, fixed: bool = False, listener: Listener | None = None
-) -> tuple[Plan, Prepared]:
-    """The same with an implicit integrator because of a rate; as it is where none goes with the machine."""
-    for new in _implicit_plans(plan, found, fixed=fixed):
-        build(run_entries(new), listener)
-        try:
-            return new, prepare(new.methods)
-        except ModelError:  # of what only a machine that was assembled shows
-            continue
-    return replace(plan, reason=f"{_implicit(plan, found)}; {NONE_GOES}"), prepared
-
-
-def _implicit_plans(plan: Plan, found: Rate, *, fixed: bool) -> Iterator[Plan]:
-    """The same run with other integrators, those first that fit best."""
-    machine = plan.machine
-    modes = bool(machine.beams or machine.is_flexible) and not _touching(machine)
-    for name in FIXED if fixed else OF_MODES if modes else CHOSEN:
-        try:
-            new = plan_run(_stopping_soon(machine.replace(simulation=machine.simulation.replace(integrator=name))))
-        except ModelError:
-            continue
-        yield replace(new, reason=_implicit(plan, found))
-
-
-def _of_slow(plan: Plan, found: Rate | None) -> Plan | None:
-    """The same run with steps that are chosen, where steps of one length would be many times more than its rates ask for."""
-    step, machine = plan.settings.step, plan.machine
-    given = "step" in machine.simulation.model_fields_set
-    if given or not plan.settings.duration > MANY * step or (found is not None and step > SLOW * found.followed):
-        return None
+        return replace(plan, reason=_explicit(plan, found)), prepared
+    machine, reason = plan.machine, _implicit(plan, found)
     try:
-        new = plan_run(machine.replace(simulation=machine.simulation.replace(integrator=OF_SLOW)))
+        new = plan_run(machine.replace(simulation=machine.simulation.replace(integrator=IMPLICIT)))
+        build(run_entries(new), listener)
+        return replace(new, reason=reason), prepare(new.methods)
     except ModelError:
-        return None
-    rate = "nothing has a rate" if found is None else f"nothing is faster than {found.rate:.2g}/s ({found.what})"
-    count = f"{plan.settings.duration / step:.2g}"
-    return replace(new, reason=f"{rate}, for which {count} steps of {plan.settings.integrator} are too many")
-
-
-def _method(plan: Plan) -> tuple[str, str]:
-    return plan.settings.integrator, plan.machine.simulation.step_control
-
-
-def _stopping_soon(machine: MachineRecord) -> MachineRecord:
-    """The machine with a shorter `step`, where none is given and steps are chosen: within two of it friction stops what it can hold, which
-    must be over before an impact is."""
-    settings = machine.simulation
-    rates = [each.rate for each in _of_contacts(machine, sticking=True)]
-    if not rates or "step" in settings.model_fields_set or not chooses(settings.integrator, settings.step_control):
-        return machine
-    return machine.replace(simulation=settings.replace(step=min(settings.step, STOPPING / max(rates))))
+        return replace(plan, reason=f"{reason}; {NONE_GOES}"), prepared
 
 
 def _explicit(plan: Plan, found: Rate | None) -> str:
@@ -217,13 +114,10 @@ def _touching(machine: MachineRecord) -> list[Contact | Contacts | Stop]:
     return [each for each in machine.forces if isinstance(each, Contact | Contacts | Stop)]
 
 
-def _of_contacts(machine: MachineRecord, *, sticking: bool = False) -> Iterator[Rate]:
-    """Of contacts hit by some times the weight of what touches, of their friction near rest, and of end stops. sticking : of contacts that
-    stick alone."""
+def _of_contacts(machine: MachineRecord) -> Iterator[Rate]:
+    """Of contacts hit by some times the weight of what touches, of their friction near rest, and of end stops."""
     gravity = float(np.linalg.norm(machine.gravity)) or STANDARD_GRAVITY
     for each in _touching(machine):
-        if sticking and not is_sticking(each):
-            continue
         kind = "end stop" if isinstance(each, Stop) else "contact"
         mass = _mass_at(machine, each)
         stiffness = tangent_stiffness(machine, each, HIT * mass * gravity)
@@ -305,7 +199,8 @@ def _of_slack_ropes(machine: MachineRecord) -> Rate | None:
         return None
     forces = [each.replace(length=TAUT * ways[each.name]) if each.name in slack else each for each in machine.forces]
     try:
-        taut = plan_run(machine.replace(forces=tuple(forces), simulation=machine.simulation.replace(start="as-given")))
+        simulation = machine.simulation.replace(start="as-given")
+        taut = plan_run(machine.replace(forces=tuple(forces), simulation=simulation), stepwise=True)
         its = prepare(taut.methods)
     except (ModelError, SolveError):
         return None

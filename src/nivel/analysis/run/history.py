@@ -14,6 +14,7 @@ from nivel.analysis.plan.refusals import WHOLE
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.trust.checks.indeterminate_friction import STILL
+from nivel.integrate.explicit.dormand_prince import COUNTS as COUNTS_STIFF
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import (
     ALL_STEPS,
@@ -23,6 +24,7 @@ from nivel.integrate.loop.run import (
     COUNTS,
     DENSE_ROWS,
     END,
+    EVALUATED,
     EVERY,
     HORIZON,
     INTERVAL,
@@ -35,11 +37,13 @@ from nivel.integrate.loop.run import (
     ORDER,
     PACES,
     PARTS,
+    RESTART,
     SHOWN,
     STEP,
     STEP_TICKS,
     SWITCHED,
     TICK_RATE,
+    TIME,
     TOLERANCE,
     VALUE_ROWS,
     Run,
@@ -63,6 +67,9 @@ WINDOWS = 256
 # Stiction stops a joint within this many steps, and within more where a method would not be stable: 1/τ times a step is this share of
 # what it holds.
 STICK_STEPS, STICK_SHARE = 2.0, 0.8
+# Where an implicit method chooses its steps, within STICK [s] at this tolerance, and with the root of that; what comes to rest does so too
+# late by 2/40 of the tolerance (see `_sticking_time`). Where an explicit one does, within its two steps at the tolerance SLACK.
+STICK, STICK_TOLERANCE, LATE, SLACK = 1e-5, 1e-8, 1.0 / 20.0, 1e-6
 # Fixed steps that make a time in which a machine moves by its own length, at least.
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
@@ -80,6 +87,8 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     newton = len(y) if count[NEWTON] and not facts.residual else 0
     numbers = np.zeros(facts.numbers)
     numbers[: len(settings.constants)] = settings.constants
+    if prepared.methods is not None and prepared.methods.stiff is not None:
+        numbers[COUNTS_STIFF] = 1.0
     _forget_runs(prepared, settings, facts)
     system.hold_sliders(y)
     _begin_states(prepared, y)
@@ -113,6 +122,18 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         ends=np.zeros(ends),
         windows=np.full((WINDOWS if ends else 0, 3), np.inf),
     )
+
+
+def go_on_with(prepared: Prepared, settings: RunSettings, run: Run) -> Run:
+    """History of a run that goes on from its accepted state with the integrator of `prepared`: all that it remembers but steps."""
+    facts, motion, t = prepared.integrator, prepared.motion, float(run.clock[TIME])
+    newton = motion.system.record.newton
+    if len(newton.level):
+        newton.level[0] = constraint_index(settings.formulation, settings.stabilisation, prepared.path)
+    run.counter[ORDER], run.counter[RESTART], run.counter[EVALUATED] = facts.order, 1, 1
+    run.rate[:] = motion.evaluate(t, run.y)[1]
+    numbers, stages = np.zeros(facts.numbers), np.zeros((facts.stages, len(run.y)))
+    return run._replace(stages=stages, numbers=numbers, corners=np.zeros(0))
 
 
 def _clock(prepared: Prepared, settings: RunSettings) -> Array:
@@ -171,6 +192,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record = prepared.motion.system.record
     for unit in prepared.motion.system.units:
         unit.begin()
+    stick = _sticking_time(prepared, settings, facts)
     record.control.iterations[1:] = 0, MOST_UNSETTLED
     forget(record.partition, formulas=facts.needs == "accelerations")
     record.newton.kept[:] = 0.0
@@ -191,16 +213,37 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:], record.friction.work[:] = 0.0, 0.0
-    # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
-    # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
+    # Bristles need no limit where steps are chosen, nor in implicit methods.
     follows = settings.steps == 0 or facts.residual
-    stick = max(STICK_STEPS, 1.0 / (STICK_SHARE * facts.held)) * settings.step
     record.control.stick[:] = stick, 0.0 if follows else stick
     if len(record.friction.columns):
         turns = record.friction.columns[:, columns.ROTATES] == 1
         record.friction.number[:, columns.REST] = (
             STILL * np.where(turns, 1.0, prepared.motion.system.size) / settings.duration
         )
+
+
+def _sticking_time(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> float:
+    """[s] within which stiction stops a joint.
+
+    What decelerates at a comes to rest too far by 2 a τ² at most. Where steps are chosen that is a tenth of the tolerance, as a share
+    of the machine's size or a radian, for the weight and for the accelerations at the start; and τ is STICK at most. An explicit method,
+    whose steps it limits, has two steps at the tolerance SLACK and less below.
+    """
+    if settings.tolerance is None:
+        return max(STICK_STEPS, 1.0 / (STICK_SHARE * facts.held)) * settings.step
+    if not facts.residual:
+        return STICK_STEPS * settings.step * min(1.0, (settings.tolerance / SLACK) ** 0.5)
+    if not len(prepared.motion.system.record.friction.columns):
+        return settings.step
+    prepared.motion.system.record.control.stick[0] = settings.step
+    system, rate = prepared.motion.system, prepared.motion.evaluate(0.0, prepared.start)[1]
+    gravity = float(np.linalg.norm(system.record.bodies.gravity))
+    units = np.array(system.map.units)
+    fastest = {unit: float(np.max(np.abs(rate[units == unit]), initial=0.0)) for unit in ("m/s", "1/s")}
+    scales = ((system.size, max(fastest["m/s"], gravity)), (1.0, fastest["1/s"]))
+    squares = [STICK**2 / STICK_TOLERANCE, *(LATE * size / a for size, a in scales if 0.0 < a < np.inf)]
+    return min(settings.step, (settings.tolerance * min(squares)) ** 0.5)
 
 
 def _begin_states(prepared: Prepared, y: Array) -> None:

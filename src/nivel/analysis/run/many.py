@@ -33,7 +33,7 @@ class Simulations:
         last: Any = None
         for plan in plans:
             if last is None or plan is not last[0]:
-                own = fitted(plan, prepare(plan.methods), fixed=True)
+                own = fitted(plan, prepare(plan.methods))
                 last = plan, own
                 self._each.append(Simulation(plan, source=source, ready=own))
                 continue

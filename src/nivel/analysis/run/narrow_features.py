@@ -76,6 +76,10 @@ class NarrowFeatures:
             return None
         return cls(narrow_functions(prepared.machine), prepared.machine, prepared.motion, prepared.integrator)
 
+    def follow(self, prepared: Prepared) -> None:
+        """The run goes on with another integrator, after a stretch."""
+        self._motion, self._facts = prepared.motion, prepared.integrator
+
     def before(self, run: Run, budget: int) -> int:
         """Called before steps: the steps until a stretch is whole, `budget` at most."""
         if not self._every:

@@ -61,14 +61,21 @@ class Refinement:
 
 @dataclass(frozen=True)
 class Verified:
-    """A second run as far as it came. until : its last frame [s]. ended : why it came to no end; empty where it did. pace : of
-    `nivel.integrate.loop.run.Run`."""
+    """A second run as far as it came. until : its last frame [s]. ended : why it came to no end; empty where it did. finished, prepared,
+    frames : how it ended, its machine, and what a sink has taken of it (n, width)."""
 
     result: Result
     refinement: Refinement
     until: float
     ended: str
-    pace: NDArray[np.float64] | None = None
+    finished: RunOutcome
+    prepared: Prepared
+    frames: NDArray[np.float64]
+
+    @property
+    def pace(self) -> NDArray[np.float64] | None:
+        """Of `nivel.integrate.loop.run.Run`."""
+        return self.finished.pace
 
 
 def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
@@ -81,8 +88,7 @@ def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
     can be compared, and what repeats itself within a step of the first run does not within one of these.
     """
     if settings.tolerance is not None:
-        # the step still says how fast stiction stops a joint
-        finer = replace(settings, tolerance=TENTH * settings.tolerance, step=0.5 * settings.step)
+        finer = replace(settings, tolerance=TENTH * settings.tolerance)
         return Refinement(finer, f"a tolerance of {finer.tolerance:.3g} and other, irregular steps", TENTH)
     coarse, fine = subdivision(settings, between_samples)
     step = settings.step * coarse / fine
@@ -206,7 +212,7 @@ class SecondRun:
 
     def _march(self) -> RunOutcome:
         settings = self.refinement.settings
-        prepared = self._prepared or prepare(self._plan.methods)
+        prepared = self._prepared = self._prepared or prepare(self._plan.methods)
         self._sink.begin(Header(prepared.motion.system.layout, {}))
         chosen = settings.steps == 0 and self._follows
         follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)
@@ -241,7 +247,9 @@ class SecondRun:
         if not len(result.time):
             return None
         ended = "" if finished.outcome == "done" else ended
-        return Verified(result, self.refinement, float(result.time[-1]), ended, finished.pace)
+        assert self._prepared is not None
+        until, frames = float(result.time[-1]), self._sink.frames
+        return Verified(result, self.refinement, until, ended, finished, self._prepared, frames)
 
     def _watch(self, limit: float, progress: Callable[[float], None] | None) -> str:
         """Wait for the thread; why it has to end before its time, where it has to."""

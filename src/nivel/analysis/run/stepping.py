@@ -122,7 +122,7 @@ class Simulation:
     ) -> None:
         """ready : the plan with its integrator, and the machine made ready, where that is done already."""
         refuse_chosen_steps(plan)
-        plan, prepared = ready or fitted(plan, prepare(plan.methods), fixed=True)
+        plan, prepared = ready or fitted(plan, prepare(plan.methods))
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared
         self._prepared, piece = prepared.in_one_piece()
@@ -580,7 +580,7 @@ class Simulation:
 
 def _revived(machine: MachineRecord, source: str, recorded: bool, state: Snapshot) -> Simulation:
     """A simulation of this machine, with its own settings, at a moment of one."""
-    sim = Simulation(plan_run(machine), source=source, record=recorded)
+    sim = Simulation(plan_run(machine, stepwise=True), source=source, record=recorded)
     sim.restore(state)
     return sim
 

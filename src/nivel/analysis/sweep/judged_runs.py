@@ -8,13 +8,12 @@ from typing import Any
 
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.plan.refusals import refuse_deep_starts
-from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.fitting import FasterError, fitting, refuse_faster
 from nivel.analysis.run.simulate import close_run
-from nivel.analysis.sweep.patched import Array, Patches, Screen, UnsuitedError, blank_of, learn, read_values
-from nivel.integrate.loop.sink import Header
+from nivel.analysis.sweep.patched import Array, Patches, UnsuitedError, blank_of, learn, read_values
+from nivel.analysis.trust.subject import run_of
 from nivel.model import Model
 from nivel.results.memory import Memory
 from nivel.results.result import Result
@@ -31,7 +30,6 @@ class JudgedRuns:
         self._found, self._blank = found, blank_of(found.blank.plan, again, judged=True)
         if any(len(a) != len(b) for a, b in zip(self._blank.pieces, found.start, strict=True)):
             raise UnsuitedError("its memory is laid out otherwise")
-        self._screen = Screen(self._blank.prepared, found.blank.plan.settings.step)
 
     def run(self, machine: Model, values: Mapping[str, Any]) -> Result | None:
         """The run of the machine, which has these values, with its trust report; None where it has to be prepared: it needs another method,
@@ -41,7 +39,6 @@ class JudgedRuns:
         methods = plan.methods
         prepared = replace(self._blank.prepared, machine=methods.machine, beams=methods.machine.beams)
         refuse_deep_starts(methods.machine, prepared.absolute, prepared.assembly.y)
-        plan = fitting(plan, prepared)
         if plan.settings != self._blank.plan.settings:
             return None
         return self._run(plan, prepared, x)
@@ -49,22 +46,11 @@ class JudgedRuns:
     def _run(self, plan: Plan, prepared: Prepared, x: Array) -> Result | None:
         self._found.put(self._blank.pieces, x)
         sink = Memory(plan.settings.frames + 1)
-        sink.begin(
-            Header(
-                prepared.motion.system.layout,
-                run_attributes(plan.machine, "", prepared, plan.settings, plan.reason),
-            )
-        )
+        sink.begin(header_of(plan, prepared, ""))
         finished = march(prepared, plan.settings, [sink], loop=self._blank.loop)
         if finished.outcome == "failed":
             return None
-        assert finished.last is not None
-        if plan.is_open and not self._screen.is_followed(*finished.last):
-            try:
-                refuse_faster(plan, prepared, finished)
-            except FasterError:
-                return None
-        return close_run(sink, plan, prepared, finished, None, {})
+        return close_run(sink, run_of(plan, prepared, finished, sink.result()), {})
 
 
 def judged_runs(base: Model, sample: Sequence[Mapping[str, Any]]) -> JudgedRuns | None:

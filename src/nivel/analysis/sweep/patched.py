@@ -15,24 +15,21 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.failures.fastest import MOST_ENTRIES, increments
 from nivel.analysis.plan.plan import Plan, plan_run
-from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.one_piece import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
+from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.bound_entry import BoundEntry
 from nivel.analysis.run.dynamics import Loop, start_loop, taken_events
-from nivel.analysis.run.fitting import FOLLOWED, fitted
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.sweep.facts import other_fact
 from nivel.analysis.sweep.formulas import WORKSPACE, Array, fit_all, named_arrays
 from nivel.errors import NivelError
 from nivel.integrate.loop.loop import advance
-from nivel.integrate.loop.run import BUDGET, DONE_STEPS, FRAMES, STOPPED, TIME, Run
-from nivel.integrate.loop.sink import Header
+from nivel.integrate.loop.run import BUDGET, DONE_STEPS, FRAMES, STOPPED, Run
 from nivel.kernels.core.block import Handle
-from nivel.kernels.core.status import BUDGET_SPENT, DONE, OK
+from nivel.kernels.core.status import BUDGET_SPENT, DONE
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model
@@ -49,8 +46,6 @@ ROUND_OFF: Final = 1e-13
 # variants that are prepared to check all formulas together
 CHECKED: Final = 3
 SEED: Final = 4
-# share of the fastest rate that steps follow below which nobody has to look closer
-MARGIN: Final = 0.99
 # bytes of frames of one run, at most
 MOST_BYTES: Final = 256_000_000
 BUDGET_OF_ALL: Final = 2**60
@@ -100,22 +95,21 @@ class Blank:
 def blank(machine: Model, *, judged: bool = False) -> Blank:
     """Raises UnsuitedError where the run of the machine cannot be begun again in place, ModelError as preparing does."""
     plan = plan_run(machine.record, machine.origin.settings_outside)
-    if plan.settings.steps == 0:
-        raise UnsuitedError(f"`{plan.settings.integrator}` chooses its steps")
-    plan, prepared = fitted(plan, prepare(plan.methods))
-    return blank_of(plan, prepared, judged=judged)
+    return blank_of(plan, prepare(plan.methods), judged=judged)
 
 
 def blank_of(plan: Plan, prepared: Prepared, *, judged: bool = False) -> Blank:
     """The same of a machine that is prepared."""
     system = prepared.motion.system
     prepared, piece = prepared.in_one_piece()
-    if plan.settings.steps == 0 or piece is None or system.units:
+    if piece is None or system.units:
         raise UnsuitedError("its integrator or a block of its control keeps memory of its own")
     rows = int(plan.settings.frames) + 2
     if rows * system.layout.width * 8 > MOST_BYTES:
         raise UnsuitedError("it has too many frames")
     loop = start_loop(prepared, plan.settings)
+    if len(loop.history.record.ends):
+        raise UnsuitedError("its steps are looked at one by one")
     own, run_piece = in_one_piece(loop.history.record._replace(frames=np.zeros((0, 0))))
     frames = np.zeros((rows, system.layout.width))
     loop = loop._replace(history=Handle(own._replace(frames=frames)))
@@ -318,39 +312,6 @@ def _close(a: Array, b: Array) -> bool:
     return bool((np.abs(a[finite] - b[finite]) <= size).all())
 
 
-class Screen:
-    """Whether a step [s] follows the fastest rate of a machine in a state, as `nivel.analysis.run.fitting` asks at the end of runs."""
-
-    def __init__(self, prepared: Prepared, step: float) -> None:
-        motion = prepared.motion
-        size = len(prepared.start)
-        self._motion, self._step = motion, step
-        self._y, self._rate = np.zeros(size), np.zeros(size)
-        address = int(motion.handle.address)
-        self._evaluate = BoundEntry(motion.kernels.evaluate, (address, self._y, self._rate), keep=motion)
-
-    def is_followed(self, t: float, y: Array) -> bool:
-        """Whether it does so for certain."""
-        count, feedback = len(y) - 2, self._motion.system.record.control.stabilise
-        if not 0 < count <= MOST_ENTRIES:
-            return True
-        steps, A = increments(self._motion, y), np.empty((count, count))
-        self._y[:], self._evaluate.number.value = y, t
-        feedback[:2] = 0.0
-        for k in range(count):
-            self._y[k] = y[k] + steps[k]
-            above = self._evaluate() == OK
-            A[:, k] = self._rate[:count]
-            self._y[k] = y[k] - steps[k]
-            below = self._evaluate() == OK
-            A[:, k] -= self._rate[:count]
-            self._y[k] = y[k]
-            if not (above and below):
-                return False
-        A /= 2.0 * steps
-        return bool(np.isfinite(A).all()) and self._step * np.abs(np.linalg.eigvals(A)).max() <= MARGIN * FOLLOWED
-
-
 def differences(found: Patches, x: Array) -> list[str]:
     """Arrays in which a patched variant differs from one that is prepared, but those that each evaluation computes again.
 
@@ -382,10 +343,8 @@ class PatchedRuns:
             raise UnsuitedError("its memory is laid out otherwise")
         self._advance = BoundEntry(advance, self._blank.loop.addresses, keep=self._blank.loop)
         plan, prepared = found.blank.plan, self._blank.prepared
-        layout = prepared.motion.system.layout
-        self._header = Header(layout, run_attributes(plan.machine, "", prepared, plan.settings, plan.reason))
+        self._header = header_of(plan, prepared, "")
         self.loop_seconds = 0.0
-        self._screen = Screen(prepared, plan.settings.step) if plan.is_open else None
         self._shares = are_open(prepared)
 
     def run(self, x: Array, limit: float | None = None) -> Array | None:
@@ -401,8 +360,6 @@ class PatchedRuns:
             if limit is not None and status == BUDGET_SPENT and self.loop_seconds > limit:
                 raise TooLongError(limit)
         if status != DONE:
-            return None
-        if self._screen is not None and not self._screen.is_followed(float(run.clock[TIME]), run.y):
             return None
         frames = run.frames[: run.counter[FRAMES]]
         loads = SharedLoads.of(self._blank.prepared, keeps_sparse=False) if self._shares else None

@@ -136,7 +136,7 @@ class SimulationSettings(Checked):
         absent="up to 1000 intervals",
     )
     integrator: OneRecord[Integrator] = Field(
-        default="rk4", description="time integration method", absent="by the fastest rate of the machine"
+        default="rk4", description="time integration method", absent="by the machine"
     )
     formulation: Formulation = Field(default="newton-euler", description="equations of motion")
     coordinates: Coordinates = Field(default="auto", description="coordinates of the equations")
@@ -162,7 +162,8 @@ class SimulationSettings(Checked):
         default="own", description="steps fixed, or chosen by their error; own: as the integrator does"
     )
     tolerance: Tolerance = Field(
-        default=1e-6, description="relative tolerance of the motion, for integrators that choose their steps"
+        default=1e-6,
+        description="relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named",
     )
     largest_step: Maybe[Duration] = Field(
         default=None, description="longest step of integrators that choose their steps", absent="the duration"
@@ -191,13 +192,15 @@ class SimulationSettings(Checked):
 
     def problems(self) -> Iterator[Problem]:
         """Each is about several settings, which its message names; the place is that of all of them."""
-        fixed = not chooses(self.integrator, self.step_control)
+        is_open = "integrator" not in self.model_fields_set and self.step_control == "own"
+        fixed = not (is_open or chooses(self.integrator, self.step_control))
         messages = []
         if self.duration < SHORTEST:
             messages.append(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
         if fixed and self.step > self.duration:
             messages.append(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
-        if fixed and self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):
+        wanted = self.output_interval if fixed and "step" in self.model_fields_set else None
+        if wanted is not None and wanted < self.step * (1 - 1e-9):
             interval = f"{self.output_interval:g} s"
             messages.append(
                 f"`output_interval` {interval} is shorter than `step` {self.step:g} s; write `step: {interval}` too, or a longer interval"

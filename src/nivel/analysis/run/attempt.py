@@ -1,0 +1,91 @@
+"""A run with the second run beside it, and one with other elements of its beams: what a trust report looks at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf
+
+import numpy as np
+
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.pacing import Leader
+from nivel.analysis.run.dynamics import RunOutcome, march
+from nivel.analysis.run.elements_run import ElementsRun, Found
+from nivel.analysis.run.second_run import SecondRun, Verified
+from nivel.analysis.trust.checks.accuracy import factor
+from nivel.analysis.trust.subject import Run, run_of
+from nivel.integrate.loop.sink import Header
+from nivel.results.estimate import estimate_errors
+from nivel.results.memory import Memory
+from nivel.results.result import Result
+from nivel.results.store import Store
+from nivel.system.system import Array
+
+
+@dataclass(frozen=True)
+class Options:
+    """source : text of the machine's file. verify, limit [s] : of the second run. listener : hears what is done. deadline : of
+    `time.perf_counter` [s], when the run ends as if it was interrupted."""
+
+    source: str
+    verify: bool
+    limit: float | None
+    listener: Listener
+    deadline: float = inf
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """A run as far as it came. result, frames : as the sinks have them; frames are none where a file has them."""
+
+    plan: Plan
+    prepared: Prepared
+    finished: RunOutcome
+    result: Result
+    frames: Array
+    verified: Verified | None = None
+    found: Found | None = None
+
+    @cached_property
+    def run(self) -> Run:
+        """What the trust report looks at, with what follows from the second run and from the one with other elements."""
+        estimate = None
+        if self.verified is not None:
+            estimate = estimate_errors(self.result, self.verified.result, factor(self.verified.refinement.left))
+        run = run_of(self.plan, self.prepared, self.finished, self.result)
+        elements = None if self.found is None else self.found.compared(self.result)
+        return replace(run, second=self.verified, estimate=estimate, elements=elements)
+
+
+def attempt(plan: Plan, sink: Memory | Store, options: Options, prepared: Prepared) -> Attempt:
+    """Run as planned."""
+    settings, listener = plan.settings, options.listener
+    second = SecondRun(plan, options.limit, prepared=prepared.again()) if options.verify else None
+    elements = ElementsRun.beside(second, plan, options.limit) if second is not None else None
+    try:
+        sink.begin(header_of(plan, prepared, options.source))
+        listener.say("running", settings.duration)
+        leader = Leader() if second is None else second.leader
+        leader.deadline = options.deadline
+        finished = march(prepared, settings, [sink], progress=listener.progress, pacing=leader, listener=listener)
+        verified = None
+        if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
+            verified = second.wait(listener)
+        found = elements.wait(listener) if elements is not None and verified is not None else None
+    finally:
+        if second is not None:
+            second.cancel()
+        if elements is not None:
+            elements.run.cancel()
+    frames = sink.frames if isinstance(sink, Memory) else np.zeros((0, 0))
+    return Attempt(plan, prepared, finished, sink.result(), frames, verified, found)
+
+
+def header_of(plan: Plan, prepared: Prepared, source: str) -> Header:
+    """The header of the result of a plan."""
+    attributes = run_attributes(plan.asked or plan.machine, source, prepared, plan.settings, plan.reason)
+    return Header(prepared.motion.system.layout, attributes)

@@ -71,6 +71,7 @@ def test_sdf_places_links_and_joints_by_their_poses_and_closes_loops(tmp_path):
         ('relative_to="hinge"', 'relative_to="hing"', "there is no frame `hing`"),
         ("</model>", '</model><model name="b"/>', "2 models stand here"),
         ("<mass>2</mass>", "<mass>2 kg</mass>", "one number such as `1` expected, got `2 kg`"),
+        ('<joint name="b"', '<joint name="rocker"', "the name `rocker` stands twice"),
     ],
 )
 def test_faults_of_sdf_are_said_with_their_lines(tmp_path, old, new, message):
@@ -78,6 +79,14 @@ def test_faults_of_sdf_are_said_with_their_lines(tmp_path, old, new, message):
         read_model(written(tmp_path, FOUR_BAR.replace(old, new, 1)))
     assert message in str(caught.value)
     assert all(fault.line for fault in caught.value.faults)
+
+
+def test_sdf_before_1_7_names_joints_as_links_and_gives_links_their_inertia(tmp_path):
+    """A joint stands at its child; a link without <inertial> has the default of the SDF specification, 1 kg and 1 kg m²."""
+    old = FOUR_BAR.replace('version="1.9"', 'version="1.6"').replace('<joint name="b"', '<joint name="coupler"')
+    data = read_model(written(tmp_path, old.replace(BAR, "", 1))).data
+    assert data["joints"]["coupler"]["point"] == data["bodies"]["coupler"]["position"] == [1, 0, 1]
+    assert (data["bodies"]["crank"]["mass"], data["bodies"]["crank"]["inertia"]) == (1, [1, 1, 1])
 
 
 def test_the_machine_file_has_the_list_in_its_comments_and_is_that_of_the_example(tmp_path):

@@ -29,11 +29,15 @@ NEWER: Final = 1.7  # from this version on, axes are in the frame of the joint u
 
 @dataclass
 class Poses:
-    """Frames of a model by name: what each is attached to, its own pose, and its element. Those of joints are relative to their child."""
+    """Frames of a model by name: what each is attached to, its own pose, and its element. Those of joints are relative to their child.
+
+    of_joints : names of the frames of joints, which may have the name of a link before SDF 1.7.
+    """
 
     document: Document
     given: dict[str, tuple[str, Frame, Element]] = field(default_factory=dict)
     placed: dict[str, Frame] = field(default_factory=dict)
+    of_joints: dict[str, str] = field(default_factory=dict)
 
     def add(self, name: str, element: Element, default: str) -> None:
         """A frame whose <pose> is relative to `default` unless it says otherwise."""
@@ -130,7 +134,12 @@ def _model(model: Element, document: Document, mechanism: Mechanism, base: str |
             document.fault(element, f"the name `{element.get('name')}` stands twice")
         poses.add(element.get("name"), element, MODEL)
     for element in model.all("joint"):
-        poses.add(element.get("name"), element, _text(element, "child"))
+        name = element.get("name")
+        taken = name in poses.given
+        if name in poses.of_joints or (taken and version >= NEWER):
+            document.fault(element, f"the name `{name}` stands twice")
+        poses.of_joints[name] = f"joint {name}" if taken else name
+        poses.add(poses.of_joints[name], element, _text(element, "child"))
     for element in model.all("frame"):
         poses.add(element.get("name"), element, element.get("attached_to") or MODEL)
     for element in model.all("link"):
@@ -169,7 +178,10 @@ def _link(element: Element, poses: Poses, document: Document, notes: Notes) -> L
     name = element.get("name")
     link = Link(name, poses.place(name), line=element.line)
     inertial = element.first("inertial")
-    if inertial is not None:
+    if inertial is None:
+        link.inertial = Inertial(1.0, np.zeros(3), np.eye(3))
+        notes.change("a link without <inertial> has that of SDF: 1 kg, 1 kg m² about each axis", name, element.line)
+    else:
         at, tensor = pose_of(inertial, document), inertial.first("inertia")
         xx, yy, zz = (_value(tensor, key, 1.0, document) for key in ("ixx", "iyy", "izz"))
         xy, xz, yz = (_value(tensor, key, 0.0, document) for key in ("ixy", "ixz", "iyz"))
@@ -227,7 +239,7 @@ def _joint(
         document.fault(element, f'type="{kind}" cannot be translated; there are {", ".join(KINDS)}')
     if document.faults:
         return None
-    at = poses.place(name)
+    at = poses.place(poses.of_joints[name])
     joint = Connection(name, KINDS[kind], bodies, at.origin, line=element.line)
     axes = [each for each in (element.first("axis"), element.first("axis2")) if each is not None]
     wanted = {"revolute": 1, "translational": 1, "screw": 1, "universal": 2}.get(joint.kind, 0)

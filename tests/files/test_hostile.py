@@ -9,7 +9,7 @@ from nivel.errors import Fault, ModelError
 from nivel.files import parse_machine, read_machine
 from nivel.files.nodes import MOST
 from nivel.flexible.foreign.matrix import FormatError
-from nivel.flexible.foreign.mesh import read_mesh
+from nivel.flexible.foreign.read_mesh import read_mesh
 
 BODY = "bodies: {a: {mass: %s, inertia: [1, 1, 1]}}\n"
 

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from nivel.errors import ModelError
 from nivel.flexible.foreign.calculix import internal_nodes, refuse_expanded, rigid_rows
 from nivel.flexible.foreign.matrix import FormatError
-from nivel.flexible.foreign.mesh import read_mesh
+from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.model.mass import MatrixMass, from_matrix
 from nivel.flexible.reduce import reduce
 

@@ -12,9 +12,9 @@ from models import bar, block, reduced
 from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.foreign.matrix import FormatError, fortran_number
-from nivel.flexible.foreign.mesh import read_mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.foreign.triplet_files import read_abaqus
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.source import source_model
@@ -425,7 +425,11 @@ def test_inverted_elements_are_named(solid, tmp_path):
         ("job.dof", lambda text: "\n".join(text.splitlines()[:-3]), "different runs"),
         ("job.sti", lambda text: "hello\n" + text, "row, column, value"),
         ("mesh.inp", lambda text: text.replace("*NODE\n101, ", "*NODE\nx101, ", 1), "mesh.inp:2:1"),
-        ("mesh.inp", lambda text: text.replace("102, ", "101, ", 1), "node 101 stands 2 times"),
+        (
+            "mesh.inp",
+            lambda text: text.replace("102, ", "101, ", 1),
+            "elements of the mesh have nodes that do not exist: 102",
+        ),
     ],
 )
 def test_faults_of_files_have_their_place(solid, tmp_path, name, change, words):

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 
 from nivel.flexible.checks.findings import _hourglass_statement
 from nivel.flexible.model import solid_shapes as shapes
-from nivel.flexible.model.solid_elements import SolidBlock, SolidElements
+from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity
 from nivel.flexible.reduce import reduce
 from nivel.flexible.reduction.factor import NoStiffnessError, lowest_modes
 from nivel.machine.beams.section import Material
@@ -26,7 +26,8 @@ def strip(shape, count=4):
     position = np.concatenate([CORNERS + np.array([k, 0, 0]) for k in range(count)]) * [1.0, 1.0, 0.1]
     nodes = np.arange(8 * count).reshape(count, 8)
     freedoms = np.arange(24 * count).reshape(-1, 3)
-    return SolidElements((SolidBlock(shape, nodes, position),), freedoms, position, STEEL)
+    block = SolidBlock(shape, nodes, position, elasticity=elasticity(STEEL)[None, None])
+    return SolidElements((block,), freedoms, position)
 
 
 def bent(elements, curvature=1e-3):

@@ -1,11 +1,14 @@
 """Strain and stress of solid elements of all shapes, alone and beside each other, against exact fields; decks of hexahedra and wedges."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.io
 import scipy.sparse as sp
 
 from models import reduced
+from nivel.errors import ModelError
 from nivel.flexible.body.recovery import stress
 from nivel.flexible.foreign.mesh import SOLIDS, Mesh
 from nivel.flexible.foreign.solids import blocks_of, first_inverted
@@ -58,7 +61,10 @@ def mesh_of(kinds, warp=0.0, size=(1.0, 1.0, 1.0), cells=(2, 2, 2)):
 def solids_of(mesh):
     place = {int(number): k for k, number in enumerate(mesh.numbers)}
     freedoms = np.arange(3 * len(place)).reshape(-1, 3)
-    return SolidElements(tuple(blocks_of(mesh, place, mesh.places).values()), freedoms, mesh.places, STEEL)
+    blocks = blocks_of(mesh, place, mesh.places).values()
+    return SolidElements(
+        tuple(replace(block, elasticity=elasticity(STEEL)[None, None]) for block in blocks), freedoms, mesh.places
+    )
 
 
 @pytest.mark.parametrize(
@@ -113,7 +119,7 @@ def stiffness_and_mass(elements):
         n = block.nodes.shape[1]
         unit = np.broadcast_to(np.eye(3 * n).reshape(n, 3, -1), (len(block.nodes), n, 3, 3 * n))
         K = np.zeros((len(block.nodes), 3 * n, 3 * n))
-        for g, (_, volume) in zip(block.at_points(unit, D), block.points, strict=True):
+        for g, (_, volume) in zip(block.at_points(unit), block.points, strict=True):
             B = np.stack(
                 [
                     g[:, 0, 0],
@@ -188,3 +194,32 @@ def test_stress_of_decks_of_hexahedra_and_wedges(tmp_path, kinds):
     found = stress(body, q[None], middle)[0]
     np.testing.assert_allclose(found[:, 0], wanted, atol=0.02 * np.abs(wanted).max())
     assert len(body.triangles)
+
+
+def test_matrices_of_another_elasticity_than_the_deck_have_no_stress(tmp_path):
+    """The energy of a uniform strain is held against that of the stiffness matrix."""
+    mesh = mesh_of(["C3D8"], size=(1.0, 0.1, 0.1), cells=(4, 1, 1))
+    written(tmp_path, mesh, solids_of(mesh))
+    deck = tmp_path / "mesh.inp"
+    deck.write_text(deck.read_text(encoding="utf-8").replace("210e9, 0.3", "180e9, 0.3"), encoding="utf-8")
+    body, findings = reduced(
+        "format: 1\nmatrices: {format: matrix-market, stiffness: k.mtx, mass: m.mtx, nodes: mesh.inp}\nreduction: {modes: 3}\n",
+        tmp_path,
+    )
+    assert body.stress is None
+    assert any(
+        "stress is not known: in a uniform strain the elements of the deck store 0.8571 times" in note
+        for note in findings.notes
+    )
+
+
+def test_a_single_element_of_one_point_is_refused_in_words(tmp_path):
+    """Its mass at one point has no inertia: it was a traceback of a factor."""
+    mesh = mesh_of(["C3D8R"], cells=(1, 1, 1))
+    written(tmp_path, mesh, solids_of(mesh))
+    mass = np.kron(np.full((8, 8), STEEL.density / 64.0), np.eye(3))  # N Nᵀ at the middle
+    scipy.io.mmwrite(tmp_path / "m.mtx", sp.coo_array(mass), symmetry="symmetric")
+    with pytest.raises(ModelError, match=r"the mass matrix has no inertia about the axis .* a single element C3D8R"):
+        reduced(
+            "format: 1\nmatrices: {format: matrix-market, stiffness: k.mtx, mass: m.mtx, nodes: mesh.inp}\n", tmp_path
+        )

@@ -18,6 +18,7 @@ SYMMETRIC: Final = 1e-8  # unsymmetric part as a share of the largest element
 GROUNDED: Final = 1e-6  # force of a rigid motion as a share of what stiffness could give
 SLOWEST, FASTEST = 5.0, 1e5  # [m/s] of waves in materials
 FEW: Final = 100  # nodes below which a model may be condensed, and waves through its matrices are only a rough guess
+POINT: Final = 1e-10  # of mass times size², below which an inertia is none
 LIGHTEST, DENSEST = 0.01, 1e5  # [kg/m^3]
 NEGATIVE: Final = 1e-9  # share of the largest eigenvalue, below which a negative one is round-off
 LANCZOS: Final = 60  # vectors
@@ -133,6 +134,15 @@ def _without_mass(model: FiniteElementModel) -> str:
             f"the mass matrix has another mass along x, y and z ({masses} kg): degrees of freedom are missing, supports were removed from "
             "the matrix, or rows stand for other directions than the table `freedoms` says"
         )
+    R = model.rigid_modes(model.position.mean(axis=0))
+    about = R.T @ (model.mass.matrix @ R)
+    inertia, axes = np.linalg.eigh(about[3:, 3:] - about[3:, :3] @ about[:3, 3:] / total)  # about the centre of mass
+    if inertia[0] <= POINT * total * model.size**2:
+        axis = ", ".join(f"{x:.3g}" for x in axes[:, 0] * np.sign(axes[np.argmax(np.abs(axes[:, 0])), 0]))
+        return (
+            f"the mass matrix has no inertia about the axis ({axis}) through the centre of mass: all mass is on a line or at a point, as "
+            "that of a single element C3D8R is; take more elements, or elements with more points, such as C3D8I or C3D20R"
+        )
     return ""
 
 
@@ -153,9 +163,15 @@ def _grounded(model: FiniteElementModel) -> str:
         return ""
     where = _node_of(model, int(np.argmax(force[:, worst])))
     motions = [f"along {a}" for a in "xyz"] + [f"about {a}" for a in "xyz"]
+    causes = f"a rigid motion {motions[worst]} causes a force at node {where}, {share[worst]:.2g} of what its stiffness could give."
+    elements = model.elements
+    if worst > 2 and isinstance(elements, SolidElements) and elements.has_one_point:
+        return (
+            f"{causes} The hourglass control of elements C3D8R and S4R resists turns where they are no parallelepipeds. {ONE_POINT}. If "
+            "there are supports or springs to ground in the deck, remove these"
+        )
     return (
-        f"the stiffness matrix holds the body to the ground: a rigid motion {motions[worst]} causes a force at node {where}, "
-        f"{share[worst]:.2g} of what its stiffness could give. Remove supports, springs to ground and boundary conditions in the "
+        f"the stiffness matrix holds the body to the ground: {causes} Remove supports, springs to ground and boundary conditions in the "
         "finite-element program; interfaces are held by joints later. If there are none, coordinates and matrix differ in units or axes"
     )
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
 
 from nivel.flexible.foreign.matrix import FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh
-from nivel.flexible.foreign.shell_sections import SHELLS
+from nivel.flexible.foreign.sections import SHELLS
 
 INCOMPATIBLE = "C3D8I"
 # elements that CalculiX replaces by solids whose nodes are in no file
@@ -52,3 +55,16 @@ def internal_nodes(labels: Sequence[Label], mesh: Mesh) -> set[int]:
     if INCOMPATIBLE not in mesh.types:
         return set()
     return {node for node, _ in labels if node > mesh.numbers[-1]}
+
+
+def incompatible_rows(labels: Sequence[Label], mesh: Mesh) -> Mapping[int, NDArray[np.int64]]:
+    """(3, 3) rows of the incompatible modes of each element C3D8I, by its number: [mode, direction]; empty where they have none.
+
+    CalculiX gives each of these elements three nodes, in the order of their numbers.
+    """
+    nodes, numbers = sorted(internal_nodes(labels, mesh)), sorted(mesh.element_numbers.get(INCOMPATIBLE, []))
+    row = {label: k for k, label in enumerate(labels)}
+    rows = [row.get((node, axis), -1) for node in nodes for axis in (1, 2, 3)]
+    if len(nodes) != 3 * len(numbers) or -1 in rows:
+        return {}
+    return dict(zip(numbers, np.array(rows, dtype=np.int64).reshape(-1, 3, 3), strict=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,10 +18,11 @@ Label = tuple[int, int]  # node, direction 1 … 6
 
 
 class FormatError(ValueError):
-    """The file is not what it should be; the message says where and why."""
+    """The file is not what it should be; the message says where and why. file : an included file in which the line is, or None."""
 
     def __init__(self, message: str, line: int = 0) -> None:
-        self.line = line
+        self.line, self.message = line, message
+        self.file: Path | None = getattr(line, "file", None)
         super().__init__(f"line {line}: {message}" if line else message)
 
 
@@ -79,12 +81,13 @@ def text_lines(path: Path) -> Iterator[tuple[int, str]]:
 
 
 def fortran_number(text: str) -> float:
-    """A number as Nastran and Fortran write it: ``1.5``, ``1.5D+06``, ``1.5+6``. Raises ValueError."""
-    text = text.strip().replace("D", "E").replace("d", "E")
+    """A number as Nastran and Fortran write it: ``1.5``, ``1.5D+06``, ``1.5+6``. Finite. Raises ValueError."""
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
+        text = text.strip().upper().replace("D", "E")
         at = max(text.rfind("+"), text.rfind("-"))
-        if at > 0:
-            return float(f"{text[:at]}E{text[at:]}")
-        raise
+        value = float(text if at <= 0 or "E" in text else f"{text[:at]}E{text[at:]}")
+    if not math.isfinite(value):
+        raise ValueError(f"a finite number was expected, got `{text}`")
+    return value

@@ -17,8 +17,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from nivel.flexible.foreign.matrix import FormatError, Label
-from nivel.flexible.foreign.mesh import SOLIDS, Array, Mesh
-from nivel.flexible.foreign.shell_sections import SHELLS, Shell, ShellSection
+from nivel.flexible.foreign.mesh import Array, Mesh
+from nivel.flexible.foreign.sections import SHELLS, Section, Shell
 
 SMOOTH: Final = 0.939693  # cosine of the largest angle, 20°, between normals that are averaged
 FLAT: Final = 0.999962  # cosine of the angle below which normals are the same line
@@ -145,7 +145,7 @@ class _Place(NamedTuple):
     shell: Shell
     corner: int
     normal: Array
-    section: ShellSection
+    section: Section
 
 
 def expansion(mesh: Mesh) -> Expansion:
@@ -165,7 +165,7 @@ def expansion(mesh: Mesh) -> Expansion:
             next_number += 3
             normal = _mean(group, node)
             section = group[0].section
-            heights = section.thickness * (np.array([-0.5, 0.0, 0.5]) - section.offset)
+            heights = (section.thickness or 0.0) * (np.array([-0.5, 0.0, 0.5]) - section.offset)
             used = [k for k in range(3) if k != 1 or any(_has_middle(each) for each in group)]
             own += [three[k] for k in used]
             numbers += [three[k] for k in used]
@@ -183,7 +183,9 @@ def expansion(mesh: Mesh) -> Expansion:
         numbers=all_numbers[order],
         places=np.concatenate([mesh.places, np.array(places)])[order],
         elements=_solids(mesh, nodes_of),
-        only_solids=mesh.types.keys() <= SOLIDS.keys() | SHELLS.keys(),
+        element_numbers=_numbers(mesh),
+        temperatures=_temperatures(mesh, layers, knots),
+        planes={s.number: _plane(mesh.places[[place[node] for node in s.nodes]]) for s in mesh.shells},
         types=mesh.types | {SOLID_OF[shell.kind]: shell.line for shell in mesh.shells},
         shells=[],
     )
@@ -193,7 +195,7 @@ def expansion(mesh: Mesh) -> Expansion:
 def _refuse_given(mesh: Mesh) -> None:
     """Raises FormatError for sections and keywords that cannot be followed."""
     for section in mesh.sections:
-        if section.problem:
+        if section.problem and section.thickness is not None:
             raise FormatError(section.problem, section.line)
     if mesh.of_nodes is not None:
         keyword, line = mesh.of_nodes
@@ -219,7 +221,8 @@ def _refuse_shared(mesh: Mesh) -> None:
 
 def _around(mesh: Mesh, place: Mapping[int, int]) -> dict[int, list[_Place]]:
     """The shells at each of their nodes, by ascending numbers. Raises FormatError."""
-    section_of = {number: section for section in mesh.sections for number in section.members(mesh.element_sets)}
+    sections = [section for section in mesh.sections if section.thickness is not None]
+    section_of = {number: section for section in sections for number in section.members(mesh.element_sets)}
     out: dict[int, list[_Place]] = {}
     for shell in sorted(mesh.shells, key=lambda shell: shell.number):
         section = section_of.get(shell.number)
@@ -243,11 +246,17 @@ def _around(mesh: Mesh, place: Mapping[int, int]) -> dict[int, list[_Place]]:
 
 
 @cache
+def _coefficients(count: int) -> Array:
+    """(monomials, nodes) of the shape functions."""
+    at = np.array((TRIANGLE if count in (3, 6) else SQUARE)[:count], dtype=float)
+    return np.linalg.inv(np.prod(at[:, None] ** np.array(POWERS[count]), axis=2))
+
+
+@cache
 def _slopes(count: int) -> Array:
     """(count, count, 2) slopes of the shape functions at the nodes: [at, of, along ξ or η]."""
     at = np.array((TRIANGLE if count in (3, 6) else SQUARE)[:count], dtype=float)
-    powers = np.array(POWERS[count])
-    coefficients = np.linalg.inv(np.prod(at[:, None] ** powers, axis=2))
+    powers, coefficients = np.array(POWERS[count]), _coefficients(count)
     out = []
     for axis in range(2):
         lower = powers.copy()
@@ -260,6 +269,15 @@ def _normals(corners: Array) -> Array:
     """(n, 3) at the nodes of a shell with nodes at `corners` (n, 3), not of unit length."""
     along = np.einsum("pna,nx->pax", _slopes(len(corners)), corners)
     return np.cross(along[:, 0], along[:, 1])
+
+
+def _plane(corners: Array) -> tuple[Array, Array]:
+    """Point (3,) and unit normal (3,) where CalculiX places the axes of a shell: ξ = η = 0, which is the first node of triangles."""
+    at, along, across = (
+        _coefficients(len(corners))[POWERS[len(corners)].index(power)] for power in ((0, 0), (1, 0), (0, 1))
+    )
+    normal = np.cross(along @ corners, across @ corners)
+    return at @ corners, normal / np.linalg.norm(normal)
 
 
 def _groups(around: Sequence[_Place]) -> list[list[_Place]]:
@@ -276,7 +294,7 @@ def _groups(around: Sequence[_Place]) -> list[list[_Place]]:
 def _alike(first: _Place, other: _Place) -> bool:
     return (
         float(first.normal @ other.normal) > SMOOTH
-        and abs(first.section.thickness - other.section.thickness) < SAME
+        and abs((first.section.thickness or 0.0) - (other.section.thickness or 0.0)) < SAME
         and abs(first.section.offset - other.section.offset) < SAME
     )
 
@@ -320,4 +338,24 @@ def _solids(mesh: Mesh, nodes_of: Mapping[tuple[int, int], tuple[int, int, int]]
             nodes += [each[0] for each in three[corners:]] + [each[2] for each in three[corners:]]
             nodes += [each[1] for each in three[:corners]]
         out.setdefault(SOLID_OF[shell.kind], []).append(nodes)
+    return out
+
+
+def _numbers(mesh: Mesh) -> dict[str, list[int]]:
+    """Numbers of the elements, in the order of `_solids`."""
+    out = {kind: list(numbers) for kind, numbers in mesh.element_numbers.items()}
+    for shell in mesh.shells:
+        out.setdefault(SOLID_OF[shell.kind], []).append(shell.number)
+    return out
+
+
+def _temperatures(
+    mesh: Mesh, layers: Mapping[int, tuple[int, ...]], knots: Mapping[int, Knot]
+) -> dict[int, float] | None:
+    """Nodes through the thickness have the temperature of the node of shells."""
+    if mesh.temperatures is None:
+        return None
+    out = dict(mesh.temperatures)
+    for node, nodes in (*layers.items(), *((node, knot.nodes) for node, knot in knots.items())):
+        out |= dict.fromkeys(nodes, mesh.temperatures.get(node, 0.0))
     return out

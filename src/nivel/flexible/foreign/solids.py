@@ -10,7 +10,7 @@ import numpy as np
 from nivel.flexible.foreign.calculix import INCOMPATIBLE
 from nivel.flexible.foreign.mesh import Mesh
 from nivel.flexible.model import solid_shapes as shapes
-from nivel.flexible.model.model import Array
+from nivel.flexible.model.model import Array, Whole
 from nivel.flexible.model.solid_elements import SolidBlock
 from nivel.flexible.model.solid_shapes import SolidShape
 
@@ -26,13 +26,16 @@ KINDS: Final[Mapping[str, SolidShape]] = {
 }
 
 
-def blocks_of(mesh: Mesh, place: Mapping[int, int], position: Array) -> dict[str, SolidBlock]:
-    """The solids of a mesh by type. place : of the nodes in `position` (n, 3) [m], by number."""
+def blocks_of(
+    mesh: Mesh, place: Mapping[int, int], position: Array, inner: Mapping[int, Whole] | None = None
+) -> dict[str, SolidBlock]:
+    """The solids of a mesh by type. place : of the nodes in `position` (n, 3) [m], by number; inner : `calculix.incompatible_rows`."""
     out = {}
     for kind, elements in mesh.elements.items():
         shape = KINDS[kind if kind in KINDS else kind.rstrip("HMRT")]
         nodes = np.array([[place[node] for node in element] for element in elements], dtype=np.int64)
-        out[kind] = SolidBlock(shape, nodes, position, kind == INCOMPATIBLE)
+        rows = np.array([inner[k] for k in mesh.element_numbers[kind]]) if inner and kind == INCOMPATIBLE else None
+        out[kind] = SolidBlock(shape, nodes, position, kind == INCOMPATIBLE, rows)
     return out
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,23 +13,23 @@ import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.checks.checks import unsymmetric
-from nivel.flexible.foreign.calculix import internal_nodes, refuse_expanded, rigid_rows
+from nivel.flexible.foreign.calculix import incompatible_rows, internal_nodes, refuse_expanded, rigid_rows
 from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
-from nivel.flexible.foreign.mesh import Mesh, read_mesh
+from nivel.flexible.foreign.mesh import Mesh
 from nivel.flexible.foreign.nastran import read_dmig
 from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.foreign.shell_nodes import followers
 from nivel.flexible.foreign.shells import Expansion, expansion
 from nivel.flexible.foreign.solids import blocks_of, first_inverted
+from nivel.flexible.foreign.stress import with_elements
 from nivel.flexible.foreign.triplet_files import read_abaqus, read_calculix, read_freedoms, read_matrix_market
 from nivel.flexible.model.mass import from_matrix
-from nivel.flexible.model.model import Array, FiniteElementModel, Whole
+from nivel.flexible.model.model import FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import LENGTHS, MASSES, Matrices
 from nivel.flexible.model.selection import NodeSets
-from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, surface
 from nivel.flexible.model.sparse import Sparse
-from nivel.machine.beams.section import Material
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
 STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")
@@ -85,8 +85,7 @@ def _in_nodes(located: Located, given: Matrices, do: Callable[[], Any]) -> Any:
     try:
         return do()
     except FormatError as error:
-        message = str(error).removeprefix(f"line {error.line}: ")
-        raise ModelError(Fault(str(located.beside(given.nodes)), error.line, 1, "matrices.nodes", message)) from None
+        raise _fault(error, located.beside(given.nodes), "nodes") from None
 
 
 def _opened(located: Located, key: str, name: str, reader: Callable[[Path], Any]) -> Any:
@@ -98,11 +97,13 @@ def _opened(located: Located, key: str, name: str, reader: Callable[[Path], Any]
     try:
         return reader(path)
     except FormatError as error:
-        raise ModelError(
-            Fault(str(path), error.line, 1, f"matrices.{key}", str(error).removeprefix(f"line {error.line}: "))
-        ) from None
+        raise _fault(error, path, key) from None
     except OSError as error:
         raise ModelError(located.fault(place, f"`{path}` cannot be read: {error.strerror}")) from None
+
+
+def _fault(error: FormatError, path: Path, key: str) -> ModelError:
+    return ModelError(Fault(str(error.file or path), int(error.line), 1, f"matrices.{key}", error.message))
 
 
 def _matrices(located: Located, given: Matrices, mesh: Mesh, shells: Expansion | None) -> _Read:
@@ -245,12 +246,11 @@ def _model(
     notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
     incompatible = len(internal_nodes(read.labels, mesh))
     notes += (f"{incompatible} incompatible modes of elements C3D8I are rows without a node",) if incompatible else ()
-    notes += () if shells is None else shells.notes
+    notes += mesh.notes if shells is None else (*mesh.notes, *shells.notes)
     sets = {
         name: np.array(sorted({place[node] for node in members if node in place}), dtype=np.int64)
         for name, members in mesh.sets.items()
     }
-    elements, triangles, solids, more = _elements(located, mesh, place, freedoms, position, length, mass_unit)
     model = FiniteElementModel(
         name=located.record.name,
         node_ids=np.array(used, dtype=np.int64),
@@ -260,13 +260,31 @@ def _model(
         mass=mass,
         expansion=motion,
         stands_for=stands_for,
-        elements=elements,
-        triangles=triangles,
-        solids=solids,
-        volume=None if elements is None else elements.volume,
-        notes=(*notes, *more),
+        notes=notes,
     )
-    return model, sets
+    return _in_nodes(located, given, lambda: _with_solids(located, model, mesh, read, place, length, mass_unit)), sets
+
+
+def _with_solids(
+    located: Located,
+    model: FiniteElementModel,
+    mesh: Mesh,
+    read: _Read,
+    place: Mapping[int, int],
+    length: float,
+    mass_unit: float,
+) -> FiniteElementModel:
+    """The model with its solids: their stress, and pictures. Raises FormatError and ModelError."""
+    if any(node not in place for kind in mesh.elements.values() for element in kind for node in element):
+        blocks = {}
+    else:
+        blocks = blocks_of(mesh, place, model.position, incompatible_rows(read.labels, mesh))
+    bad = first_inverted(blocks)
+    if bad:
+        raise ModelError(
+            located.fault(("matrices", "nodes"), f"{bad}: their nodes are in another order, or a node was moved")
+        )
+    return with_elements(model, mesh, blocks, place, mass_unit / length, length)  # a pressure is mass / (length s²)
 
 
 def _row_lengths(labels: tuple[Label, ...], length: float) -> Sparse:
@@ -292,59 +310,3 @@ def _check_matrices(located: Located, K: Sparse, M: Sparse, labels: tuple[Label,
         )
     if faults:
         raise ModelError(faults)
-
-
-def _elements(
-    located: Located,
-    mesh: Mesh,
-    place: dict[int, int],
-    freedoms: Whole,
-    position: Array,
-    length: float,
-    mass_unit: float,
-) -> tuple[SolidElements | None, Whole, Whole, tuple[str, ...]]:
-    """Stress of meshes of solids of one material; faces for pictures; what is left out, in words."""
-    none = np.zeros((0, 3), dtype=np.int64), np.zeros((0, 4), dtype=np.int64)
-    if not mesh.elements or not all(node in place for kind in mesh.elements.values() for each in kind for node in each):
-        return None, *none, _why_no_stress(mesh)
-    blocks = blocks_of(mesh, place, position)
-    bad = first_inverted(blocks)
-    if bad:
-        raise ModelError(
-            located.fault(("matrices", "nodes"), f"{bad}: their nodes are in another order, or a node was moved")
-        )
-    triangles, solids = surface(blocks.values()), _tetrahedra(blocks, none[1])
-    if (
-        not mesh.only_solids
-        or mesh.materials != 1
-        or mesh.young is None
-        or mesh.poisson is None
-        or np.any(freedoms[np.unique(np.concatenate([each.nodes.ravel() for each in blocks.values()])), :3] < 0)
-    ):
-        return (
-            None,
-            triangles,
-            solids,
-            ("stress is not known: it needs a mesh of solids alone, of one elastic material",),
-        )
-    pressure = mass_unit / length  # mass / (length s²)
-    density = (mesh.density or 1.0) * mass_unit / length**3
-    material = Material.model_construct(
-        youngs_modulus=mesh.young * pressure, poisson_ratio=mesh.poisson, density=density
-    )
-    return SolidElements(tuple(blocks.values()), freedoms[:, :3], position, material), triangles, solids, ()
-
-
-def _why_no_stress(mesh: Mesh) -> tuple[str, ...]:
-    if mesh.elements:
-        return (
-            "stress is not known: nodes of its elements have no rows in the matrices, as those of *RIGID BODY have none; "
-            "leave the tie to `interfaces` here",
-        )
-    return () if mesh.only_solids else ("stress is not known: the mesh has no solids",)
-
-
-def _tetrahedra(blocks: dict[str, SolidBlock], none: Whole) -> Whole:
-    """Nodes of a mesh of tetrahedra of one kind, for export; of other meshes none."""
-    nodes = [block.nodes for block in blocks.values()]
-    return nodes[0] if len(nodes) == 1 and nodes[0].shape[1] in (4, 10) else none

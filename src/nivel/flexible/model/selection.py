@@ -45,11 +45,11 @@ def _chosen(
             return located.fault((*place, "nodes"), _no_nodes(model, missing))
         return np.flatnonzero(np.isin(model.node_ids, record.nodes))
     if record.set is not None:
-        if record.set not in sets:
-            near = get_close_matches(record.set, sets, n=1)
+        if record.set.upper() not in sets:
+            near = get_close_matches(record.set.upper(), sets, n=1)
             hint = f"did you mean `{near[0]}`?" if near else f"there {'are ' + ', '.join(sets) if sets else 'are none'}"
             return located.fault((*place, "set"), f"the mesh has no node set `{record.set}`; {hint}")
-        nodes = sets[record.set]
+        nodes = sets[record.set.upper()]
     else:
         distance, tolerance, key = _distance(model, record)
         nodes = np.flatnonzero(distance <= (record.tolerance or tolerance))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
@@ -17,29 +17,42 @@ from nivel.machine.beams.section import Material
 
 CHUNK: Final = 8  # fields at once
 ELEMENTS: Final = 1000  # at once, for many fields
+SHEARS: Final = ((0, 1), (1, 2), (2, 0))
 HOURGLASSES: Final = 8  # nodes of hexahedra that may move like an hourglass: without strain in the middle
 
 
 def elasticity(material: Material) -> Array:
     """(6, 6) [Pa] stress xx, yy, zz, xy, yz, zx from strain with γ."""
-    E, nu = material.youngs_modulus, material.poisson_ratio
-    lame, mu = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), material.shear_modulus
-    out = np.diag([2.0 * mu] * 3 + [mu] * 3)
-    out[:3, :3] += lame
+    return isotropic(np.array(material.youngs_modulus), np.array(material.poisson_ratio))
+
+
+def isotropic(E: Array, nu: Array) -> Array:
+    """(…, 6, 6) stress xx, yy, zz, xy, yz, zx from strain with γ, of moduli and ratios of Poisson (…)."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        lame, mu = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), 0.5 * E / (1.0 + nu)
+    out = mu[..., None, None] * np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
+    out[..., :3, :3] += lame[..., None, None]
     return out
 
 
 @dataclass(frozen=True)
 class SolidBlock:
-    """Elements of one shape: places of nodes (e, n) at `position` (…, 3) [m].
+    """Elements of one shape and material: places of nodes (e, n) at `position` (…, 3) [m].
 
-    incompatible : hexahedra of eight nodes that bend by incompatible modes.
+    incompatible : hexahedra of eight nodes that bend by incompatible modes; inner : (e, 3, 3) their freedoms [mode, direction], or None
+    where they have none of their own; patched : whether the slopes of these modes are scaled, so that constant stress is exact in any
+    element. elasticity : [Pa] stress from strain at each point of each element, (e or 1, points or 1, 6, 6); None where it is not known.
+    material : its name.
     """
 
     shape: SolidShape
     nodes: Whole
     position: Array
     incompatible: bool = False
+    inner: Whole | None = None
+    patched: bool = True
+    elasticity: Array | None = None
+    material: str = ""
 
     @cached_property
     def points(self) -> tuple[tuple[Array, Array], ...]:
@@ -65,42 +78,65 @@ class SolidBlock:
             bad |= np.linalg.det(jacobian) <= 0.0
         return np.flatnonzero(bad)
 
-    def at_points(self, moved: Array, D: Array) -> list[Array]:
-        """(e, 3, 3, k) ∂u_a/∂x_b at each point, of displacements (e, n, 3, k) of the nodes; D : (6, 6) [Pa] elasticity."""
-        plain = [np.einsum("enb,enak->eabk", gradients, moved, optimize=True) for gradients, _ in self.points]
-        return self._with_incompatible(plain, D) if self.incompatible else plain
+    def stress(self, point: int, strain: Array) -> Array:
+        """(e, 6, k) [Pa] of strains (e, 6, k) at the point."""
+        assert self.elasticity is not None
+        return self.elasticity[:, min(point, self.elasticity.shape[1] - 1)] @ strain
 
-    def _with_incompatible(self, plain: list[Array], D: Array) -> list[Array]:
-        """With the modes 1 - ξ², 1 - η², 1 - ζ² of Wilson, whose slopes are those at the middle (Taylor, Beresford, Wilson 1976).
+    def energy(self, strains: Iterable[Array]) -> Array:
+        """(k,) [J] of strains (e, 6, k) at each point."""
+        terms = [
+            np.einsum("e,eik,eik->k", volume, strain, self.stress(point, strain), optimize=True)
+            for point, (strain, (_, volume)) in enumerate(zip(strains, self.points, strict=True))
+        ]
+        return 0.5 * np.sum(terms, axis=0)
 
-        Nothing acts on them, so they follow from the nodes: ∫ Bᵀ σ dV = 0 over the element.
+    def part(self, chosen: slice | list[int]) -> SolidBlock:
+        """Some of the elements."""
+        D, inner = self.elasticity, self.inner
+        D = D if D is None or len(D) == 1 else D[chosen]
+        return replace(self, nodes=self.nodes[chosen], elasticity=D, inner=inner if inner is None else inner[chosen])
+
+    def at_points(self, moved: Array, inner: Array | None = None) -> list[Array]:
+        """(e, 3, 3, k) ∂u_a/∂x_b at each point, of displacements (e, n, 3, k) of the nodes.
+
+        inner : (e, 3, 3, k) of the incompatible modes; None: they follow from the nodes.
         """
+        plain = [np.einsum("enb,enak->eabk", gradients, moved, optimize=True) for gradients, _ in self.points]
+        return self._with_incompatible(plain, inner) if self.incompatible else plain
+
+    def _with_incompatible(self, plain: list[Array], inner: Array | None) -> list[Array]:
+        """With the modes 1 - ξ², 1 - η², 1 - ζ² of Wilson, whose slopes are those at the middle (Taylor, Beresford, Wilson 1976)."""
         middle = np.einsum("ena,nb->eab", self.position[self.nodes], self.shape.gradients(np.zeros(3)))
         inverse, size = np.linalg.inv(middle), np.linalg.det(middle)
         slopes = []
         for at, (_, volume) in zip(self.shape.points, self.points, strict=True):
-            slopes.append(np.einsum("m,emb->emb", -2.0 * at, inverse) * (size / volume)[:, None, None])
-        stiffness = np.zeros((len(self.nodes), 9, 9))
-        force = np.zeros((len(self.nodes), 9, plain[0].shape[-1]))
-        for each, slope, (_, volume) in zip(plain, slopes, self.points, strict=True):
-            B = _strain(np.einsum("emb,ac->eabmc", slope, np.eye(3)).reshape(-1, 3, 3, 9))
-            stiffness += np.einsum("eim,ij,ejn,e->emn", B, D, B, volume, optimize=True)
-            force += np.einsum("eim,ij,ejk,e->emk", B, D, _strain(each), volume, optimize=True)
-        inner = -np.linalg.solve(stiffness, force).reshape(len(self.nodes), 3, 3, -1)  # [mode, direction]
+            scale = size / volume if self.patched else np.ones_like(size)
+            slopes.append(np.einsum("m,emb,e->emb", -2.0 * at, inverse, scale))
+        inner = self._condensed(plain, slopes) if inner is None else inner
         return [
             each + np.einsum("emb,emak->eabk", slope, inner, optimize=True)
             for each, slope in zip(plain, slopes, strict=True)
         ]
 
+    def _condensed(self, plain: list[Array], slopes: list[Array]) -> Array:
+        """(e, 3, 3, k) the incompatible modes that follow from the nodes, as nothing acts on them: ∫ Bᵀ σ dV = 0 over the element."""
+        stiffness = np.zeros((len(self.nodes), 9, 9))
+        force = np.zeros((len(self.nodes), 9, plain[0].shape[-1]))
+        for point, (each, slope, (_, volume)) in enumerate(zip(plain, slopes, self.points, strict=True)):
+            B = _strain(np.einsum("emb,ac->eabmc", slope, np.eye(3)).reshape(-1, 3, 3, 9))
+            stiffness += np.einsum("eim,ein,e->emn", B, self.stress(point, B), volume, optimize=True)
+            force += np.einsum("eim,eik,e->emk", B, self.stress(point, _strain(each)), volume, optimize=True)
+        return np.asarray(-np.linalg.solve(stiffness, force), dtype=np.float64).reshape(len(self.nodes), 3, 3, -1)
+
 
 @dataclass(frozen=True)
 class SolidElements:
-    """Elements of one material: blocks of elements of a shape each, freedoms (n, 3) of the nodes, position (n, 3) [m]."""
+    """Solids of known elasticity: blocks of elements of a shape and a material each, freedoms (n, 3) of the nodes, position (n, 3) [m]."""
 
     blocks: tuple[SolidBlock, ...]
     freedoms: Whole
     position: Array
-    material: Material
 
     def station_nodes(self) -> Whole:
         return self.stations
@@ -120,34 +156,52 @@ class SolidElements:
         return float(sum(block.volumes.sum() for block in self.blocks))
 
     @cached_property
+    def by_material(self) -> tuple[SolidElements, ...]:
+        """The elements of each material alone: between them strain and stress have steps."""
+        names = dict.fromkeys(block.material for block in self.blocks)
+        if len(names) == 1:
+            return (self,)
+        return tuple(replace(self, blocks=tuple(b for b in self.blocks if b.material == name)) for name in names)
+
+    @cached_property
     def _averaging(self) -> tuple[Sparse, ...]:
-        """(stations, e n) for each block: mean over the elements around a node, by their volumes."""
-        matrices = []
-        for block in self.blocks:
-            rows = np.searchsorted(self.stations, block.nodes.ravel())
-            data = np.repeat(block.volumes, block.nodes.shape[1])
-            matrices.append(sp.csr_array((data, (rows, np.arange(len(rows)))), shape=(len(self.stations), len(rows))))
-        whole = sp.diags_array(1.0 / sum(np.asarray(each.sum(axis=1)).ravel() for each in matrices))
-        return tuple(sp.csr_array(whole @ each) for each in matrices)
+        """(stations, e n) for each block: mean over the elements around a node."""
+        size = len(self.stations)
+        rows = [np.searchsorted(self.stations, block.nodes.ravel()) for block in self.blocks]
+        share = 1.0 / np.bincount(np.concatenate(rows), minlength=size)
+        return tuple(
+            sp.csr_array((share[each], (each, np.arange(len(each)))), shape=(size, len(each))) for each in rows
+        )
+
+    def _at_points(self, block: SolidBlock, displacement: Array) -> list[Array]:
+        """The displacement gradients of a block, of displacements (F, k)."""
+        inner = None if block.inner is None else displacement[block.inner]
+        return block.at_points(displacement[self.freedoms[block.nodes]], inner)
+
+    def _nodal(
+        self, displacement: Array, of: Callable[[SolidBlock, int, Array], Array], shape: tuple[int, ...]
+    ) -> Array:
+        """(s, …, n) values at the stations, mean over elements. `of` : their values (e, …, n) from displacement gradients at a point."""
+        parts = [np.zeros((len(self.stations), *shape, 0))]
+        for k in range(0, displacement.shape[1], CHUNK):
+            moved, mean = displacement[:, k : k + CHUNK], 0.0
+            for block, averaging in zip(self.blocks, self._averaging, strict=True):
+                gradients = self._at_points(block, moved)
+                at_points = np.array([of(block, point, each) for point, each in enumerate(gradients)])
+                at_nodes = np.einsum("pg,ge...->ep...", block.shape.extrapolation, at_points, optimize=True)
+                mean = mean + averaging @ at_nodes.reshape(block.nodes.size, -1)
+            parts.append(np.asarray(mean).reshape(len(self.stations), *shape, -1))
+        return np.concatenate(parts, axis=-1)
 
     def gradient(self, displacement: Array) -> Array:
         """(s, 3, 3, n) ∂u_a/∂x_b at the stations, mean over elements."""
-        parts = [self._gradient(displacement[:, k : k + CHUNK]) for k in range(0, displacement.shape[1], CHUNK)]
-        return np.concatenate(parts, axis=-1) if parts else np.zeros((len(self.stations), 3, 3, 0))
-
-    def _gradient(self, displacement: Array) -> Array:
-        mean = 0.0
-        for block, averaging in zip(self.blocks, self._averaging, strict=True):
-            at_points = np.array(block.at_points(displacement[self.freedoms[block.nodes]], elasticity(self.material)))
-            at_nodes = np.einsum("pg,geabk->epabk", block.shape.extrapolation, at_points, optimize=True)
-            mean = mean + averaging @ at_nodes.reshape(block.nodes.size, -1)
-        return np.asarray(mean).reshape(len(self.stations), 3, 3, -1)
+        return self._nodal(displacement, lambda _block, _point, g: g, (3, 3))
 
     def strain(self, displacement: Array) -> Array:
         return _strain(self.gradient(displacement))
 
     def stress(self, displacement: Array) -> Array:
-        return np.einsum("ij,sjk->sik", elasticity(self.material), self.strain(displacement), optimize=True)
+        return self._nodal(displacement, lambda block, point, g: block.stress(point, _strain(g)), (6,))
 
     @property
     def has_one_point(self) -> bool:
@@ -156,33 +210,30 @@ class SolidElements:
 
     def strain_energy(self, displacement: Array) -> Array:
         """(n,) [J] of the strains at the points of the elements, for displacements (…, n)."""
-        D, energy = elasticity(self.material), np.zeros(displacement.shape[1])
-        for block in self.blocks:
-            gradients = block.at_points(displacement[self.freedoms[block.nodes]], D)
-            for each, (_, volume) in zip(gradients, block.points, strict=True):
-                strain = _strain(each)
-                energy += 0.5 * np.einsum("e,eik,ij,ejk->k", volume, strain, D, strain, optimize=True)
-        return energy
+        parts = [np.zeros(0)]
+        for k in range(0, displacement.shape[1], CHUNK):
+            moved = displacement[:, k : k + CHUNK]
+            parts.append(np.sum([b.energy(map(_strain, self._at_points(b, moved))) for b in self.blocks], axis=0))
+        return np.concatenate(parts)
 
     def energy_error(self, displacement: Array) -> Array:
         """(n,) share of the strain energy that finer elements would add, by how far strains at Gauss points are from those averaged at
-        nodes (Zienkiewicz, Zhu 1987)."""
+        nodes, in each material (Zienkiewicz, Zhu 1987)."""
         parts = [displacement[:, k : k + CHUNK] for k in range(0, displacement.shape[1], CHUNK)]
-        return np.concatenate([self._energy_error(part) for part in parts]) if parts else np.zeros(0)
+        off = [sum(each.smoothing_energy(part) for each in self.by_material) for part in parts]
+        return np.concatenate([np.zeros(0), *off]) / np.maximum(self.strain_energy(displacement), 1e-300)
 
-    def _energy_error(self, displacement: Array) -> Array:
-        D, n = elasticity(self.material), displacement.shape[1]
-        nodal = self.strain(displacement)
-        off, whole = np.zeros(n), np.zeros(n)
+    def smoothing_energy(self, displacement: Array) -> Array:
+        """(n,) [J] of what the strains at the points differ by from those averaged at nodes."""
+        nodal, off = self.strain(displacement), np.zeros(displacement.shape[1])
         for block in self.blocks:
             smooth = nodal[np.searchsorted(self.stations, block.nodes)]
-            gradients = block.at_points(displacement[self.freedoms[block.nodes]], D)
-            for at, each, (_, volume) in zip(block.shape.points, gradients, block.points, strict=True):
-                strain = _strain(each)
-                left = np.einsum("p,epik->eik", block.shape.functions(at), smooth, optimize=True) - strain
-                off += np.einsum("e,eik,ij,ejk->k", volume, left, D, left, optimize=True)
-                whole += np.einsum("e,eik,ij,ejk->k", volume, strain, D, strain, optimize=True)
-        return off / np.maximum(whole, 1e-300)
+            gradients = self._at_points(block, displacement)
+            off += block.energy(
+                np.einsum("p,epik->eik", block.shape.functions(at), smooth, optimize=True) - _strain(each)
+                for at, each in zip(block.shape.points, gradients, strict=True)
+            )
+        return off
 
     def turn(self, displacement: Array) -> Array:
         """(n, 3, k) half the curl of the displacement at all nodes, mean over the elements around; NaN where there are none."""
@@ -198,16 +249,14 @@ class SolidElements:
         out = np.zeros((displacement.shape[1], modes.shape[1], modes.shape[1]))
         for block in self.blocks:
             for first in range(0, len(block.nodes), ELEMENTS):
-                part = SolidBlock(block.shape, block.nodes[first : first + ELEMENTS], self.position, block.incompatible)
+                part = block.part(slice(first, first + ELEMENTS))
                 self._add_geometric_stiffness(part, displacement, modes, out)
         return 0.5 * (out + out.transpose(0, 2, 1))
 
     def _add_geometric_stiffness(self, block: SolidBlock, displacement: Array, modes: Array, out: Array) -> None:
-        D, at = elasticity(self.material), self.freedoms[block.nodes]
-        all_moved = block.at_points(displacement[at], D)
-        all_slopes = block.at_points(modes[at], D)
-        for moved, slopes, (_, volume) in zip(all_moved, all_slopes, block.points, strict=True):
-            stress = np.einsum("ij,ejk,e->kie", D, _strain(moved), volume, optimize=True)
+        all_moved, all_slopes = self._at_points(block, displacement), self._at_points(block, modes)
+        for point, (moved, slopes, (_, volume)) in enumerate(zip(all_moved, all_slopes, block.points, strict=True)):
+            stress = np.einsum("eik,e->kie", block.stress(point, _strain(moved)), volume)
             slopes = np.ascontiguousarray(np.moveaxis(slopes, 0, 2))  # noqa: PLW2901 [a, b] (e, n): ∂φ_a/∂x_b
             for k in range(len(out)):
                 weight = stress[k][[0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(3, 3, -1)
@@ -219,7 +268,7 @@ class SolidElements:
 
 def _strain(g: Array) -> Array:
     """(s, 6, n) from displacement gradients (s, 3, 3, n)."""
-    shear = [g[:, 0, 1] + g[:, 1, 0], g[:, 1, 2] + g[:, 2, 1], g[:, 2, 0] + g[:, 0, 2]]
+    shear = [g[:, a, b] + g[:, b, a] for a, b in SHEARS]
     return np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 2, 2], *shear], axis=1)
 
 

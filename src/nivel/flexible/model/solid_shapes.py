@@ -1,8 +1,8 @@
 """Shapes of solid elements: nodes, shape functions, points at which strain is evaluated, faces.
 
 Tetrahedra, wedges and hexahedra with nodes at corners alone or also in the middle of edges. Nodes are in the order of Abaqus and CalculiX;
-that of tetrahedra is VTK's too. Strain is evaluated where that of quadratic elements is most accurate (Barlow 1976), not at
-all points of integration.
+that of tetrahedra is VTK's too. Strain is evaluated where CalculiX integrates, but of C3D20 where it is most accurate (Barlow 1976), not
+at all 27 points of integration.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ class SolidShape:
     """An element shape in local coordinates.
 
     nodes : (n, 3); powers : (n, 3) of the monomials that its shape functions are made of.
-    points : (g, 3) where strain is evaluated, with `weights` (g,); carried : (g, 3) powers of the polynomial through their values.
+    points : (g, 3) where strain is evaluated, with `weights` (g,); carried : (up to g, 3) powers of the polynomial through their
+    values, or nearest to them.
     faces : nodes at the corners of each face, counter-clockwise seen from outside.
     """
 
@@ -54,8 +55,8 @@ class SolidShape:
 
     @cached_property
     def extrapolation(self) -> Array:
-        """(n, g) values at the nodes from those at the points."""
-        inverse: Array = np.linalg.inv(_monomials(self.points, self.carried)).astype(np.float64)
+        """(n, g) values at the nodes from those at the points: of the polynomial through them, or nearest to them."""
+        inverse: Array = np.linalg.pinv(_monomials(self.points, self.carried)).astype(np.float64)
         return _monomials(self.nodes, self.carried) @ inverse
 
     @property
@@ -123,7 +124,7 @@ _TRIANGLE = ((0, 0), (1, 0), (0, 1))
 _WEDGE = np.array([(x, y, z) for z in (-1, 1) for x, y in _TRIANGLE], dtype=float)
 _WEDGE_EDGES = ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5))
 _WEDGE_FACES = ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
-_TWO = 1.0 / np.sqrt(3.0)
+_TWO, _GAUSS = 1.0 / np.sqrt(3.0), np.sqrt(0.6)
 _THREE = ((1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3))
 _LINEAR_WEDGE = _powers(lambda a, b, c: a + b <= 1 and c <= 1)
 WEDGE_6: Final = SolidShape(
@@ -137,8 +138,8 @@ WEDGE_6: Final = SolidShape(
 WEDGE_15: Final = SolidShape(
     _with_middles(_WEDGE, _WEDGE_EDGES),
     _powers(lambda a, b, c: a + b <= 2 - (c == 2)),
-    np.array([(x, y, z) for z in (-_TWO, _TWO) for x, y in _THREE]),
-    np.full(6, 1.0 / 6.0),
+    np.array([(x, y, z) for z in (-_GAUSS, 0.0, _GAUSS) for x, y in _THREE]),
+    np.repeat([5.0, 8.0, 5.0], 3) / 54.0,
     _LINEAR_WEDGE,
     _WEDGE_FACES,
 )

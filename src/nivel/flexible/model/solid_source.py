@@ -16,7 +16,7 @@ from nivel.flexible.model.mesher import SolidMesh, meshed
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets
-from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, surface
+from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity, surface
 from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
 from nivel.flexible.model.sparse import Sparse
 from nivel.machine.beams.section import Material
@@ -51,7 +51,7 @@ def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[Fi
 
 def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementModel:
     """The model of a mesh. Raises ModelError where an element is turned inside out."""
-    block = SolidBlock(TETRAHEDRON_10, mesh.nodes, mesh.position)
+    block = SolidBlock(TETRAHEDRON_10, mesh.nodes, mesh.position, elasticity=elasticity(material)[None, None])
     bad = block.inverted()
     if len(bad):
         raise ModelError(
@@ -71,7 +71,7 @@ def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementMo
         stiffness=stiffness,
         mass=PointMass(mesh.position, at_nodes(all_freedoms, freedoms.size), mass),
         expansion=sp.csr_array(sp.eye_array(freedoms.size)),
-        elements=SolidElements((block,), freedoms, mesh.position, material),
+        elements=SolidElements((block,), freedoms, mesh.position),
         triangles=surface([block]),
         solids=mesh.nodes,
         volume=mesh.volume,

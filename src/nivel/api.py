@@ -285,7 +285,7 @@ class Machine(Model):
         what: str,
         force: bool,
     ) -> tuple[str, ...]:
-        from nivel.files.target import check_target
+        from nivel.files.target import check_target, write_file
 
         check_target(path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else [])
         try:
@@ -296,8 +296,8 @@ class Machine(Model):
             mesh = path.parent / name
             mesh.parent.mkdir(exist_ok=True)
             check_target(mesh, "mesh", force=force)
-            mesh.write_bytes(content)
-        path.write_text(text, encoding="utf-8")
+            write_file(mesh, "mesh", content)
+        write_file(path, what, text)
         return tuple(notes)
 
     @checked_arguments
@@ -545,6 +545,7 @@ class Machine(Model):
         exact_slopes: bool = False,
         time_limit: float | None = None,
         threads: int | None = None,
+        journal: Any = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
     ) -> Optimum:
@@ -556,7 +557,7 @@ class Machine(Model):
         `scipy.optimize.minimize`, `differential-evolution`, or `CMA-ES` and `TPE` of the extra `search`. starts : the first is the
         machine's own values, the others are drawn from a Latin hypercube with `seed`. time_limit [s] : of the processor time of
         each run, which has no outputs where it takes longer. iterations : of each start, at most. accuracy : of the objective, as
-        a share. settings : of the runs.
+        a share. journal : of a study, which keeps every run. settings : of the runs.
 
         Slopes are differences of runs; with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
         outputs and slopes. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
@@ -581,6 +582,7 @@ class Machine(Model):
             threads=threads or processors(),
             exact=chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
             time_limit=time_limit,
+            journal=journal,
             listener=listener,
         )
 
@@ -657,6 +659,7 @@ class Machine(Model):
         exact_slopes: bool = False,
         time_limit: float | None = None,
         threads: int | None = None,
+        journal: Any = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
     ) -> Identified:
@@ -666,7 +669,7 @@ class Machine(Model):
         ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. parameters : as in `optimise`. deviations : standard
         deviations of the signals, where they are known; else each signal is measured by how much it varies, and the covariance follows from
         what is left. exact_slopes : those of the run on dual numbers, in place of differences.
-        starts, seed, iterations, accuracy, time_limit, settings : as in `optimise`.
+        starts, seed, iterations, accuracy, time_limit, journal, settings : as in `optimise`.
 
         `found.covariance` is that of the parameters in their order, `found.undetermined` names those that the measurements do not tell
         apart, `found.on_bounds` those that would go on beyond their bounds, which have no deviation.
@@ -689,6 +692,7 @@ class Machine(Model):
             most=iterations,
             tolerance=accuracy,
             threads=threads or processors(),
+            journal=journal,
             listener=listener,
         )
 
@@ -1027,13 +1031,14 @@ class Machine(Model):
         self,
         *,
         repeat: int = 3,
+        journal: Any = None,
         listener: Listener | None = None,
         **settings: Unpack[CompareSettingsDict],
     ) -> Comparison:
         """Run all combinations of the given words, steps and tolerances; an axis that is not given has the machine's own setting.
 
         duration, output_interval, largest_step, cut : of all runs. Times are numbers in seconds, or texts with units. repeat : every cell
-        runs so often, its time is the least.
+        runs so often, its time is the least. journal : of the command, which keeps every cell.
         Failed or invalid combinations are reported in their row. Interrupted, it returns what was computed.
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
@@ -1049,7 +1054,7 @@ class Machine(Model):
         from nivel.analysis.compare.compare import compare
 
         with chosen._faults_in_file():
-            return compare(chosen.record, grid, repeat=repeat, listener=listener)
+            return compare(chosen.record, grid, repeat=repeat, journal=journal, listener=listener)
 
     def _plan(self, given: Collection[str], *, stepwise: bool = False) -> Plan:
         """What a run will be; stepwise : in steps of one length.

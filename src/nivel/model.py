@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
-from os import PathLike, fspath
-from pathlib import Path
+from os import PathLike
 from typing import Any, Self, TypeVar
 
 from nivel.errors import Fault, ModelError
@@ -16,6 +15,7 @@ from nivel.files.known import Known
 from nivel.files.origin import Origin
 from nivel.files.scope import FileNames, read_known, read_name_notes, read_names
 from nivel.files.sources import Sources
+from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
 from nivel.machine import (
@@ -351,11 +351,7 @@ class Model(Elements):
     @checked_arguments
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
-        try:
-            Path(path).write_text(self.to_yaml(), encoding="utf-8")
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise ModelError(f"the machine file {fspath(path)} cannot be written: {reason.lower()}") from error
+        write_file(path, "machine file", self.to_yaml())
 
     def to_yaml(self) -> str:
         """The machine as the text of a machine file, which reads back to an equal machine. SI units, defaults left out."""

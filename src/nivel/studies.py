@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from nivel.analysis.progress.listener import Listener
 from nivel.api import Machine, code_of, load
-from nivel.errors import Fault, ModelError
-from nivel.files.sources import beside, read_text
+from nivel.errors import Fault, ModelError, SolveError
+from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
 from nivel.machine.study.parameter import Between
+from nivel.results.frames.dataset_file import write_netcdf
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
@@ -22,9 +24,11 @@ if TYPE_CHECKING:
 
     from nivel.analysis.optimise.identify import Identified
     from nivel.analysis.optimise.optimise import Optimum
+    from nivel.analysis.progress.journal import Journal
     from nivel.analysis.sweep.resolution import Resolved
     from nivel.analysis.sweep.variants import Variants
 
+Found = TypeVar("Found", "Optimum", "Identified")
 TIMES = ("seconds", "loop_seconds", "processes")  # attributes that are of the computation, and not of the study
 
 
@@ -80,7 +84,7 @@ class Study:
         Variants that fail, take longer than the time limit, or end their process are rows with a `reason`. Interrupted by Ctrl-C, it
         returns what was computed, and the journal stays. Raises ModelError where outputs do not fit the results, or no variant could start.
         """
-        from nivel.analysis.sweep.journal import replace_file
+        from nivel.analysis.sweep.journal import study_fingerprint
         from nivel.analysis.sweep.sweep import Engine, sweep
         from nivel.analysis.sweep.task import Task
         from nivel.analysis.sweep.variant_runs import sample_of
@@ -100,26 +104,16 @@ class Study:
         )
         listener = listener or Listener()
         target = None if out is None else Path(fspath(out))
-        journal = None if target is None else self._journal(target, task, variants, resume=resume, force=force)
-        code_of(self.machine, record.analysis, listener)
-        complete = False
-        try:
+        of, count = study_fingerprint(task, variants), f"of {len(variants.values)} variants"
+        with self._journal(target, of, count, resume=resume, force=force) as journal:
+            code_of(self.machine, record.analysis, listener)
             engine = Engine(workers or processors(), scheduler, apart=True)
             found = sweep([task], variants, engine, listener=listener, heard=heard, journal=journal)
             found = found.assign_attrs({"study": record.name, "description": record.description, **self._about()})
-            complete = "not run" not in found["outcome"].values
-            if target is not None and complete:
-                written = target.with_name(f"{target.name}.part")
-                kept = found.drop_attrs(deep=False).assign_attrs(
-                    {name: value for name, value in found.attrs.items() if name not in TIMES}
-                )
-                kept.to_netcdf(written, engine="h5netcdf")
-                replace_file(written, target)
-        except ModelError as error:
-            raise ModelError([self._placed(each) for each in error.faults]) from None
-        finally:
-            if journal is not None:
-                journal.close(remove=complete or not journal.finished)
+            if journal is not None and "not run" not in found["outcome"].values:
+                kept = {name: value for name, value in found.attrs.items() if name not in TIMES}
+                write_netcdf(found.drop_attrs(deep=False).assign_attrs(kept), journal.target)
+                journal.complete = True
         return found
 
     @checked_arguments
@@ -129,35 +123,59 @@ class Study:
         return write_study_report(found, path)
 
     @checked_arguments
-    def optimise(self, *, threads: int | None = None, listener: Listener | None = None) -> Optimum:
+    def optimise(
+        self,
+        *,
+        out: str | PathLike[str] | None = None,
+        threads: int | None = None,
+        resume: bool = False,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Optimum:
         """The search that the study calls `optimise`: the parameters with the least output, within the limits of the others.
 
-        Raises ModelError where the study has no such search, outputs do not fit the results, or no start has a result.
+        out : data file (NetCDF) of all variants, with the trust report of a run of the best machine, and a journal beside it, FILE.journal,
+        until the search is finished. resume : go on with the journal of an interrupted search, whose variants are not computed again.
+        force : replace files. Raises ModelError where the study has no such search, outputs do not fit the results, or no start has a
+        result; the data file has all variants then too.
         """
         search, outputs = self.file.record.optimise, self.file.record.outputs
         if search is None:
             said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
             raise ModelError(self.file.fault((), said))
-        units: dict[str, str] = {}
-        found = self.machine.optimise(
-            self._output(search.output, units),
-            self._bounds,
-            maximise=search.maximise,
-            outputs={name: self._output(name, units) for name in outputs},
-            limits={name: each.limits for name, each in outputs.items() if each.limits != (None, None)},
-            method=search.method,
-            starts=search.starts,
-            seed=search.seed,
-            iterations=search.iterations,
-            time_limit=self.file.record.time_limit,
-            threads=threads,
-            listener=listener,
-        )
-        return replace(found, dataset=self._of_search(found.dataset, list(outputs), units))
+
+        def find(journal: Journal | None) -> tuple[Optimum, bool]:
+            units = {} if journal is None else journal.facts
+            found = self.machine.optimise(
+                self._output(search.output, units),
+                self._bounds,
+                maximise=search.maximise,
+                outputs={name: self._output(name, units) for name in outputs},
+                limits={name: each.limits for name, each in outputs.items() if each.limits != (None, None)},
+                method=search.method,
+                starts=search.starts,
+                seed=search.seed,
+                iterations=search.iterations,
+                time_limit=self.file.record.time_limit,
+                threads=threads,
+                journal=journal,
+                listener=listener,
+            )
+            return replace(found, dataset=self._of_search(found.dataset, list(outputs), units)), found.kept
+
+        return self._searched(find, search, out, resume=resume, force=force)
 
     @checked_arguments
-    def identify(self, *, threads: int | None = None, listener: Listener | None = None) -> Identified:
-        """The search that the study calls `identify`: the parameters that explain its measurements.
+    def identify(
+        self,
+        *,
+        out: str | PathLike[str] | None = None,
+        threads: int | None = None,
+        resume: bool = False,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Identified:
+        """The search that the study calls `identify`: the parameters that explain its measurements. out, resume, force : as of `optimise`.
 
         Raises ModelError where the study has no such search, or its table does not fit.
         """
@@ -165,9 +183,8 @@ class Study:
         if search is None:
             said = "the study says nothing of measurements: write `identify: {data: FILE.csv}`"
             raise ModelError(self.file.fault((), said))
-        from nivel.analysis.optimise.table import NothingFoundError
 
-        try:
+        def find(journal: Journal | None) -> tuple[Identified, bool]:
             found = self.machine.identify(
                 beside(self.file.file, search.data),
                 self._bounds,
@@ -177,13 +194,51 @@ class Study:
                 iterations=search.iterations,
                 time_limit=self.file.record.time_limit,
                 threads=threads,
+                journal=journal,
                 listener=listener,
             )
-        except NothingFoundError:
-            raise
-        except ModelError as error:
-            raise ModelError([self._placed(each) for each in error.faults]) from None
-        return replace(found, dataset=self._of_search(found.dataset, ["sum_of_squares"], {}))
+            dataset = self._of_search(found.dataset, ["sum_of_squares"], {})
+            return replace(found, dataset=dataset), not found.undetermined
+
+        return self._searched(find, search, out, resume=resume, force=force)
+
+    def _searched(
+        self,
+        find: Callable[[Journal | None], tuple[Found, bool]],
+        search: Any,
+        out: str | PathLike[str] | None,
+        *,
+        resume: bool,
+        force: bool,
+    ) -> Found:
+        """What `find` finds, and whether nothing is left open, in a data file with the trust report of the machine that was found."""
+        from nivel.analysis.optimise.table import NothingFoundError
+        from nivel.analysis.progress.journal import fingerprint
+
+        target = None if out is None else Path(fspath(out))
+        outputs = {name: each.model_dump(mode="json") for name, each in self.file.record.outputs.items()}
+        table = read_bytes(beside(self.file.file, search.data)) if hasattr(search, "data") else b""
+        of = fingerprint(
+            self.machine, search.model_dump(mode="json"), table, outputs, self._bounds, self.file.record.time_limit
+        )
+        with self._journal(target, of, "runs", resume=resume, force=force) as journal:
+            try:
+                found, whole = find(journal)
+            except (NothingFoundError, SolveError) as error:
+                if journal is not None and error.result is not None:
+                    write_netcdf(error.result, journal.target)  # type: ignore[arg-type]
+                    journal.complete = True
+                raise
+            if journal is None:
+                return found
+            checked = found.machine.simulate()
+            if checked.outcome == "interrupted":
+                raise KeyboardInterrupt
+            kept = {"trust": checked.trust.to_json(), "verdict": checked.trust.light, "kept": int(whole)}
+            found = replace(found, dataset=found.dataset.assign_attrs({**found.dataset.attrs, **kept}))
+            write_netcdf(found.dataset, journal.target)
+            journal.complete = True
+        return found
 
     @property
     def _bounds(self) -> dict[str, tuple[float, float]]:
@@ -216,22 +271,22 @@ class Study:
             }
         return found
 
-    def _journal(self, target: Path, task: Any, variants: Variants, *, resume: bool, force: bool) -> Any:
-        """Raises ModelError where there is one already that is neither to be used nor replaced, or the data file exists."""
-        from nivel.analysis.sweep.journal import SUFFIX, Journal, count_finished, fingerprint
-        from nivel.files.target import check_target
+    @contextmanager
+    def _journal(
+        self, target: Path | None, of: str, count: str, *, resume: bool, force: bool
+    ) -> Iterator[Journal | None]:
+        """The journal beside a data file (`open_journal`), and faults of what goes on inside at their lines."""
+        from nivel.analysis.optimise.table import NothingFoundError
+        from nivel.analysis.progress.journal import open_journal
 
-        path, of = target.with_name(target.name + SUFFIX), fingerprint(task, variants)
         sources = [Path(self.file.file), Path(self.file.machine_file)]
-        if resume and path.exists():
-            return Journal.go_on(path, of)
-        check_target(target, "data file", force=force or resume, sources=sources)
-        if path.exists() and not force:
-            done = f"{count_finished(path)} of {len(variants.values)} variants"
-            raise ModelError(
-                f"{path} has {done} of an interrupted study: go on with --resume, or begin anew with --force"
-            )
-        return Journal.begin(path, of)
+        with open_journal(target, of, count, resume=resume, force=force, sources=sources) as journal:
+            try:
+                yield journal
+            except NothingFoundError:
+                raise
+            except ModelError as error:
+                raise ModelError([self._placed(each) for each in error.faults]) from None
 
     def _about(self) -> dict[str, Any]:
         """What the report has to know of the study."""

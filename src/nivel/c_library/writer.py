@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 from collections.abc import Iterable, Sequence
@@ -16,6 +17,7 @@ from nivel.c_library.exported import Exported, export, refusal
 from nivel.c_library.image import LINE
 from nivel.c_library.platforms import PLATFORMS, known_platform, object_codes, this_platform
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
+from nivel.files.target import reason_of, write_file
 from nivel.native.entry import Entry
 from nivel.native.workers import CompilationError
 
@@ -43,12 +45,18 @@ def write_c_library(plan: Plan, folder: Path, select: Sequence[str] = (), platfo
     """
     system = known_platform(platform)
     machine = export(plan, "a C library", select)
+    if folder.exists():
+        raise refusal(f"{folder} is there already; name another folder")
+    draft = folder.with_name(f".{folder.name}.{os.getpid()}.part")
     try:
-        folder.mkdir(parents=True)
-    except FileExistsError:
-        raise refusal(f"{folder} is there already; name another folder") from None
-    _write(folder, machine, system)
-    _write_machine_code(folder / "kernels", machine.used, system)
+        draft.mkdir(parents=True)
+        _write(draft, machine, system)
+        _write_machine_code(draft / "kernels", machine.used, system)
+        draft.rename(folder)
+    except OSError as error:
+        raise refusal(f"the C library {folder} cannot be written: {reason_of(error)}") from None
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
     outputs, inputs = (tuple(each.name for each in part) for part in (machine.outputs, machine.inputs))
     return Files(folder, machine.identifier, outputs, inputs, machine.size)
 
@@ -70,8 +78,8 @@ def _write(folder: Path, machine: Exported, system: str) -> None:
         ("example.c", EXAMPLE),
         ("Makefile", MAKEFILE),
     ):
-        (folder / file).write_text(template.substitute(values), encoding="utf-8")
-    (folder / RUNTIME).write_bytes(files("nivel.c_library").joinpath("sources", RUNTIME).read_bytes())
+        write_file(folder / file, "file", template.substitute(values))
+    write_file(folder / RUNTIME, "file", files("nivel.c_library").joinpath("sources", RUNTIME).read_bytes())
 
 
 def _texts(machine: Exported) -> dict[str, Any]:
@@ -152,7 +160,6 @@ def _write_machine_code(folder: Path, entries: Sequence[Entry], system: str) -> 
     folder.mkdir()
     try:
         for symbol, code in object_codes(entries, system).items():
-            (folder / f"{symbol}.o").write_bytes(code)
+            write_file(folder / f"{symbol}.o", "object file", code)
     except CompilationError as problem:
-        shutil.rmtree(folder.parent)
         raise refusal(f"a C library is made of object files, and {problem}") from None

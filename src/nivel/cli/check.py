@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from pathlib import Path
 
 import click
 
 from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
 from nivel.errors import SolveError
+from nivel.files.target import write_file
 
 
 @click.command(short_help="Check and assemble a machine, and describe it.")
@@ -53,14 +53,14 @@ def command(
         drawn = circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
         if not drawn:
             raise click.UsageError("the machine has no `hydraulics` that could be drawn with --circuit")
-        Path(circuit).write_text(drawn, encoding="utf-8")
+        write_file(circuit, "drawing", drawn)
     if valves is not None:
         from nivel.looks.circuit.characteristics import valve_diagram
 
         curves = valve_diagram(loaded.record.model_dump(mode="json"))
         if not curves:
             raise click.UsageError("the machine has no valves whose curves could be drawn with --valves")
-        Path(valves).write_text(curves, encoding="utf-8")
+        write_file(valves, "drawing", curves)
     if of and mass is None:
         raise click.UsageError("--of belongs to --mass, e.g. --mass ground")
     weighed = None if mass is None else loaded.mass_properties(mass, of or ())

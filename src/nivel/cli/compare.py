@@ -19,6 +19,7 @@ from nivel.cli.options import (
     setting_options,
 )
 from nivel.cli.progress import progress_listener
+from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on
 from nivel.settings import CompareSettingsDict
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     help="HTML page; default: the name of the table with .html.",
 )
 @no_report_option
+@resume_option
 @force_option
 @quiet_option
 @json_option
@@ -66,6 +68,7 @@ def command(
     out: tuple[Path, ...],
     report: Path | None,
     no_report: bool,
+    resume: bool,
     force: bool,
     quiet: bool,
     as_json: bool,
@@ -78,8 +81,10 @@ def command(
     still run.
 
     Exit codes: 0 the combinations were run, 2 fault in the input, 3 every run failed, 130 interrupted. The results computed so far are
-    always written.
+    always written. Until all combinations are run, a journal beside the first table has those that are: --resume goes on after any
+    interruption.
     """
+    from nivel.analysis.progress.journal import fingerprint, open_journal
     from nivel.api import load
     from nivel.errors import ModelError
 
@@ -89,10 +94,16 @@ def command(
     tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
     _refuse_other_kinds(tables)
     page = None if no_report else report or tables[0].with_suffix(".html")
-    _refuse_to_replace(tables, page, force, Path(machine))
-    with progress_listener(quiet) as listener:
-        comparison = loaded.compare(**settings, repeat=repeat, listener=listener)
-    unwritten = _written(comparison, tables, page, quiet)
+    _refuse_to_replace(tables, page, force or resume, Path(machine))
+    if resume and is_complete(tables[0], None, quiet):
+        return
+    of = fingerprint(loaded, sorted(settings.items()), repeat)
+    with open_journal(tables[0], of, "runs", resume=resume, force=force, sources=[Path(machine)]) as journal:
+        with progress_listener(quiet) as listener:
+            comparison = loaded.compare(**settings, repeat=repeat, journal=journal, listener=listener)
+        unwritten = _written(comparison, tables, page, quiet)
+        assert journal is not None
+        journal.complete = unwritten is None and comparison.outcome != "interrupted"
     if as_json:
         click.echo(comparison.to_json(), nl=False)
     else:
@@ -100,6 +111,7 @@ def command(
     if unwritten is not None:
         raise unwritten
     if comparison.outcome == "interrupted":
+        say_how_to_go_on(tables[0])
         raise KeyboardInterrupt
     if not comparison.completed:
         failed = any(row.outcome == "failed" for row in comparison.rows)

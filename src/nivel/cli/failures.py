@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 INPUT_AT_FAULT: Final = 2
 COMPUTATION_FAILED: Final = 3
 INTERRUPTED: Final = 130
-NO_ROOM: Final = (errno.ENOSPC, errno.EDQUOT)
+NO_ROOM: Final = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
 
 
 @contextmanager

@@ -25,7 +25,7 @@ def command(**given: Any) -> None:
     Exit codes: 0 all parameters were found, 2 fault in the input, 3 the measurements do not tell some of them apart, or runs fail.
     """
     kind = Kind(
-        lambda study, threads: study.identify(threads=threads),
+        lambda study, **options: study.identify(**options),
         facts=_facts,
         say=_say,
         is_found=lambda found: not found.undetermined,

@@ -48,7 +48,7 @@ def command(
     """
     from nivel.exchange import read_model
     from nivel.files.reader import parse_machine
-    from nivel.files.target import check_target
+    from nivel.files.target import check_target, write_file
 
     path = Path(target) if target is not None else Path(f"{Path(model).stem}.yaml")
     check_target(path, "machine file", force=force, sources=[Path(model)])
@@ -57,10 +57,10 @@ def command(
         mesh = path.parent / name
         mesh.parent.mkdir(exist_ok=True)
         check_target(mesh, "mesh", force=force, sources=[Path(model)])
-        mesh.write_bytes(content)
+        write_file(mesh, "mesh", content)
     text = translation.text()
     parse_machine(text, str(path))
-    path.write_text(text, encoding="utf-8")
+    write_file(path, "machine file", text)
     if not quiet:
         click.echo("\n".join(translation.summary()))
     click.echo(f"machine file: {path}; `nivel check {path}` describes it", err=True)

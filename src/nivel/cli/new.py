@@ -11,6 +11,7 @@ import click
 
 from nivel.cli.options import force_option
 from nivel.errors import ModelError
+from nivel.files.target import write_file
 
 TEMPLATE: Final = Path(__file__).with_name("new_machine.yaml")
 SUFFIX: Final = ".yaml"
@@ -67,13 +68,9 @@ def _schema_text() -> str:
 
 
 def _write(target: Path, text: str, force: bool) -> None:
-    try:
-        with target.open("w" if force else "x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise ModelError(f"{target} exists already; use --force to overwrite it, or another name") from None
-    except OSError as error:
-        raise ModelError(f"{target} cannot be written: {error.strerror}") from None
+    if target.exists() and not force:
+        raise ModelError(f"{target} exists already; use --force to overwrite it, or another name")
+    write_file(target, "file", text)
 
 
 def _study_schema_text() -> str:

@@ -23,7 +23,7 @@ def command(**given: Any) -> None:
     Exit codes: 0 a best one within all limits was found, 2 fault in the input, 3 no values keep all limits, or runs fail.
     """
     kind = Kind(
-        lambda study, threads: study.optimise(threads=threads),
+        lambda study, **options: study.optimise(**options),
         facts=_facts,
         say=_say,
         is_found=lambda found: found.kept,

@@ -19,11 +19,9 @@ from nivel.cli.options import (
     no_report_option,
     quiet_option,
 )
-from nivel.cli.sweep import set_option
+from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on, set_option
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.studies import Study
 
 Command = Callable[..., Any]
@@ -45,6 +43,7 @@ OPTIONS = (
         metavar="NUMBER",
         help="Runs beside each other; default: one for each processor.",
     ),
+    resume_option,
     force_option,
     no_report_option,
     quiet_option,
@@ -68,6 +67,7 @@ class Given:
     allow_code: bool
     out: Path | None
     threads: int | None
+    resume: bool
     force: bool
     no_report: bool
     quiet: bool
@@ -76,10 +76,10 @@ class Given:
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of search. search : of a study with so many threads; facts : what was found, for programs; say : the same for people;
-    is_found : whether nothing is left open. Their results have `machine`, `dataset` and `evaluations`."""
+    """A kind of search. search : of a study, with `out`, `threads`, `resume` and `force`; facts : what was found, for programs; say : the
+    same for people; is_found : whether nothing is left open. Their results have `dataset` and `evaluations`."""
 
-    search: Callable[[Study, int | None], Any]
+    search: Callable[..., Any]
     facts: Callable[[Any], dict[str, Any]]
     say: Callable[[Any], None]
     is_found: Callable[[Any], bool]
@@ -92,22 +92,29 @@ def make_search(given: Given, kind: Kind) -> None:
     """
     from nivel.analysis.optimise.table import NothingFoundError
     from nivel.errors import SolveError
-    from nivel.studies import load_study
+    from nivel.results.trust import Trust
+    from nivel.studies import load_study, write_study_report
 
     loaded = load_study(given.study, given.overrides, allow_code=given.allow_code)
     target, page = _targets(loaded, given)
+    if given.resume and is_complete(target, page, given.quiet):
+        return
     try:
-        found = kind.search(loaded, given.threads)
+        found = kind.search(loaded, out=target, threads=given.threads, resume=given.resume, force=given.force)
     except (NothingFoundError, SolveError) as error:
         table: Any = error.result
         if table is not None:
-            _write(table, target, page)
+            if page is not None:
+                write_study_report(table, page)
             if not given.quiet:
                 click.echo(f"all variants: {target}", err=True)
         raise
-    trust = found.machine.simulate().trust
-    kept = {"trust": trust.to_json(), "verdict": trust.light, "kept": int(kind.is_found(found))}
-    _write(found.dataset.assign_attrs({**found.dataset.attrs, **kept}), target, page)
+    except KeyboardInterrupt:
+        say_how_to_go_on(target)
+        raise
+    trust = Trust.from_json(found.dataset.attrs["trust"])
+    if page is not None:
+        write_study_report(found.dataset, page)
     if given.as_json:
         click.echo(json.dumps({**kind.facts(found), "headline": str(trust.headline)}, indent=2))
     if not given.quiet:
@@ -129,18 +136,10 @@ def _targets(study: Study, given: Given) -> tuple[Path, Path | None]:
     if page == target:
         raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
     sources = [Path(given.study), Path(study.file.machine_file)]
-    check_target(target, "data file", force=given.force, sources=sources)
+    check_target(target, "data file", force=given.force or given.resume, sources=sources)
     if page is not None:
-        check_target(page, "report", force=given.force, sources=sources)
+        check_target(page, "report", force=given.force or given.resume, sources=sources)
     return target, page
-
-
-def _write(table: xarray.Dataset, target: Path, page: Path | None) -> None:
-    from nivel.studies import write_study_report
-
-    table.to_netcdf(target, engine="h5netcdf")
-    if page is not None:
-        write_study_report(table, page)
 
 
 def numbers_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

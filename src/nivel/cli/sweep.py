@@ -43,6 +43,8 @@ set_option = click.option(
     help="Set any value of the study file, e.g. samples=256 or verify=true. May be repeated.",
 )
 
+resume_option = click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
+
 
 @click.command(short_help="Compute many variants of a machine: data file, report, summary.")
 @file_argument("study")
@@ -57,7 +59,7 @@ set_option = click.option(
 )
 @click.option("--workers", type=click.IntRange(1), metavar="NUMBER", help="Processes; default: one for each processor.")
 @click.option("--scheduler", default="", metavar="ADDRESS", help="Compute on the Dask cluster with this scheduler.")
-@click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
+@resume_option
 @force_option
 @no_report_option
 @quiet_option
@@ -92,9 +94,7 @@ def command(
     page = None if no_report else beside(target)
     if page == target:
         raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
-    if resume and target.exists() and not target.with_name(f"{target.name}.journal").exists():
-        if not quiet:
-            click.echo(f"{target} is complete: nothing is left to compute", err=True)
+    if resume and is_complete(target, page, quiet):
         return
     if page is not None:
         check_target(page, "report", force=force or resume, sources=[Path(study)])
@@ -119,6 +119,25 @@ def command(
         raise KeyboardInterrupt
     if not any(outcome in ("done", "stopped") for outcome in found["outcome"].values.reshape(-1)):
         raise SystemExit(COMPUTATION_FAILED)
+
+
+def is_complete(target: Path, page: Path | None, quiet: bool) -> bool:
+    """Whether an interrupted study had come to its data file, which is said; its report is written where it is missing."""
+    from nivel.studies import write_study_report
+
+    if not target.exists() or target.with_name(f"{target.name}.journal").exists():
+        return False
+    if page is not None and not page.exists():
+        write_study_report(target, page)
+    if not quiet:
+        click.echo(f"{target} is complete: nothing is left to compute", err=True)
+    return True
+
+
+def say_how_to_go_on(target: Path) -> None:
+    """Where an interrupted study has what was computed."""
+    if target.with_name(f"{target.name}.journal").exists():
+        click.echo(f"what was computed is in {target}.journal; go on with --resume", err=True)
 
 
 def summary(found: xarray.Dataset) -> dict[str, Any]:
@@ -188,7 +207,7 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
     coloured = f"[{COLOURS[verdict]}]{verdict}[/], " if verdict in COLOURS else ""
     out.print(f"trust: {coloured}{found.attrs['headline']}", soft_wrap=True)
     if interrupted:
-        out.print(f"interrupted: what was computed is in {target}.journal; go on with --resume")
+        say_how_to_go_on(target)
     else:
         out.print(f"data: {target}" + (f"\nreport: {page}" if page is not None else ""), soft_wrap=True)
 

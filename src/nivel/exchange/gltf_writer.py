@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.files.target import write_file
 from nivel.looks.colours import colour_of_body
 from nivel.looks.poses import upwards
 from nivel.looks.solids import Ball, shapes_of, solid
@@ -29,11 +30,7 @@ def write_gltf(result: Result, path: Path) -> None:
     """Write the motion of a result. Raises ModelError where it has no bodies, or cannot be written."""
     if not result.scene.get("bodies"):
         raise ModelError("the result has no bodies that could be shown")
-    content = gltf(result)
-    try:
-        path.write_bytes(content)
-    except OSError as error:
-        raise ModelError(f"{path} cannot be written: {error.strerror}") from None
+    write_file(path, "glTF file", gltf(result))
 
 
 def gltf(result: Result) -> bytes:

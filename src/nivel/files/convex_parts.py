@@ -19,7 +19,7 @@ from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine.bodies.shape import MOST_PARTS
 from nivel.machine.bodies.surface import surface_arrays, surface_text
-from nivel.native.store import folder
+from nivel.native.store import folder, whole
 
 PARTS: Final = "parts"
 KEY: Final = "convex_parts"
@@ -69,9 +69,8 @@ def convex_parts(surface: str, most: int) -> list[str]:
     texts = _divided(surface, most)
     try:
         file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        partial = file.with_suffix(".partial")
-        partial.write_text(json.dumps(texts), encoding="utf-8")
-        partial.replace(file)
+        with whole(file) as draft:
+            draft.write_text(json.dumps(texts), encoding="utf-8")
     except OSError:
         pass  # the next run divides it again
     return texts

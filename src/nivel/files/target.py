@@ -1,13 +1,15 @@
-"""Targets of output: what may not be written over, even where the user asks to replace files."""
+"""Targets of output: what may not be written over, even where the user asks to replace files; files are written whole or not at all."""
 
 from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from nivel.errors import ModelError
+from nivel.native.store import whole
 
 
 def check_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] = ()) -> None:
@@ -66,11 +68,35 @@ def status(path: Path, what: str) -> os.stat_result | None:
     except (FileNotFoundError, NotADirectoryError):
         return None
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise ModelError(f"the {what} {path} cannot be written: {reason.lower()}") from None
+        reason = reason_of(error) if isinstance(error, OSError) else str(error).lower()
+        raise ModelError(f"the {what} {path} cannot be written: {reason}") from None
 
 
 def _kind(mode: int) -> str:
     if stat.S_ISFIFO(mode):
         return "a pipe"
     return "a socket" if stat.S_ISSOCK(mode) else "a device"
+
+
+@contextmanager
+def written(path: str | os.PathLike[str], what: str) -> Iterator[Path]:
+    """A file beside `path` that takes its place when the block ends (`nivel.native.store.whole`). Raises ModelError where it cannot."""
+    target = Path(path)
+    status(target, what)
+    try:
+        with whole(target) as draft:
+            yield draft
+    except OSError as error:
+        raise ModelError(f"the {what} {target} cannot be written: {reason_of(error)}") from error
+
+
+def write_file(path: str | os.PathLike[str], what: str, content: str | bytes | memoryview) -> Path:
+    """Write a file as a whole; an existing one is replaced. Raises ModelError where it cannot be written."""
+    with written(path, what) as draft:
+        draft.write_bytes(content.encode() if isinstance(content, str) else content)
+    return Path(path)
+
+
+def reason_of(error: OSError) -> str:
+    """Why a file cannot be read or written: the system's own words, without those of the HDF5 library around them."""
+    return os.strerror(error.errno).lower() if error.errno else str(error).lower()

@@ -11,8 +11,9 @@ from importlib.metadata import PackageNotFoundError, distribution
 from importlib.resources import files
 from pathlib import Path
 
-from nivel.c_library.exported import Exported, refusal
+from nivel.c_library.exported import Exported
 from nivel.c_library.platforms import PLATFORMS, known_platform
+from nivel.files.target import written
 from nivel.fmu.binary import binary
 from nivel.fmu.data import machine_data
 from nivel.fmu.description import description, variables_of
@@ -93,11 +94,8 @@ def licences() -> Iterator[tuple[str, str]]:
 
 
 def _pack(path: Path, content: Mapping[str, bytes]) -> None:
-    try:
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as packed:
-            for name, each in content.items():
-                entry = zipfile.ZipInfo(name, TIME)
-                entry.external_attr, entry.compress_type, entry.create_system = MODE << 16, zipfile.ZIP_DEFLATED, 3
-                packed.writestr(entry, each)
-    except OSError as error:
-        raise refusal(f"the FMU {path} cannot be written: {(error.strerror or str(error)).lower()}") from error
+    with written(path, "FMU") as draft, zipfile.ZipFile(draft, "w", zipfile.ZIP_DEFLATED) as packed:
+        for name, each in content.items():
+            entry = zipfile.ZipInfo(name, TIME)
+            entry.external_attr, entry.compress_type, entry.create_system = MODE << 16, zipfile.ZIP_DEFLATED, 3
+            packed.writestr(entry, each)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from os import PathLike, fspath, getpid
+from os import PathLike, fspath
 from pathlib import Path
 from typing import IO, Any, Final
 from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 import nivel
 from nivel.errors import ModelError
+from nivel.files.target import written
 from nivel.live.journal import (
     FRAMES,
     GAP,
@@ -30,6 +31,7 @@ from nivel.live.journal import (
 )
 from nivel.live.preparation import Pace
 from nivel.machine import MachineRecord, Table
+from nivel.native.store import whole
 
 Array = NDArray[np.float64]
 FORMAT: Final = 2
@@ -138,13 +140,8 @@ def write_recording(
     arrays: dict[str, Any] = {"about": np.array(json.dumps(about))}
     for k, each in enumerate(parts):
         arrays[f"tape_{k}"], arrays[f"frames_{k}"] = each.own.tape, each.own.frames
-    try:
-        with Path(path).open("wb") as file:
-            np.savez_compressed(file, **arrays)
-    except OSError as error:
-        raise ModelError(
-            f"the recording {fspath(path)} cannot be written: {(error.strerror or str(error)).lower()}"
-        ) from None
+    with written(path, "recording") as draft, draft.open("wb") as file:
+        np.savez_compressed(file, **arrays)
 
 
 @dataclass
@@ -208,18 +205,12 @@ def complete(journal: Journal, target: Path, *, last_whole: bool) -> None:
     if kept and not last_whole:
         kept[-1].whole = False
     about["parts"] = [[each.before, each.ticks, each.whole] for each in kept]
-    begin = target.name.encode()[:100].decode(errors="ignore")  # the name of a file has 255 bytes at most
-    temporary = target.with_name(f".{begin}.{getpid()}.part")
-    try:
-        with ZipFile(temporary, "w", ZIP_DEFLATED) as archive:
-            with archive.open("about.npy", "w") as out:
-                np.lib.format.write_array(out, np.array(json.dumps(about)))
-            for k, each in enumerate(kept):
-                _copy(file, each.tape, archive, f"tape_{k}.npy")
-                _copy(file, each.frames, archive, f"frames_{k}.npy")
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with whole(target) as draft, ZipFile(draft, "w", ZIP_DEFLATED) as archive:
+        with archive.open("about.npy", "w") as out:
+            np.lib.format.write_array(out, np.array(json.dumps(about)))
+        for k, each in enumerate(kept):
+            _copy(file, each.tape, archive, f"tape_{k}.npy")
+            _copy(file, each.frames, archive, f"frames_{k}.npy")
     journal.discard()
 
 

@@ -8,21 +8,28 @@ Files stand in a folder that only the user can write; where there is none, in a 
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import platform
+import shutil
 import stat
 import sys
 import tempfile
+import threading
+import time
 import warnings
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from functools import cache
+from glob import escape
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from nivel.native.processor import described
 
 DIGEST = 32  # bytes
+FORSAKEN = 600  # [s] a draft that nobody has written for so long, by a process that has ended, is left behind
 MOST_BESIDE = 10  # names that are tried where folders or devices stand in the place of files
 
 
@@ -88,11 +95,58 @@ def read(path: Path) -> bytes | None:
 
 
 def write(path: Path, code: bytes) -> None:
-    """Keep an object file."""
-    handle, draft = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
-    with os.fdopen(handle, "wb") as file:
-        file.write(hashlib.sha256(code).digest() + code)
-    os.replace(draft, path)
+    """Keep an object file. Raises OSError."""
+    with whole(path) as draft:
+        draft.write_bytes(hashlib.sha256(code).digest() + code)
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """A file beside `path` to be written, which takes the place of `path` when the block ends and its bytes have reached the disk.
+
+    So `path` is whole, or as it was. Where it is a link, what it leads to is replaced, with the permissions that this has; a device or a
+    pipe is written into. Drafts of processes that were killed are removed. Raises OSError.
+    """
+    if _is_occupied(path):
+        yield path
+        return
+    target = Path(os.path.realpath(path))
+    if target.exists() and not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+    start = target.name.encode()[:100].decode(errors="ignore")  # the name of a file has 255 bytes at most
+    _remove_left_behind(target.parent, start)
+    draft = target.with_name(f".{start}.{threading.get_ident()}.{os.getpid()}.part")
+    try:
+        draft.open("xb").close()
+        if target.exists():
+            shutil.copymode(target, draft)
+        yield draft
+        with draft.open("r+b") as file:
+            os.fsync(file.fileno())
+        draft.replace(target)
+    except BaseException:
+        with suppress(OSError):
+            draft.unlink()
+        raise
+
+
+def _remove_left_behind(folder: Path, start: str) -> None:
+    """Remove drafts of this file that were never finished, as their writers were killed some time ago."""
+    for left in folder.glob(f".{escape(start)}.*.part"):
+        writer = left.name.split(".")[-2]
+        try:
+            if time.time() - left.stat().st_mtime > FORSAKEN and not (writer.isdecimal() and _runs(int(writer))):
+                left.unlink()
+        except OSError:  # another one removes it, or it is not ours
+            continue
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except OSError as error:
+        return isinstance(error, PermissionError)
+    return True
 
 
 @cache

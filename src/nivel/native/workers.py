@@ -8,14 +8,22 @@ import os
 import subprocess
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterable
 from importlib.util import find_spec
 from queue import SimpleQueue
 from typing import Any
 
-# the sources of entries are found where this process finds them
-START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.native.worker import main; main()"
+START = (
+    "import json, sys; sys.path[:], parent, module = json.loads(sys.argv.pop(1)); from importlib import import_module; "
+    "from nivel.native.workers import end_with_parent; end_with_parent(parent); import_module(module).main()"
+)
+
+
+def python(module: str, *words: str) -> list[str]:
+    """The command of a process that calls `main` of a module, which it finds where this process does, and that ends with this one."""
+    return [sys.executable, "-c", START, json.dumps([sys.path, os.getpid(), module]), *words]
 
 
 # kind of error of what calls functions of Numba when it runs, which object files cannot
@@ -32,6 +40,18 @@ class CompilationError(Exception):
     def __init__(self, message: str, kind: str) -> None:
         super().__init__(message)
         self.kind = kind
+
+
+def end_with_parent(parent: int) -> None:
+    """End this process, whatever it does, within a second of the end of the process `parent` that started it."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(1)
+
+    if os.name == "posix":
+        threading.Thread(target=watch, daemon=True).start()
 
 
 def processors() -> int:
@@ -99,7 +119,7 @@ def _next(take: Callable[[], dict[str, Any]]) -> dict[str, Any] | None:
 
 class _Worker:
     def __init__(self) -> None:
-        command = [sys.executable, "-c", START, json.dumps(sys.path)]
+        command = python("nivel.native.worker")
         # settings of Numba change machine code, and are no part of its name
         own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
         own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}

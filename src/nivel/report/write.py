@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.trust.report import thresholds_of
 from nivel.errors import ModelError
-from nivel.files.target import keep_sources
+from nivel.files.target import keep_sources, write_file
 from nivel.looks.circuit.characteristics import valve_diagram
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards
@@ -53,12 +53,7 @@ def write_report(result: Result, path: str | os.PathLike[str]) -> Path:
     """Write the report of `result` to `path`; an existing file is replaced. The file needs no network and nothing beside it."""
     target = Path(path)
     keep_sources(target, "report", [result.path] if result.path else [])
-    text = report_html(result)
-    try:
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise ModelError(f"the report {target} cannot be written: {(error.strerror or str(error)).lower()}") from error
-    return target
+    return write_file(target, "report", report_html(result))
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a run beyond all bounds is drawn with gaps

@@ -6,8 +6,7 @@ import os
 from pathlib import Path
 from shutil import copyfile
 
-from nivel.errors import ModelError
-from nivel.files.target import check_target
+from nivel.files.target import check_target, written
 from nivel.results.frames.contents import Contents
 from nivel.results.frames.stored import StoredContents
 from nivel.results.memory import MemoryContents
@@ -25,9 +24,6 @@ def save(contents: Contents, path: str | os.PathLike[str], *, force: bool) -> Pa
         return target
     if isinstance(contents, StoredContents):
         check_target(target, "result file", force=force, sources=[contents.path])
-        try:
-            copyfile(contents.path, target)
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise ModelError(f"the result file {target} cannot be written: {reason}") from error
+        with written(target, "result file") as draft:
+            copyfile(contents.path, draft)
     return target

@@ -9,8 +9,6 @@ and takes its place in one atomic step.
 from __future__ import annotations
 
 import os
-import time
-from glob import escape
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
-from nivel.files.target import check_target, status
+from nivel.files.target import check_target, reason_of, status
 from nivel.integrate.loop.sink import Header
+from nivel.native.store import whole
 from nivel.results.frames.contents import name_in_file, resolved, shape_of
 from nivel.results.frames.space import Space
 from nivel.results.frames.stored import StoredContents, opened
@@ -38,7 +37,6 @@ FINAL_ROWS = 16 * 1024  # frames of a chunk, at most: long runs can be read in p
 HEADER = 256 * 1024  # bytes
 LAST_WORDS = 32 * 1024  # bytes kept free, so that a file that cannot grow any more can still say why
 INDEX = 4096  # bytes
-FORSAKEN = 600  # [s] a file that nobody has written for so long, by a process that has ended, is left behind
 NO_ROOM = "Free some space, write elsewhere (--out), or keep fewer frames (--output-interval)."
 COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
 
@@ -79,7 +77,7 @@ class Store:
                 self._file.close()
                 self.path.unlink(missing_ok=True)
             self._file, self._space = None, None
-            raise ModelError(f"the result file {self.path} cannot be created: {_reason(error)}") from error
+            raise ModelError(f"the result file {self.path} cannot be created: {reason_of(error)}") from error
         _write_header(self._file, self._variables, coordinates, header.attributes, 0, _running_chunks)
         everything = [self._file["time"], *(self._file[name_in_file(variable.name)] for variable, _ in self._variables)]
         self._chunks = sum(8 * prod(dataset.chunks) + INDEX for dataset in everything)
@@ -94,7 +92,7 @@ class Store:
         try:
             self._space.ensure(2 * frames.nbytes + self._chunks + LAST_WORDS)
         except OSError as error:
-            raise self._given_up(_reason(error)) from error
+            raise self._given_up(reason_of(error)) from error
         for variable, shape in self._variables:
             _append(self._file[name_in_file(variable.name)], frames[:, variable.columns].reshape(len(frames), *shape))
         self._file.flush()
@@ -156,36 +154,12 @@ def rewrite(path: Path, attributes: Attributes) -> None:
     When this fails, for instance because the disk is full, the file stays as it was, with the new attributes if they
     find place.
     """
-    start = path.name.encode()[:100].decode(errors="ignore")  # the name of a file has 255 bytes at most
-    temporary = path.with_name(f".{start}.{os.getpid()}.part")
-    _remove_left_behind(path.parent, start)
     try:
-        _write_final(path, temporary, attributes)
-        temporary.replace(path)
+        with whole(path) as draft:
+            _write_final(path, draft, attributes)
     except OSError as error:
         _note(path, attributes)
-        raise _not_compressed(path, _reason(error)) from error
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def _remove_left_behind(folder: Path, start: str) -> None:
-    """Remove final forms of this file that were never finished, as their writers were killed some time ago."""
-    for left in folder.glob(f".{escape(start)}.*.part"):
-        writer = left.name.split(".")[-2]
-        try:
-            if time.time() - left.stat().st_mtime > FORSAKEN and not (writer.isdecimal() and _runs(int(writer))):
-                left.unlink()
-        except OSError:  # another one removes it, or it is not ours
-            continue
-
-
-def _runs(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except OSError as error:
-        return isinstance(error, PermissionError)
-    return True
+        raise _not_compressed(path, reason_of(error)) from error
 
 
 def _not_compressed(path: Path, reason: str) -> SolveError:
@@ -300,8 +274,3 @@ def _copy(old: Any, new: Any, count: int, space: Space) -> None:
 def _header_size(attributes: Attributes) -> int:
     """Bytes that are enough for the attributes and all that is created before the first frame."""
     return HEADER + sum(4 * len(str(value)) for value in attributes.values())
-
-
-def _reason(error: OSError) -> str:
-    """The system's own words, without those of the HDF5 library around them."""
-    return os.strerror(error.errno).lower() if error.errno else str(error)

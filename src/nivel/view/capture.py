@@ -18,6 +18,7 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.extras import is_installed, require
+from nivel.files.target import write_file
 from nivel.view.browser import Tab, require_browser, tab
 from nivel.view.export import page_of
 from nivel.view.sources import Source
@@ -78,7 +79,7 @@ def still(source: Source, path: Path, look: Look, moment: float | None = None) -
         if moment is not None and not start <= moment <= end:
             raise ModelError(f"the motion goes from {start:g} s to {end:g} s; there is no moment {moment:g} s")
         page.run(f"nivel.pose({start if moment is None else moment!r})")
-        _write(path, page.picture())
+        write_file(path, "picture", page.picture())
 
 
 def film(source: Source, path: Path, look: Look, progress: Callable[[int, int], None]) -> None:
@@ -156,7 +157,7 @@ def _gif(path: Path, look: Look) -> Iterator[Take]:
         loop=0,
         optimize=False,
     )
-    _write(path, content.getvalue())
+    write_file(path, "film", content.getvalue())
 
 
 @contextmanager
@@ -185,7 +186,7 @@ def _mp4(path: Path, look: Look) -> Iterator[Take]:
                 said.seek(0)
                 words = said.read().decode(errors="replace").strip().splitlines() or ["no reason given"]
                 raise ModelError(f"ffmpeg failed: {words[-1]}")
-        _write(path, made.read_bytes())
+        write_file(path, "film", made.read_bytes())
 
 
 def _ffmpeg() -> str:
@@ -200,10 +201,3 @@ def _ffmpeg() -> str:
         return get_ffmpeg_exe()
     except RuntimeError:
         raise ModelError(NO_FFMPEG) from None
-
-
-def _write(path: Path, content: bytes) -> None:
-    try:
-        path.write_bytes(content)
-    except OSError as error:
-        raise ModelError(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

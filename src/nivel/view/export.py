@@ -6,8 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from nivel.errors import ModelError
-from nivel.files.target import keep_sources
+from nivel.files.target import keep_sources, write_file
 from nivel.results.result import Result
 from nivel.view.page import page_alone
 from nivel.view.playback import ALONE, Budget, playback
@@ -28,17 +27,9 @@ def write_scene(results: Sequence[Result], path: str | os.PathLike[str]) -> Path
     """Write the page of results to `path`; an existing file is replaced."""
     target = Path(path)
     keep_sources(target, "page", [result.path for result in results if result.path])
-    return _written(target, scene_html(results))
+    return write_file(target, "page", scene_html(results))
 
 
 def write_page(source: Source, path: Path) -> Path:
     """Write the page of a source to `path`; an existing file is replaced."""
-    return _written(path, page_of(source))
-
-
-def _written(target: Path, text: str) -> Path:
-    try:
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise ModelError(f"the page {target} cannot be written: {(error.strerror or str(error)).lower()}") from error
-    return target
+    return write_file(path, "page", page_of(source))

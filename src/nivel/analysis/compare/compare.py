@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import asdict, replace
 from itertools import combinations, pairwise
+from typing import Any
 
 import nivel
 from nivel.analysis.compare.compare_grid import Cell, Grid, reasons
-from nivel.analysis.compare.reference import Solution, solve
+from nivel.analysis.compare.reference import Solution, packed_motion, solve, unpacked_motion
+from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.in_memory import run_in_memory
@@ -24,20 +27,33 @@ from nivel.results.result import Result
 from nivel.results.scales import largest_kinetic_energy, machine_size
 
 
-def compare(machine: MachineRecord, grid: Grid, *, repeat: int = 3, listener: Listener | None = None) -> Comparison:
+def compare(
+    machine: MachineRecord,
+    grid: Grid,
+    *,
+    repeat: int = 3,
+    journal: Journal | None = None,
+    listener: Listener | None = None,
+) -> Comparison:
     """Run every cell of `grid`, `repeat` times for its time, and hold it against a reference.
 
-    Cells that fail or are refused are told and do not end the comparison; Ctrl-C does, and what was computed is returned.
+    journal : keeps references and cells, and has those of an interrupted comparison, which are not run again. Cells that fail or are
+    refused are told and do not end the comparison; Ctrl-C does, and what was computed is returned.
     Raises ModelError where no cell could start: the machine itself is at fault.
     """
     listener = listener or Listener()
     bench = _Bench(repeat, listener)
     outcome, note = "done", ""
     try:
-        bench.refer(solve(machine, grid, listener))
+        bench.refer(solve(machine, grid, listener, journal))
         note = "" if bench.references else "no reference: none of its runs came to the end"
         for k, cell in enumerate(grid.cells):
+            if journal is not None and k in journal.rows:
+                bench.take(journal.rows[k])
+                continue
             bench.add(cell, f"{k + 1} of {len(grid.cells)}")
+            if journal is not None:
+                journal.add(bench.last(), k)
     except KeyboardInterrupt:
         outcome = "interrupted"
     comparison = Comparison(
@@ -79,6 +95,28 @@ class _Bench:
         if references:
             self.size, self.kinetic_energy = references[0].size, references[0].kinetic_energy
 
+    def last(self) -> dict[str, Any]:
+        """The last row, its motion, and the scales, for a journal."""
+        row = self.rows[-1]
+        motion = next(
+            (motion for other, motion in self.finest.get(row.method, []) if other.fineness == row.fineness), None
+        )
+        scales = [self.size, self.kinetic_energy]
+        return {"row": asdict(row), "motion": None if motion is None else packed_motion(motion), "scales": scales}
+
+    def take(self, kept: Mapping[str, Any]) -> None:
+        """A row of a journal."""
+        row = Row(**kept["row"])
+        self.size, self.kinetic_energy = kept["scales"]
+        self.rows.append(row)
+        if kept["motion"] is not None:
+            self._compare_later(row, unpacked_motion(kept["motion"]))
+
+    def _compare_later(self, row: Row, motion: Motion) -> None:
+        """Keep the two finest motions of a method."""
+        kept = [*self.finest.get(row.method, []), (row, motion)]
+        self.finest[row.method] = sorted(kept, key=lambda each: each[0].fineness)[:2]
+
     def add(self, cell: Cell, place: str) -> None:
         """Run a cell and add its row; `place` among the others is shown."""
         row = Row(*cell.method, step=cell.step, tolerance=cell.tolerance)
@@ -109,8 +147,7 @@ class _Bench:
             self.size = machine_size(result)[0]
             self.kinetic_energy = largest_kinetic_energy(result, self.size)
         motion = Motion.of(result)
-        kept = [*self.finest.get(row.method, []), (row, motion)]
-        self.finest[row.method] = sorted(kept, key=lambda each: each[0].fineness)[:2]
+        self._compare_later(row, motion)
         open_, open_mean = constraint_measures(result, "constraint_violation", self.size)
         rate, rate_mean = constraint_measures(result, "constraint_rate_violation", self.size)
         energy, relative = energy_measures(result, self.kinetic_energy)

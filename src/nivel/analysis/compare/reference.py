@@ -5,15 +5,16 @@ Two of different methods where they exist: dop853 at tight tolerance, and rk4 ex
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from math import ceil
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from nivel.analysis.compare.compare_grid import REFERENCES, Grid
 from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.in_memory import run_in_memory
 from nivel.analysis.trust.report import assess, blindness
@@ -46,19 +47,50 @@ class Solution:
     kinetic_energy: float
 
 
-def solve(machine: MachineRecord, grid: Grid, listener: Listener) -> list[Solution]:
+def solve(machine: MachineRecord, grid: Grid, listener: Listener, journal: Journal | None = None) -> list[Solution]:
     """Reference solutions of `machine`, the one with the least error first; empty where no method came to the end.
 
     All are in absolute coordinates with the newton-euler formulation, frames at the interval of the grid. The tight one has direct
     correction. The extrapolated one has no stabilisation: its error is then a power series in the step, which corrections that act
     only where a joint is open by more than round-off are not.
-    Raises ModelError where the machine cannot be assembled or started.
+    journal : keeps them. Raises ModelError where the machine cannot be assembled or started.
     """
-    found = [_tight(machine, grid, listener), _extrapolated(machine, grid, listener)]
+    found = []
+    for number, method in ((-1, _tight), (-2, _extrapolated)):
+        row = None if journal is None else journal.rows.get(number)
+        solution = method(machine, grid, listener) if row is None else _solution_of(row)
+        if journal is not None and row is None:
+            journal.add(_row_of(solution), number)
+        found.append(solution)
     solutions = [each for each in found if each is not None]
     if len(solutions) == 2:
         solutions = _checked(*solutions)
     return sorted(solutions, key=lambda each: each.facts.error)
+
+
+def _row_of(solution: Solution | None) -> dict[str, Any]:
+    """A solution as the row of a journal."""
+    if solution is None:
+        return {"reference": None}
+    scales = [solution.size, solution.kinetic_energy]
+    return {"reference": asdict(solution.facts), "motion": packed_motion(solution.motion), "scales": scales}
+
+
+def _solution_of(row: Mapping[str, Any]) -> Solution | None:
+    if row["reference"] is None:
+        return None
+    return Solution(Reference(**row["reference"]), unpacked_motion(row["motion"]), *row["scales"])
+
+
+def packed_motion(motion: Motion) -> list[Any]:
+    """A motion as a row of a journal has it, to the last bit."""
+    return [*map(packed, (motion.time, motion.position, motion.orientation)), list(motion.bodies)]
+
+
+def unpacked_motion(row: Sequence[Any]) -> Motion:
+    """The motion of `packed_motion`."""
+    time, position, orientation, bodies = row
+    return Motion(unpacked(time), unpacked(position), unpacked(orientation), tuple(bodies))
 
 
 def _tight(machine: MachineRecord, grid: Grid, listener: Listener) -> Solution | None:

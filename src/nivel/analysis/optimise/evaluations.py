@@ -11,6 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError
 from nivel.model import Model
@@ -134,13 +135,18 @@ class Evaluations:
         threads: int = 1,
         exact: Exact | None = None,
         time_limit: float | None = None,
+        journal: Journal | None = None,
     ) -> None:
         """read : the outputs (count,) of a result; a variant of which it raises UnreadError has failed. exact : outputs with their slopes;
-        None: differences. time_limit [s] : of each run.
+        None: differences. time_limit [s] : of each run. journal : keeps every variant, and has those of an interrupted search, which are
+        not computed again.
 
         Raises ModelError for a limit with exact slopes, which are not watched.
         """
         self.box, self._read, self._count, self._exact = box, read, count, exact
+        self._journal = journal
+        rows = () if journal is None else journal.rows.values()
+        self._finished = {unpacked(row["z"]).tobytes(): row for row in rows}
         self._slopes: dict[bytes, Array] = {}
         self.made: list[Evaluated] = []
         self._known: dict[bytes, Array] = {}
@@ -179,7 +185,17 @@ class Evaluations:
         return [self._known[z.tobytes()] for z in places]
 
     def _one(self, z: Array) -> Evaluated:
-        return self._run(z) if self._exact is None else self._with_slopes(z, self._exact)
+        key = z.tobytes()
+        if (row := self._finished.get(key)) is not None:
+            if row["slopes"] is not None:
+                self._slopes[key] = unpacked(row["slopes"])
+            return Evaluated(z.copy(), unpacked(row["outputs"]), row["outcome"], row["reason"], self.start)
+        made = self._run(z) if self._exact is None else self._with_slopes(z, self._exact)
+        if self._journal is not None:
+            slopes = self._slopes.get(key)
+            numbers = {"z": packed(z), "outputs": packed(made.outputs), "outcome": made.outcome, "reason": made.reason}
+            self._journal.add({**numbers, "slopes": None if slopes is None else packed(slopes)})
+        return made
 
     def _with_slopes(self, z: Array, exact: Exact) -> Evaluated:
         """A run on dual numbers."""

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from nivel.analysis.optimise.evaluations import Box, Evaluations
 from nivel.analysis.optimise.spoken_outputs import at_times
 from nivel.analysis.optimise.table import nothing_found, table_of
+from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError
@@ -84,10 +85,11 @@ def identify(
     threads: int = 1,
     with_slopes: Callable[[Mapping[str, float]], Result] | None = None,
     time_limit: float | None = None,
+    journal: Journal | None = None,
     listener: Listener | None = None,
 ) -> Identified:
     """The parameters with the least squares. with_slopes : the run of a variant with the slopes of its results; None: differences. most :
-    iterations of each start. time_limit [s] : of each run.
+    iterations of each start. time_limit [s] : of each run. journal : of an interrupted search, or of this one.
 
     Raises ModelError where no start has results, and SolveError where that is because runs fail; its `result` is the table of all variants.
     """
@@ -96,7 +98,14 @@ def identify(
     residuals = _Residuals(box, signals, with_slopes)
     exact = None if with_slopes is None else residuals.read_exact
     evaluations = Evaluations(
-        machine, box, residuals.read, residuals.count, threads=threads, exact=exact, time_limit=time_limit
+        machine,
+        box,
+        residuals.read,
+        residuals.count,
+        threads=threads,
+        exact=exact,
+        time_limit=time_limit,
+        journal=journal,
     )
     fit = _Fit(evaluations, residuals.count)
     ends = []

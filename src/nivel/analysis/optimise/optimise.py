@@ -18,6 +18,7 @@ from nivel.analysis.optimise.libraries import LIBRARIES_OF
 from nivel.analysis.optimise.search import CONSTRAINED, KEPT, Search
 from nivel.analysis.optimise.spoken_outputs import Spoken, event_of, spoken_output
 from nivel.analysis.optimise.table import nothing_found, table_of
+from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import OutputFailedError
 from nivel.errors import Fault, ModelError
@@ -75,10 +76,11 @@ def optimise(
     threads: int = 1,
     exact: Any = None,
     time_limit: float | None = None,
+    journal: Journal | None = None,
     listener: Listener | None = None,
 ) -> Optimum:
     """The machine with the least objective. most : iterations of each start; tolerance : of the objective, as a share; time_limit [s] : of
-    each run.
+    each run. journal : of an interrupted search, or of this one.
 
     Raises ModelError where words are not known, or no start has an objective, and SolveError where that is because runs fail; its
     `result` is the table of all variants.
@@ -97,7 +99,9 @@ def optimise(
         return _read(result, readers, first=not evaluations.made)
 
     begin = perf_counter()
-    evaluations = Evaluations(machine, box, read, len(names), threads=threads, exact=exact, time_limit=time_limit)
+    evaluations = Evaluations(
+        machine, box, read, len(names), threads=threads, exact=exact, time_limit=time_limit, journal=journal
+    )
     search = Search(evaluations, names, limits, sign, method, most, tolerance, seed)
     found, messages = [], []
     for number, begun in enumerate(box.starts(starts, seed)):

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
 from os import PathLike, fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -28,6 +27,7 @@ from nivel.analysis.run.placing import Placing
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.remembered import remembered
 from nivel.errors import Fault, ModelError, SolveError
+from nivel.files.target import written
 from nivel.files.writer import write_machine
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
@@ -88,10 +88,10 @@ class Snapshot:
     structure: Structure = field(default_factory=dict, repr=False)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write it to a file (NumPy's `.npz`); an existing file is replaced."""
+        """Write it to a file (NumPy's `.npz`); an existing file is replaced. Raises ModelError where it cannot be written."""
         named = {f"a{k}": array for k, array in enumerate(self.arrays)}
         named |= {f"f{k}": np.frombuffer(content, dtype=np.uint8) for k, content in enumerate(self.units)}
-        with Path(path).open("wb") as file:
+        with written(path, "saved state") as draft, draft.open("wb") as file:
             facts = {"time": self.time, "machine": self.machine, "structure": json.dumps(dict(self.structure))}
             np.savez(file, **facts, **named)  # type: ignore[arg-type]
 

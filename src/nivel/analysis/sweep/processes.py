@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import os
 import pickle
 import signal
 import subprocess
-import sys
 import threading
 from collections import deque
 from collections.abc import Generator, Iterable, Mapping
@@ -19,9 +17,9 @@ from typing import Any, Final
 from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import KILLED, VariantRun, run_variant
 from nivel.analysis.sweep.variant_runs import TIMED_OUT
+from nivel.native.workers import python
 from nivel.words.wording import seconds
 
-START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.analysis.sweep.worker import main; main()"
 ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 # number of the variant, its task, its values by path
@@ -86,7 +84,7 @@ class Worker:
 
     def _start(self) -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-c", START, json.dumps(sys.path)],
+            python("nivel.analysis.sweep.worker"),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**os.environ, **dict.fromkeys(ONE_THREAD, "1")},

@@ -15,10 +15,11 @@ import xarray
 from numpy.typing import NDArray
 
 from nivel.analysis.progress.interrupt import interruptible
+from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.progress.log import Log
 from nivel.analysis.sweep.dask_cluster import client_of, run_on_cluster, threads_of
-from nivel.analysis.sweep.journal import Journal
+from nivel.analysis.sweep.journal import row_of, run_of
 from nivel.analysis.sweep.processes import Job, run_in_processes
 from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
@@ -145,7 +146,7 @@ def sweep(
     values = variants.values
     jobs: list[Job] = [(k, tasks[0], values[k]) if len(tasks) == 1 else (k, tasks[k], {}) for k in range(len(values))]
     runs: list[VariantRun] = [VariantRun(NOT_RUN)] * len(jobs)
-    before = dict(journal.finished) if journal is not None else {}
+    before = {number: run_of(row) for number, row in journal.rows.items()} if journal is not None else {}
     for number, run in before.items():
         runs[number] = run
     jobs = [job for job in jobs if job[0] not in before]
@@ -159,7 +160,7 @@ def sweep(
         runs[number], done = run, done + 1
         loop += run.loop_seconds
         if journal is not None:
-            journal.add(number, run)
+            journal.add(row_of(run), number)
         if heard is not None:
             heard(number, run)
         if listener.progress is not None:

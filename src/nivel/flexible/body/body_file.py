@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import fields
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from nivel import __version__
 from nivel.errors import ModelError
+from nivel.files.target import write_file
 from nivel.flexible.body.body import Array, Interface, MeshError, ReducedBody, StressModes
 from nivel.flexible.body.invariants import UNITS, Invariants
 from nivel.flexible.body.truncated_modes import LeftOut
@@ -57,31 +58,25 @@ def write_body(
 
     Raises ModelError where the file cannot be written.
     """
-    target = Path(path)
-    temporary = target.with_name(f".{target.name[:100]}.{os.getpid()}.part")
-    try:
-        with h5py.File(temporary, "w", libver=("v108", "v108"), track_order=True) as file:
-            _write(_Writer(file), body)
-            file.attrs.update(
-                {
-                    "kind": KIND,
-                    "format": FORMAT,
-                    "nivel_version": __version__,
-                    "Conventions": "CF-1.11",
-                    "name": body.name,
-                    "reference": body.reference,
-                    "held": json.dumps(body.held),
-                    "mass_kind": body.mass_kind,
-                    "source": body.source,
-                    "findings": json.dumps(findings or {}),
-                    "model": model,
-                }
-            )
-        temporary.replace(target)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        reason = os.strerror(error.errno).lower() if error.errno else str(error)
-        raise ModelError(f"the body file {target} cannot be written: {reason}") from error
+    content = BytesIO()  # HDF5 ends the process where a disk is full
+    with h5py.File(content, "w", libver=("v108", "v108"), track_order=True) as file:
+        _write(_Writer(file), body)
+        file.attrs.update(
+            {
+                "kind": KIND,
+                "format": FORMAT,
+                "nivel_version": __version__,
+                "Conventions": "CF-1.11",
+                "name": body.name,
+                "reference": body.reference,
+                "held": json.dumps(body.held),
+                "mass_kind": body.mass_kind,
+                "source": body.source,
+                "findings": json.dumps(findings or {}),
+                "model": model,
+            }
+        )
+    write_file(path, "body file", content.getbuffer())
 
 
 class _Writer:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.files.target import write_file
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.body.recovery import displacement, signed_principal, stress, von_mises
 
@@ -83,11 +84,11 @@ def _collection(body: ReducedBody, path: Path, states: Iterable[State]) -> list[
     files, lines = [], []
     for k, (time, place, fields) in enumerate(states):
         piece = path.with_name(f"{path.stem}-{k + 1:04d}.vtu")
-        piece.write_text(_grid(body, place, fields), encoding="ascii")
+        write_file(piece, "VTK file", _grid(body, place, fields))
         files.append(piece)
         lines.append(f'<DataSet timestep="{time!r}" part="0" file={quoteattr(piece.name)}/>')
     text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">\n<Collection>\n'
-    path.write_text(text + "\n".join(lines) + "\n</Collection>\n</VTKFile>\n", encoding="utf-8")
+    write_file(path, "VTK file", text + "\n".join(lines) + "\n</Collection>\n</VTKFile>\n")
     return [path, *files]
 
 

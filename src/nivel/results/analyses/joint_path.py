@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.files.target import written
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.trust import Trust
 
@@ -85,7 +86,7 @@ class JointPath(Tabulated):
         """Write `time` and coordinates (default: the independent ones) as a table that `inverse(trajectory=…)` reads."""
         names = coordinates or self.independent
         columns = [self.time, *(self[name] for name in names)]
-        with open(path, "w", newline="", encoding="utf-8") as file:
+        with written(path, "table") as draft, draft.open("w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
             table.writerow(["time", *names])
             table.writerows(np.column_stack(columns).tolist())

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from nivel.errors import ModelError
-from nivel.files.target import check_target
+from nivel.files.target import check_target, write_file
 from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread, as_record
 from nivel.results.trust import Trust
 
@@ -73,11 +73,7 @@ def write_text(text: str, path: str | os.PathLike[str] | None, what: str, *, for
     """
     if path is not None:
         check_target(Path(path), what, force=force)
-        try:
-            Path(path).write_text(text, encoding="utf-8")
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise ModelError(f"the {what} {os.fspath(path)} cannot be written: {reason}") from error
+        write_file(path, what, text)
     return text
 
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nivel.errors import ModelError
 from nivel.extras import needed
+from nivel.files.target import written
 from nivel.results.frames.csv_table import columns
 
 if TYPE_CHECKING:
@@ -36,10 +36,8 @@ def write_mat(result: Result, path: Path, select: Iterable[str] = ()) -> None:
         table[plain] = np.asarray(result.array(name))
     names = np.array(["time", *chosen], dtype=object)
     units = np.array(["s", *(result.units(name) for name in chosen)], dtype=object)
-    try:
-        savemat(path, {**table, "names": names, "units": units}, oned_as="column", long_field_names=True)
-    except OSError as error:
-        raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    with written(path, "table") as draft, draft.open("wb") as file:
+        savemat(file, {**table, "names": names, "units": units}, oned_as="column", long_field_names=True)
 
 
 def write_parquet(result: Result, path: Path, select: Iterable[str] = ()) -> None:
@@ -51,10 +49,8 @@ def write_parquet(result: Result, path: Path, select: Iterable[str] = ()) -> Non
     fields = [arrow.field(name, arrow.float64(), metadata={"unit": result.units(name)}) for name in chosen]
     schema = arrow.schema([arrow.field("time", arrow.float64(), metadata={"unit": "s"}), *fields])
     arrays = [arrow.array(np.asarray(values)) for values in (result.time, *(result.array(name) for name in chosen))]
-    try:
-        parquet.write_table(arrow.Table.from_arrays(arrays, schema=schema), path, compression="zstd")
-    except OSError as error:
-        raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    with written(path, "table") as draft:
+        parquet.write_table(arrow.Table.from_arrays(arrays, schema=schema), draft, compression="zstd")
 
 
 def write_mdf(result: Result, path: Path, select: Iterable[str] = ()) -> None:
@@ -65,12 +61,9 @@ def write_mdf(result: Result, path: Path, select: Iterable[str] = ()) -> None:
         asammdf.Signal(np.asarray(result.array(name)), time, name=name, unit=result.units(name))
         for name in columns(result, select)
     ]
-    try:
-        with asammdf.MDF(version="4.10") as file:
-            file.append(signals, comment=f"result of nivel: {result.name}")
-            file.save(path, overwrite=True)
-    except OSError as error:
-        raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    with written(path, "table") as draft, asammdf.MDF(version="4.10") as table, draft.open("w+b") as file:
+        table.append(signals, comment=f"result of nivel: {result.name}")
+        table.save(file, overwrite=True)
 
 
 def write_mcap(result: Result, path: Path, select: Iterable[str] = ()) -> None:
@@ -80,16 +73,13 @@ def write_mcap(result: Result, path: Path, select: Iterable[str] = ()) -> None:
     fields = {name: {"type": "number", "description": result.units(name)} for name in chosen}
     schema = {"type": "object", "title": result.name, "properties": fields}
     arrays = [np.asarray(result.array(name)).tolist() for name in chosen]
-    try:
-        with path.open("wb") as file:
-            out = writer.Writer(file)
-            out.start()
-            number = out.register_schema("nivel", "jsonschema", json.dumps(schema).encode())
-            channel = out.register_channel("/nivel", "json", number)
-            for k, time in enumerate(result.time):
-                content = json.dumps(dict(zip(chosen, (each[k] for each in arrays), strict=True))).encode()
-                instant = round(float(time) * 1e9)
-                out.add_message(channel, log_time=instant, data=content, publish_time=instant)
-            out.finish()
-    except OSError as error:
-        raise ModelError(f"the table {path} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    with written(path, "table") as draft, draft.open("wb") as file:
+        out = writer.Writer(file)
+        out.start()
+        number = out.register_schema("nivel", "jsonschema", json.dumps(schema).encode())
+        channel = out.register_channel("/nivel", "json", number)
+        for k, time in enumerate(result.time):
+            content = json.dumps(dict(zip(chosen, (each[k] for each in arrays), strict=True))).encode()
+            instant = round(float(time) * 1e9)
+            out.add_message(channel, log_time=instant, data=content, publish_time=instant)
+        out.finish()

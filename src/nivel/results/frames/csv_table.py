@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TextIO
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.files.target import keep_sources
+from nivel.files.target import keep_sources, written
 from nivel.results.frames.names import unknown_name
 
 if TYPE_CHECKING:
@@ -27,11 +27,8 @@ def write_csv(result: Result, path: str | os.PathLike[str], select: Iterable[str
     target = Path(path)
     keep_sources(target, "table", [result.path] if result.path else [])
     chosen = columns(result, select)
-    try:
-        with target.open("w", encoding="utf-8", newline="") as file:
-            write_table(result, chosen, file)
-    except OSError as error:
-        raise ModelError(f"the table {target} cannot be written: {(error.strerror or str(error)).lower()}") from error
+    with written(target, "table") as draft, draft.open("w", encoding="utf-8", newline="") as file:
+        write_table(result, chosen, file)
     return target
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nivel.errors import ModelError
+from nivel.files.target import write_file
 from nivel.results.frames.contents import name_in_file
 
 if TYPE_CHECKING:
@@ -18,9 +19,11 @@ def write_dataset(dataset: xarray.Dataset, path: str | PathLike[str], *, force: 
     target = Path(path)
     if target.exists() and not force:
         raise ModelError(f"the file {target} exists; give another name, or replace it with force")
-    try:
-        names = {name: name_in_file(str(name)) for name in dataset.data_vars if name_in_file(str(name)) != name}
-        dataset.rename(names).to_netcdf(target, engine="h5netcdf")
-    except OSError as error:
-        raise ModelError(f"the file {target} cannot be written: {str(error).lower()}") from error
-    return target
+    names = {name: name_in_file(str(name)) for name in dataset.data_vars if name_in_file(str(name)) != name}
+    return write_netcdf(dataset.rename(names), target)
+
+
+def write_netcdf(dataset: xarray.Dataset, target: Path) -> Path:
+    """Write a dataset as it is; an existing file is replaced. Raises ModelError where it cannot be written."""
+    # in memory first: HDF5 ends the process where a disk is full
+    return write_file(target, "data file", dataset.to_netcdf(engine="h5netcdf"))

@@ -10,6 +10,7 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.extras import require
+from nivel.files.target import written
 from nivel.results.stress.recovered import RecoveredBody
 
 if TYPE_CHECKING:
@@ -43,8 +44,6 @@ def save_plot(path: Path, body: RecoveredBody, nodes: Sequence[int | str]) -> Pa
     kind = path.suffix.removeprefix(".").lower()
     if kind not in known:
         raise ModelError(f"{path}: a picture ends with .png, .svg or .pdf, not with `{path.suffix}`")
-    try:
-        figure.savefig(path)
-    except OSError as error:
-        raise ModelError(f"the plot {path} cannot be written: {(error.strerror or str(error)).lower()}") from error
+    with written(path, "plot") as draft:
+        figure.savefig(draft, format=kind)
     return path

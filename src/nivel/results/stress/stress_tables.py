@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
+from nivel.files.target import written
 from nivel.flexible.body.recovery import displacement, signed_principal, stress, stress_modes, von_mises
 from nivel.results.stress.recovered import RecoveredBody
 
@@ -23,15 +23,11 @@ STRESS: Final = ("xx", "yy", "zz", "xy", "yz", "zx")
 
 def write_rows(path: str | os.PathLike[str], header: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:
     """Write a table; an existing file is replaced. Raises ModelError where it cannot be written."""
-    target = Path(path)
-    try:
-        with target.open("w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(header)
-            table.writerows(rows)
-    except OSError as error:
-        raise ModelError(f"the table {target} cannot be written: {(error.strerror or str(error)).lower()}") from error
-    return target
+    with written(path, "table") as draft, draft.open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(header)
+        table.writerows(rows)
+    return Path(path)
 
 
 def write_history(

@@ -7,11 +7,9 @@ other process, and wait for the outputs.
 from __future__ import annotations
 
 import ctypes
-import json
 import os
 import signal
 import subprocess
-import sys
 from contextlib import suppress
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
@@ -25,10 +23,8 @@ from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
 from nivel.machine.control.unit_output import CFacts, UnitFacts
+from nivel.native.workers import python
 
-START = (
-    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.system.signals.unit_host import main; main()"
-)
 LONGEST_START = 60.0  # s that a process may take to begin
 FAILED = 3  # status of FMI
 _VALUES = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_uint64, ctypes.c_uint64, ctypes.c_int64, ctypes.c_uint64)
@@ -143,7 +139,7 @@ class UnitProcess:
         self.end()
         self._link, other = Pipe()
         place = other.fileno()
-        words = [sys.executable, "-c", START, json.dumps(sys.path), str(place)]
+        words = python("nivel.system.signals.unit_host", str(place))
         if os.name == "posix":
             self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL, pass_fds=[place])
         else:

@@ -17,7 +17,7 @@ _Connection: Any = connection.Connection if sys.platform != "win32" else connect
 
 def main() -> None:
     """Answer questions of the pipe whose number stands in the arguments."""
-    link = _Connection(int(sys.argv[2]))
+    link = _Connection(int(sys.argv[1]))
     try:
         _, facts = link.recv()
         try:

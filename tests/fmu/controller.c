@@ -1,4 +1,5 @@
-/* A controller with an integral in its state, which counts its calls in memory of the library; it can fail in four ways. */
+/* A controller with an integral in its state, which counts its calls in memory of the library; it can fail in six ways. */
+#include <fenv.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,5 +16,7 @@ int controller(double time, const double *in, double *state, double *out)
     if (time > 0.4999 && in[2] == 2.0) out[1] = NAN;
     if (time > 0.4999 && in[2] == 3.0) abort();
     if (time > 0.4999 && in[2] == 4.0) for (;;) { calls += 1.0; }
+    if (time > 0.4999 && in[2] == 5.0) exit(0);
+    if (in[2] == 6.0) fesetround(FE_UPWARD);
     return 0;
 }

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -146,6 +147,7 @@ FAULTS = [
     (2, "", "gave an output that is not a number (`integral`) at t = 0.5 s"),
     pytest.param(1, OWN, "returned -7 at t = 0.5 s", marks=pytest.mark.full),
     (3, OWN, "crashed (SIGABRT) at t = 0.5 s"),
+    pytest.param(5, OWN, "crashed (exit code 3) at t = 0.5 s", marks=pytest.mark.full),
     (4, ", process: own, time_limit: 0.3 s", "did not return within 0.3 s at t = 0.5 s"),
 ]
 
@@ -161,6 +163,36 @@ def test_a_unit_that_fails_crashes_or_hangs_ends_the_run_and_everything_is_kept(
     result = nivel.Result.open(tmp_path / "r.nc")
     assert result.time[-1] == pytest.approx(0.5, abs=2e-3)
     assert np.isfinite(result.array("rail.displacement")).all()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="of the C library of POSIX")
+def test_a_function_that_ends_the_program_does_not_end_it_as_done(folder, tmp_path):
+    """`exit(0)` in the process of nivel: exit code 3, a sentence, and the frames until then."""
+    path, out = written(folder, fault=5), tmp_path / "r.nc"
+    words = [sys.executable, "-m", "nivel", "run", path, "--allow-code", "--out", out, "--no-report", "--no-verify"]
+    done = subprocess.run(words, check=False, capture_output=True, text=True)
+    assert done.returncode == 3, done.stderr
+    assert "the C function controller of the block unit called `exit`, which ends the program" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert nivel.Result.open(out).outcome != "done"
+
+
+def test_a_function_that_changes_how_numbers_are_rounded_changes_nothing_else(folder, wanted):
+    """1/3 + 1/3 + 1/3 = 1 as numbers are rounded to the nearest; the motion is that of the expression to the last bit."""
+    result = machine(folder, fault=6).simulate(verify=False)
+    np.testing.assert_array_equal(result.array("rail.displacement"), wanted.array("rail.displacement"))
+    third = float(np.float64(1.0) / np.float64(3.0))
+    assert third == 0.3333333333333333148
+
+
+@pytest.mark.parametrize(("fault", "more"), [(4, ""), (5, ""), (4, OWN), (5, OWN)])
+def test_a_status_that_the_standard_does_not_know_is_an_error_in_both_processes(folder, fault, more):
+    block = (
+        "{type: fmu, file: unit3.fmu, every: 2 ms, inputs: {x: rail.displacement, v: rail.displacement_rate}, "
+        f"outputs: {{u: u}}, parameters: {{fault: {fault}, fault_at: 0.1}}{more}}}"
+    )
+    with pytest.raises(nivel.SolveError, match=r"reported an error in its step at t = 0\.1"):
+        machine(folder, block).simulate(duration=0.2, verify=False)
 
 
 @pytest.mark.parametrize(

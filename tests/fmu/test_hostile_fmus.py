@@ -38,6 +38,14 @@ def bomb():
     return bytes(content)
 
 
+def damaged():
+    """Its first bytes of compressed content are overwritten."""
+    content = bytearray(packed([GOOD]))
+    at = content.index(b"modelDescription.xml") + len("modelDescription.xml")
+    content[at : at + 40] = bytes(range(200, 240))
+    return bytes(content)
+
+
 ENTITIES = '<!DOCTYPE lolz [<!ENTITY lol "lol"><!ENTITY lol2 "&lol;&lol;&lol;">]>' + description().replace(
     'modelName="unit"', 'modelName="&lol2;"'
 )
@@ -55,6 +63,11 @@ DEEP = "<a>" * 1000 + "</a>" * 1000
         (packed([GOOD, ("a\\..\\x", "x")]), "leads out of its folder"),
         (packed([GOOD, link("binaries", "/usr/lib")]), "is no file, but a link or a device"),
         (packed([GOOD, ("a/b", "x"), ("a//b", "y")]), "stands twice in the archive"),
+        (packed([GOOD, ("a" * 300, "x")]), "longer than the name of a file can be"),
+        (packed([GOOD, ("a", "x"), ("a/b", "y")]), "`a/b` in the archive is a file and a folder"),
+        (packed([GOOD, ("a/b", "x"), ("a", "y")]), "`a` in the archive is a file and a folder"),
+        (packed([GOOD, ("a/", ""), ("a/b", "y")])[:-30], "it is not a zip archive, or it is damaged"),
+        (damaged(), "`modelDescription.xml` in the archive cannot be read"),
         (bomb(), "unpacked the archive has 1000 MB; up to 500 MB are unpacked"),
         (packed([("modelDescription.xml", ENTITIES)]), "a document type"),
         (packed([("modelDescription.xml", OUTSIDE)]), "a document type"),

@@ -40,7 +40,7 @@ static void *made(Unit *unit, void *log) {
   return unit;
 }
 
-/* 0: nothing; 1: an error with a message; 2: no number; 3: the end is asked for */
+/* 0: nothing; 1: an error with a message; 2: no number; 3: the end is asked for; 4 and 5: a status that FMI does not know */
 static int step(Unit *unit, double now, double length, bool *ends) {
   double *v = unit->value;
   v[INTEGRAL] += length * v[X], v[TIME] = now + length;
@@ -49,6 +49,8 @@ static int step(Unit *unit, double now, double length, bool *ends) {
   if (v[TIME] < v[AT]) return 0;
   if (v[FAULT] == 2.0) v[U] = NAN;
   if (v[FAULT] == 3.0) *ends = true;
+  if (v[FAULT] == 4.0) return 99;
+  if (v[FAULT] == 5.0) return -1;
   if (v[FAULT] != 1.0) return 0;
 #if FMI == 3
   ((logger3 *)unit->log)(NULL, 3, "logStatusError", "the sensor is lost");

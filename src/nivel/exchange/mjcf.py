@@ -17,7 +17,8 @@ from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Actuator, Connection, Frame, Inertial, Link, Look, Mechanism
 from nivel.exchange.mjcf_equalities import read_equalities
 from nivel.exchange.urdf import digits
-from nivel.extras import needed
+from nivel.extras import needed, require
+from nivel.files.apart import apart
 from nivel.files.sources import read_bytes
 from nivel.files.xml_source import Document, Element
 
@@ -38,20 +39,27 @@ OFF: Final = {
 
 def read_mjcf(path: Path, document: Document, base: str | None) -> Mechanism:
     """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says. Raises ModelError."""
-    mj = needed("mujoco", "models in MJCF need")
+    require("models in MJCF need", "mujoco")
     _check_source(document, path, {path.resolve()})
     document.raise_faults()
+    name = document.root.get("model") or path.stem
+    return apart(mechanism_here, path, document.file, name, base, failed=f"{document.file} cannot be read")
+
+
+def mechanism_here(path: Path, file: str, name: str, base: str | None) -> Mechanism:
+    """The same in this process, which a damaged file may end."""
+    mj = needed("mujoco", "models in MJCF need")
     said: list[warnings.WarningMessage] = []
     try:
         with warnings.catch_warnings(record=True) as said:
             model = mj.MjSpec.from_file(str(path)).compile()
     except (ValueError, RuntimeError) as error:
         text = " ".join(str(error).split())
-        raise ModelError(Fault(document.file, 1, 1, "", f"MuJoCo cannot compile the model: {text}")) from None
+        raise ModelError(Fault(file, 1, 1, "", f"MuJoCo cannot compile the model: {text}")) from None
     off = {what for what, flag in OFF.items() if model.opt.disableflags & int(getattr(mj.mjtDisableBit, flag))}
     weightless = bool(model.opt.disableflags & int(mj.mjtDisableBit.mjDSBL_GRAVITY))
     x, y, z = (0.0, 0.0, 0.0) if weightless else model.opt.gravity.tolist()
-    mechanism = Mechanism(document.root.get("model") or path.stem, "MJCF", (x, y, z))
+    mechanism = Mechanism(name, "MJCF", (x, y, z))
     for each in said:
         mechanism.notes.change(f"MuJoCo: {' '.join(str(each.message).split())}")
     mechanism.step = float(model.opt.timestep)

@@ -6,15 +6,15 @@ The parts are those of CoACD (Wei and others 2022). They are kept in the user ca
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from hashlib import sha256
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.extras import require
+from nivel.extras import needed, require
+from nivel.files.apart import apart
 from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine.bodies.shape import MOST_PARTS
@@ -23,17 +23,8 @@ from nivel.native.store import folder, whole
 
 PARTS: Final = "parts"
 KEY: Final = "convex_parts"
+FAILED: Final = "the mesh cannot be divided into convex parts"
 VERSION: Final = b"1"  # of what stands in the cache
-PROGRAM: Final = """
-import json, sys
-given = json.load(sys.stdin)
-sys.path[:] = given["path"]
-import coacd, numpy
-coacd.set_log_level("off")
-mesh = coacd.Mesh(numpy.array(given["vertices"]), numpy.array(given["triangles"], numpy.int32))
-parts = coacd.run_coacd(mesh, max_convex_hull=given["most"], seed=0)
-print(json.dumps([[numpy.asarray(each).tolist() for each in part] for part in parts]))
-"""
 
 
 def divide_meshes(tree: Tree) -> None:
@@ -79,18 +70,22 @@ def convex_parts(surface: str, most: int) -> list[str]:
 def _divided(surface: str, most: int) -> list[str]:
     """The parts, from a process of its own: gmsh cannot be initialised in one that has loaded the library."""
     require("`convex_parts` of a mesh need", "coacd")
-    vertices, triangles = surface_arrays(surface)
-    given = {"path": sys.path, "most": most, "vertices": vertices.tolist(), "triangles": triangles.tolist()}
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM], input=json.dumps(given), capture_output=True, text=True, check=False
-    )
-    if done.returncode != 0:
-        lines = done.stderr.strip().splitlines() or ["CoACD has ended"]
-        raise ModelError(f"the mesh cannot be divided into convex parts: {lines[-1]}")
-    parts = json.loads(done.stdout.splitlines()[-1])
+    parts = apart(parts_here, *surface_arrays(surface), most, failed=FAILED)
     if not parts:
-        raise ModelError("the mesh cannot be divided into convex parts; is it closed?")
+        raise ModelError(f"{FAILED}; is it closed?")
     return [surface_text(np.array(points, float), np.array(faces, np.uint32)) for points, faces in parts]
+
+
+def parts_here(vertices: NDArray[Any], triangles: NDArray[Any], most: int) -> list[tuple[NDArray[Any], NDArray[Any]]]:
+    """Vertices and triangles of at most `most` parts, in this process. Raises ModelError."""
+    coacd = needed("coacd", "`convex_parts` of a mesh need")
+    coacd.set_log_level("off")
+    mesh = coacd.Mesh(np.array(vertices), np.array(triangles, np.int32))
+    try:
+        found = coacd.run_coacd(mesh, max_convex_hull=most, seed=0)
+    except (RuntimeError, ValueError) as error:
+        raise ModelError(f"{FAILED}: {error}") from None
+    return [(np.asarray(points), np.asarray(faces)) for points, faces in found]
 
 
 def _divide_contacts(tree: Tree, counts: dict[str, int]) -> None:

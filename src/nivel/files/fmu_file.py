@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import io
+import lzma
 import stat
 import zipfile
+import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Final
 
 from nivel.errors import Fault, ModelError
+from nivel.files.target import reason_of
 from nivel.files.xml_source import Document, Element
 from nivel.words.wording import unknown_word
 
 MOST_FILES: Final = 10_000
+LONGEST_NAME: Final = 255  # bytes
 MOST_BYTES: Final = 500 * 10**6  # of all files, unpacked
+DAMAGES: Final = (zipfile.BadZipFile, zlib.error, lzma.LZMAError)
 DESCRIPTION: Final = "modelDescription.xml"
 # what a variable that is connected is called in FMI 3.0 and 2.0
 NUMBER: Final = {3: "Float64", 2: "Real"}
@@ -91,11 +96,14 @@ def unpack(content: bytes, file: str, folder: Path) -> None:
     with _opened(content, file) as packed:
         for each in _checked(packed, file):
             target = folder / each.filename
-            if each.is_dir():
-                target.mkdir(parents=True, exist_ok=True)
-                continue
-            target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_bytes(_content(packed, each, file))
+            content = b"" if each.is_dir() else _content(packed, each, file)
+            try:
+                (target if each.is_dir() else target.parent).mkdir(parents=True, exist_ok=True)
+                if not each.is_dir():
+                    target.write_bytes(content)
+            except (OSError, ValueError) as problem:
+                reason = reason_of(problem) if isinstance(problem, OSError) else str(problem)
+                raise _fault(file, f"`{each.filename[:100]}` cannot be unpacked: {reason}") from None
 
 
 def _fault(file: str, message: str) -> ModelError:
@@ -117,7 +125,7 @@ def _checked(packed: zipfile.ZipFile, file: str) -> list[zipfile.ZipInfo]:
     size = sum(each.file_size for each in found)
     if size > MOST_BYTES:
         raise _fault(file, f"unpacked the archive has {size / 1e6:.0f} MB; up to {MOST_BYTES // 10**6} MB are unpacked")
-    seen: set[str] = set()
+    seen, plain, folders = set[str](), set[str](), set[str]()
     for each in found:
         path = PurePosixPath(each.filename)
         kind = stat.S_IFMT(each.external_attr >> 16)
@@ -126,6 +134,13 @@ def _checked(packed: zipfile.ZipFile, file: str) -> list[zipfile.ZipInfo]:
             raise _fault(file, f"`{each.filename[:100]}` in the archive leads out of its folder")
         if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
             raise _fault(file, f"`{each.filename[:100]}` in the archive is no file, but a link or a device")
+        if any(len(part.encode()) > LONGEST_NAME for part in path.parts):
+            raise _fault(file, f"`{each.filename[:100]}…` in the archive is longer than the name of a file can be")
+        if any(str(folder) in plain for folder in path.parents) or (not each.is_dir() and str(path) in folders):
+            raise _fault(file, f"`{each.filename[:100]}` in the archive is a file and a folder")
+        folders.update(map(str, path.parents))
+        if not each.is_dir():
+            plain.add(str(path))
         if str(path) in seen:
             raise _fault(file, f"`{each.filename[:100]}` stands twice in the archive")
         seen.add(str(path))
@@ -137,7 +152,7 @@ def _content(packed: zipfile.ZipFile, each: zipfile.ZipInfo, file: str) -> bytes
     try:
         with packed.open(each) as opened:
             return opened.read(each.file_size)
-    except (zipfile.BadZipFile, ValueError, OSError, EOFError, RuntimeError, NotImplementedError) as problem:
+    except (*DAMAGES, ValueError, OSError, EOFError, RuntimeError) as problem:
         raise _fault(file, f"`{each.filename[:100]}` in the archive cannot be read: {problem}") from None
 
 

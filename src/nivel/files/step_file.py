@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.extras import needed
+from nivel.extras import needed, require
+from nivel.files.apart import apart
 from nivel.machine.bodies.surface import Triangles
 
 Array = NDArray[np.float64]
@@ -49,6 +50,12 @@ def step_solids(file: str) -> tuple[Solid, ...]:
 
 @lru_cache(maxsize=4)
 def _read(file: str, _changed: int) -> tuple[Solid, ...]:
+    require("STEP files need", "gmsh")
+    return apart(solids_here, file, failed=f"{file} cannot be read")
+
+
+def solids_here(file: str) -> tuple[Solid, ...]:
+    """The same in this process, which a damaged file may end."""
     gmsh = needed("gmsh", "STEP files need")
     with _session(gmsh):
         try:

@@ -11,13 +11,16 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.extras import needed
+from nivel.extras import needed, require
+from nivel.files.apart import apart
 from nivel.flexible.model.model import Array, Whole
 from nivel.flexible.model.solid_records import BoxPart, ConePart, CylinderPart, Part, Solid, SpherePart
 
 TETRAHEDRON_10: Final = 11  # gmsh's number of the element type
 TO_VTK: Final = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh has the edges 23 and 13 the other way round
 MOST: Final = 2e6  # elements: more would fill the memory
+LONGEST: Final = 7200.0  # [s] of meshing
+NEEDS: Final = "a `solid` needs"
 AROUND: Final = 12  # elements around a circle at least
 
 
@@ -32,7 +35,7 @@ class SolidMesh:
 
 @contextmanager
 def _session() -> Iterator[Any]:
-    gmsh = needed("gmsh", "a `solid` needs")
+    gmsh = needed("gmsh", NEEDS)
     started = not gmsh.isInitialized()
     if started:
         gmsh.initialize(interruptible=False)
@@ -51,6 +54,13 @@ def meshed(solid: Solid, step_file: Path | None) -> SolidMesh:
 
     Raises ModelError where the shape cannot be made or meshed.
     """
+    require(NEEDS, "gmsh")
+    what = "the solid" if step_file is None else f"the solid of `{step_file}`"
+    return apart(meshed_here, solid, step_file, failed=f"{what} cannot be meshed", longest=LONGEST)
+
+
+def meshed_here(solid: Solid, step_file: Path | None) -> SolidMesh:
+    """The same in this process, which a damaged file may end."""
     with _session() as gmsh:
         try:
             volumes = _from_step(gmsh, step_file) if step_file is not None else _from_parts(gmsh, solid.parts)

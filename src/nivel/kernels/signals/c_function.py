@@ -16,9 +16,9 @@ from nivel.kernels.record.hook import law
 from nivel.native.function import caller, leaf
 from nivel.native.signature import Signature
 
-# entries of CFunction.address: the function; memory of inputs, state and outputs
-FUNCTION, INPUTS, STATE, OUTPUTS = range(4)
-ADDRESSES = 4
+# entries of CFunction.address: the function; memory of inputs, state and outputs; `fegetenv`, `fesetenv` and memory of what they keep
+FUNCTION, INPUTS, STATE, OUTPUTS, ENVIRONMENT = range(5)
+ADDRESSES = 7
 # entries of CFunction.number
 FAULT, STATUS, CALLS = 0, 1, 2
 NUMBERS = 3
@@ -42,6 +42,21 @@ class CFunction(NamedTuple):
 
 c_function_at = reader(CFunction)
 call_function = caller(Signature("status", ("number", "entry", "entry", "entry")))
+call_environment = caller(Signature("status", ("entry",)))
+
+
+@leaf
+def keep_environment(address, at):
+    """Keep how floating-point numbers are rounded and flushed to zero, which foreign code may change. at : of `fegetenv` in `address`."""
+    if address[at] != 0:
+        call_environment(address[at], address[at + 2])
+
+
+@leaf
+def give_environment_back(address, at):
+    """As it was kept."""
+    if address[at] != 0:
+        call_environment(address[at + 1], address[at + 2])
 
 
 @leaf
@@ -52,7 +67,9 @@ def call(unit, t):
         return ABSENT
     unit.time[0] = t
     unit.number[CALLS] += 1
+    keep_environment(address, ENVIRONMENT)
     status = call_function(address[FUNCTION], t, address[INPUTS], address[STATE], address[OUTPUTS]) & 0xFFFFFFFF
+    give_environment_back(address, ENVIRONMENT)
     unit.number[STATUS] = status
     if status != 0:
         return RETURNED

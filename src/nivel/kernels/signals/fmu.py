@@ -14,14 +14,17 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.arrays import A1, F1, I1, U1
 from nivel.kernels.core.handle import reader
 from nivel.kernels.record.hook import law
+from nivel.kernels.signals.c_function import give_environment_back, keep_environment
 from nivel.native.function import caller, leaf
 from nivel.native.signature import Signature
 
-# entries of Fmu.address: functions; the instance; memory of inputs, outputs, their references, flags and time of a step
+# entries of Fmu.address: functions; the instance; memory of inputs, outputs, their references, flags and time of a step; the environment
+# of floating-point numbers
 (SET, GET, STEP, SETUP, ENTER, LEAVE, INSTANCE, INPUTS, OUTPUTS, INPUT_REFERENCES, OUTPUT_REFERENCES, FLAGS, LAST) = (
     range(13)
 )
-ADDRESSES = 13
+ENVIRONMENT = 13
+ADDRESSES = 16
 # entries of Fmu.number
 VERSION, PHASE, FAULT, CALLS = 0, 1, 2, 3
 NUMBERS = 4
@@ -150,6 +153,8 @@ def output(row):
     if fmu.number[FAULT] == NONE and (fmu.number[PHASE] != RUNNING or t > fmu.time[0]):
         for k in range(fmu.inputs.shape[0]):
             fmu.inputs[k] = real(row[FIRST_INPUT + k])
+        keep_environment(fmu.address, ENVIRONMENT)
         fmu.number[FAULT] = go_on(fmu, t)
+        give_environment_back(fmu.address, ENVIRONMENT)
     value = fmu.outputs[np.int64(real(row[OUTPUT]))] if fmu.number[FAULT] == NONE else np.nan
     return value + 0.0 * row[OUTPUT]

@@ -23,6 +23,7 @@ from nivel.kernels.signals import c_function as kernel
 from nivel.kernels.signals.c_function import CFunction
 from nivel.machine.control.unit_output import CFacts
 from nivel.native import store
+from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
 
 SOURCE = ".c"
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
@@ -48,7 +49,9 @@ class CInstance:
             outputs=np.full(len(facts.outputs), np.nan),
         )
         arrays = (self.record.inputs, self.record.state, self.record.outputs)
-        self.record.address[kernel.INPUTS :] = [array.ctypes.data for array in arrays]
+        self.record.address[kernel.INPUTS : kernel.ENVIRONMENT] = [array.ctypes.data for array in arrays]
+        self._environment = Environment()
+        self.record.address[kernel.ENVIRONMENT :] = self._environment.addresses
         self.handle = Handle(self.record)
 
     @property
@@ -58,9 +61,11 @@ class CInstance:
 
     # --- a run ---
 
+    @keeps_environment
     def begin(self) -> None:
         """Load the function for a run. Raises ModelError where there is none of this name."""
         self.end()
+        guard_exit(f"the C function {self.facts.function} of the block {self.facts.block}")
         self._folder = Path(tempfile.mkdtemp(prefix="nivel-c-"))
         atexit.register(shutil.rmtree, self._folder, ignore_errors=True)
         path = self._folder / f"unit{SUFFIX}"
@@ -80,6 +85,7 @@ class CInstance:
         record.number[:] = 0
         record.time[0], record.outputs[:], record.state[:] = -np.inf, np.nan, self.facts.state
 
+    @keeps_environment
     def end(self) -> None:
         """Unload the library of the last run."""
         self.record.address[kernel.FUNCTION] = 0

@@ -16,13 +16,14 @@ from typing import Any
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.files.fmu_file import UnitDescription, read_description, unknown_variables, unpack
+from nivel.files.fmu_file import MOST_BYTES, UnitDescription, read_description, unknown_variables, unpack
 from nivel.files.sources import read_bytes
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
 from nivel.machine.control.unit_output import FmuFacts
+from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
 
 MOST_MESSAGES = 20
 # an instance that was freed, or never made
@@ -135,9 +136,11 @@ class FmuInstance:
             flags=np.zeros(3, dtype=np.uint32),
             last=np.zeros(1),
         )
-        record.address[kernel.INPUTS :] = [
+        record.address[kernel.INPUTS : kernel.ENVIRONMENT] = [
             array.ctypes.data for array in (record.inputs, record.outputs, *references, record.flags, record.last)
         ]
+        self._environment = Environment()
+        record.address[kernel.ENVIRONMENT :] = self._environment.addresses
         record.number[kernel.VERSION] = self.description.version
         return record
 
@@ -148,10 +151,12 @@ class FmuInstance:
 
     # --- a run ---
 
+    @keeps_environment
     def begin(self) -> None:
         """A new instance for a run, with the parameters of the block. Raises ModelError where it cannot be had."""
         self.end()
         self.messages.clear()
+        guard_exit(f"the FMU of the block {self.facts.block}")
         folder, library = _loaded(self._content, self.description, self.facts)
         self._library = library
         self._instance = self._made(folder)
@@ -203,6 +208,7 @@ class FmuInstance:
         if status > kernel.WARNING:
             raise self._fault("refuses its parameters")
 
+    @keeps_environment
     def end(self) -> None:
         """Free the instance of the last run."""
         if self._instance and self._library is not None:
@@ -234,27 +240,31 @@ class FmuInstance:
         """What a saved state has of it besides what the unit itself saves."""
         return [self.record.number, self.record.time, self.record.outputs]
 
+    @keeps_environment
     def state(self) -> bytes:
         """The state of the unit. Raises ModelError where it cannot be read."""
         if not self.description.keeps_states:
             raise self._fault("cannot save its state, so there is no state of the simulation")
         get, _, free, sized, write, _ = STATES[self.description.version]
         kept, size = ctypes.c_void_p(), ctypes.c_size_t()
-        status = self._call(get, ctypes.byref(kept)) or self._call(sized, kept, ctypes.byref(size))
+        failed = self._fails(get, ctypes.byref(kept)) or self._fails(sized, kept, ctypes.byref(size))
+        if size.value > MOST_BYTES:
+            raise self._fault(f"says that its state has {size.value} bytes")
         content = ctypes.create_string_buffer(max(1, size.value))
-        status = status or self._call(write, kept, content, size)
+        failed = failed or self._fails(write, kept, content, size)
         self._call(free, ctypes.byref(kept))
-        if status > kernel.WARNING:
+        if failed:
             raise self._fault("cannot save its state")
         return content.raw[: size.value]
 
+    @keeps_environment
     def restore(self, content: bytes) -> None:
         """Go back to a state. Raises ModelError where the unit refuses it."""
         _, put, free, _, _, read = STATES[self.description.version]
         kept = ctypes.c_void_p()
-        status = self._call(read, content, ctypes.c_size_t(len(content)), ctypes.byref(kept)) or self._call(put, kept)
+        failed = self._fails(read, content, ctypes.c_size_t(len(content)), ctypes.byref(kept)) or self._fails(put, kept)
         self._call(free, ctypes.byref(kept))
-        if status > kernel.WARNING:
+        if failed:
             raise self._fault("refuses a saved state")
 
     # --- without kernels ---
@@ -314,7 +324,11 @@ class FmuInstance:
         return _variadic(self._library, name, result)
 
     def _call(self, name: str, *arguments: Any) -> int:
-        return _variadic(self._library, name, ctypes.c_int)(ctypes.c_void_p(self._instance), *arguments)
+        """The status; one that FMI does not know is larger than all others."""
+        return _variadic(self._library, name, ctypes.c_uint)(ctypes.c_void_p(self._instance), *arguments)
+
+    def _fails(self, name: str, *arguments: Any) -> bool:
+        return self._call(name, *arguments) > kernel.WARNING
 
     def _fault(self, what: str) -> ModelError:
         said = f": {self.messages[-1]}" if self.messages else ""

@@ -48,6 +48,24 @@ def test_of_a_length_it_is_a_mass_and_of_two_angles_each_has_its_own():
     np.testing.assert_allclose(both.mass_matrix(), np.diag([about + 0.1, about + 0.3]), atol=1e-13)
 
 
+def test_it_is_no_part_of_the_machine():
+    """The mass, the centre and the inertia are those of the bob; a list, a scale or a motion in words names no rotor."""
+    whole = machine().mass_properties()
+    assert (whole.bodies, whole.mass, tuple(whole.centre_of_mass)) == (("bob",), M, (C, 0, 0))
+    np.testing.assert_allclose(np.diag(whole.inertia), [J, J + M * C**2, J + M * C**2], rtol=1e-14)
+    facts = machine().check()
+    assert [body.name for body in facts.bodies] == ["bob"]
+    assert [joint.name for joint in facts.joints] == ["pivot"]
+    assert [freedom.words for freedom in facts.freedoms] == ["pivot.angle: bob moves"]
+    assert "rotor of inertia 0.3 (SI) that turns with pivot.angle" in str(facts)
+    result = machine().simulate(verify=False)
+    assert [body["mass"] for body in result.scene["bodies"]] == [M, 0.0]
+    heavy, light = (
+        machine(PENDULUM.replace("I: 0.3", f"I: {moment}")).simulate(verify=False) for moment in (1e4, 1e-4)
+    )
+    assert heavy.trust.size == light.trust.size
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -14,7 +14,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.notes import Notes
-from nivel.files.rotors import ROTOR
+from nivel.files.rotors import rotors_of
 from nivel.machine import Body, Expression, Friction, Joint, JointSpringDamper, MachineRecord, Marker, Stop
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
@@ -122,24 +122,12 @@ def kinematic_tree(machine: MachineRecord) -> KinematicTree:
 
 def _rotors(tree: KinematicTree) -> dict[str, str]:
     """Bodies that are only the rotor of a coordinate, by name, with the coupling that drives them."""
-    machine, found = tree.machine, {}
-    for coupling in machine.couplings:
-        rotor = coupling.name.removesuffix("_gear")
-        body, joint = machine.body_named.get(rotor), next((each for each in machine.joints if each.name == rotor), None)
-        if (
-            body is None
-            or joint is None
-            or body.inertia is None
-            or not rotor.endswith(f"_{ROTOR}")
-            or joint.bodies != (GROUND, rotor)
-        ):
-            continue
-        terms = {_full(machine, reference): factor for reference, factor in coupling.terms}
-        other = next((each for each in terms if each != f"{rotor}.angle"), None)
-        if len(terms) == 2 and other is not None and abs(terms[other]) == abs(terms[f"{rotor}.angle"]):
-            tree.at[other].armature += body.inertia.xx
-            found[rotor] = coupling.name
-    return found
+    rotors = rotors_of(tree.machine)
+    for rotor, (_, coordinate) in rotors.items():
+        inertia = tree.machine.body_named[rotor].inertia
+        assert inertia is not None
+        tree.at[coordinate].armature += inertia.xx
+    return {rotor: coupling for rotor, (coupling, _) in rotors.items()}
 
 
 def _full(machine: MachineRecord, reference: str) -> str:

@@ -2,7 +2,7 @@
 
 It is a body on the ground that turns by as many radians as the coordinate has radians or metres: its kinetic energy is ½ I ċ², and it is
 exact in all coordinates and formulations. Nothing of it depends on the motion of the bodies: gyroscopic moments of the rotor are left out,
-as the armature of other programs leaves them out.
+as the armature of other programs leaves them out. It is no part of the machine: no mass, list or export contains it.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine.core.record import GROUND
 from nivel.machine.joints.joint import JOINT_COORDINATES
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import shown
-from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 
 KEY: Final = "rotor_inertia"
 ROTOR: Final = "rotor"
@@ -37,6 +38,25 @@ def add_rotors(tree: Tree) -> None:
                 tree.report((*path, coordinate), f"there is no coordinate `{coordinate}`; {_which(free)}")
             else:
                 _add(tree, name, joint, coordinate, value, single=len(free) == 1)
+
+
+def rotors_of(machine: MachineRecord) -> dict[str, tuple[str, str]]:
+    """Bodies that `rotor_inertia` made: name, which is that of their joint too, to their coupling and the coordinate that they follow."""
+    joints, rotors = {joint.name: joint for joint in machine.joints}, {}
+    for coupling in machine.couplings:
+        rotor = coupling.name.removesuffix("_gear")
+        body, joint = machine.body_named.get(rotor), joints.get(rotor)
+        if body is None or body.inertia is None or joint is None or joint.bodies != (GROUND, rotor):
+            continue
+        factors = {".".join(resolve(reference, machine.joints)): factor for reference, factor in coupling.terms}
+        turn = factors.pop(f"{rotor}.angle", None)
+        if (
+            rotor.endswith(f"_{ROTOR}")
+            and turn is not None
+            and [abs(turn)] == [abs(factor) for factor in factors.values()]
+        ):
+            rotors[rotor] = (coupling.name, *factors)
+    return rotors
 
 
 def _which(free: tuple[str, ...]) -> str:

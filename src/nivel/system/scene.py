@@ -43,6 +43,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from nivel.files.rotors import rotors_of
 from nivel.flexible.body.picture import moving_surface
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -72,18 +73,21 @@ BARREL: Final = 0.92  # length of a barrel, of that of the retracted cylinder
 def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     """Scene of a result."""
     joints = [_joint(machine, system, k) for k in range(len(machine.joints))]
+    rotors = rotors_of(machine)
     held: dict[str, list[list[float]]] = {name: [] for name in (*system.bodies, "ground")}
     for joint in joints:
         for body, point in zip(joint["bodies"], joint["points"], strict=True):
-            held[body].append(point)
+            if joint["name"] not in rotors:
+                held[body].append(point)
     bodies = [
         {
             "name": body.name,
             "shape": None if body.shape is None else _shape(body.shape),
             "centre_of_mass": system.record.bodies.centre_b[k].tolist(),
             "points": held[body.name],
-            "mass": float(system.record.bodies.mass[k]),
-            "radius_of_gyration": _gyration(body, system, k),
+            # a rotor is no part: it has no weight, and no size with which others are compared
+            "mass": 0.0 if body.name in rotors else float(system.record.bodies.mass[k]),
+            "radius_of_gyration": 0.0 if body.name in rotors else _gyration(body, system, k),
         }
         for k, body in enumerate(machine.bodies)
     ]

@@ -11,6 +11,7 @@ import numpy as np
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import Fault, ModelError
+from nivel.files.rotors import rotors_of
 from nivel.machine.bodies.inertia import point_mass_inertia
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
@@ -58,7 +59,7 @@ class MassProperties:
 
 
 def mass_properties(machine: MachineRecord, about: str = GROUND, bodies: Sequence[str] = ()) -> MassProperties:
-    """Of these bodies, or of all. about : a marker, a body (its frame), or the ground (the global frame).
+    """Of these bodies, or of all but the rotors of `rotor_inertia`. about : a marker, a body (its frame), or the ground (the global frame).
 
     Raises ModelError for unknown names, for beams, and where the machine cannot be assembled.
     """
@@ -78,7 +79,8 @@ def mass_properties(machine: MachineRecord, about: str = GROUND, bodies: Sequenc
     motion.evaluate(0.0, assemble(machine, motion).y)
     system = motion.system
     place, axes = _frame(machine, system, about)
-    chosen = tuple(bodies) or tuple(machine.body_named)
+    rotors = rotors_of(machine)
+    chosen = tuple(bodies) or tuple(name for name in machine.body_named if name not in rotors)
     parts = system.record.bodies
     mass, moment, inertia = 0.0, np.zeros(3), np.zeros((3, 3))
     for name in chosen:

@@ -10,6 +10,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.assembly.idle_rotations import idle_angles, without_turn
+from nivel.files.rotors import rotors_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array
 
@@ -57,6 +58,7 @@ class _Names:
     def __init__(self, machine: MachineRecord, motion: MotionEquations, free: Freedoms) -> None:
         self.machine, self.motion, self.left = machine, motion, free
         self.system, self.record = motion.system, motion.system.record
+        self.rotors = rotors_of(machine)
         self.labels = list(self.system.layout.coordinates["joint_coordinate"])
         self.idle = np.array([label in idle_angles(machine) for label in self.labels], dtype=bool)
         places = [int(index) for index in self.record.joints.coordinate]
@@ -207,10 +209,13 @@ class _Names:
     def _moving(self, directions: Array) -> str:
         """The bodies that move in these motions, in words."""
         sizes = np.linalg.norm(directions.reshape(-1, self.system.body_count, 6), axis=(0, 2))
-        names = [name for name, size in zip(self.system.bodies, sizes, strict=True) if size > STILL * sizes.max()]
+        moving = sizes > STILL * sizes.max()
+        names = [
+            name for name, moves in zip(self.system.bodies, moving, strict=True) if moves and name not in self.rotors
+        ]
         if len(names) == 1:
             return f"{names[0]} moves"
-        if len(names) == self.system.body_count > 3:
+        if len(names) == self.system.body_count - len(self.rotors) > 3:
             return "all bodies move"
         return f"{', '.join(names[:-1])} and {names[-1]} move"
 

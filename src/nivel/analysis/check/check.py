@@ -29,6 +29,7 @@ from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
+from nivel.files.rotors import rotors_of
 from nivel.kernels.core.status import OK
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import PartFunction
@@ -307,7 +308,11 @@ def check(plan: Plan) -> Check:
     observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
     reactions = unique_reactions(prepared.absolute, loaded=status == OK) if redundancy.redundant_rows else ()
-    modes = _modes(machine)
+    modes, rotors = _modes(machine), rotors_of(machine)
+    gears = {
+        coupling: f"rotor of inertia {record.bodies.inertia_b[system.bodies.index(rotor), 0, 0]:.4g} (SI) that turns with {coordinate}"
+        for rotor, (coupling, coordinate) in rotors.items()
+    }
     measured = equations(machine, measured=True)
     measured.evaluate(0.0, assembly.y)
     labels = system.layout.coordinates["joint_coordinate"]
@@ -325,11 +330,15 @@ def check(plan: Plan) -> Check:
                 modes[k],
             )
             for k, name in enumerate(system.bodies)
-            if name in own.body_named
+            if name in own.body_named and name not in rotors
         ),
         beams=tuple(beam_facts(beam) for beam in own.beams),
-        joints=tuple(_joint(system, k, joint, values) for k, joint in enumerate(machine.joints)),
-        couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
+        joints=tuple(
+            _joint(system, k, joint, values) for k, joint in enumerate(machine.joints) if joint.name not in rotors
+        ),
+        couplings=tuple(
+            gears.get(coupling.name) or coupling_in_words(machine, coupling) for coupling in machine.couplings
+        ),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
         hydraulics=_hydraulics(machine, system),

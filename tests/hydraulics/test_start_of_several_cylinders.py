@@ -152,3 +152,36 @@ def test_a_load_that_pulls_is_held_by_the_rods():
     found, pressures = pushes(beam(cylinders, force=(0.0, 9.81)), cylinders)
     assert found == pytest.approx([-WEIGHT / 2, -WEIGHT / 2], rel=1e-7)
     assert pressures["hydraulics.c0.pressure_A"] == pytest.approx(3 * BAR, rel=1e-9)
+
+
+@pytest.mark.parametrize("torque", [0.0, 900.0, -900.0])
+def test_a_charged_closed_loop_starts_at_its_charge_pressure_and_its_load_on_top(torque):
+    """p_high - p_low = M/(D i), and nothing flows into the low side but what leaves it, so that its pressure stays for a while; from the
+    pressure of the tank the charge pump would raise it by 0.8 bar in 0.1 ms."""
+    ratio, displacement, speed = 14.0, 75e-6 / (2 * math.pi), 2000 * 2 * math.pi / 60
+    check = {"type": "check-valve", "flow": 80e-3 / 60, "pressure_drop": 3 * BAR}
+    loop = machine(
+        {
+            "bodies": {"wheel": {"mass": 100, "inertia": [20, 20, 20]}},
+            "joints": {"axle": {"type": "revolute", "bodies": ["ground", "wheel"], "point": [0, 0, 0], "axis": [0, 0, 1]}},
+            "forces": {"load": {"type": "torque", "body": "wheel", "vector": [0, 0, torque]}},
+            "hydraulics": {
+                "T": {"type": "tank", "pressure": TANK},
+                **{name: {"type": "volume", "volume": 0.8e-3} for name in ("a", "b", "feed")},
+                "charge": {"type": "pump", "ports": {"A": "T", "B": "feed"}, "speed": speed, "displacement": 18e-6 / (2 * math.pi)},
+                "relief": {"type": "relief-valve", "ports": {"P": "feed", "T": "T"}, "opens_at": 24 * BAR, "opening_range": 6 * BAR,
+                           "flow": 1e-3, "pressure_drop": 30 * BAR},
+                "to_a": {**check, "ports": {"A": "feed", "B": "a"}},
+                "to_b": {**check, "ports": {"A": "feed", "B": "b"}},
+                "motor": {"type": "hydraulic-motor", "ports": {"A": "a", "B": "b", "L": "T"}, "displacement": displacement,
+                          "coordinate": "axle.angle", "ratio": ratio, "case_leakage": 2e-12},
+            },
+        }
+    )  # fmt: skip
+    result = loop.simulate(integrator="radau", tolerance=1e-8, duration=1e-4, output_interval=1e-4, verify=False)
+    a, b, feed = (result.array(f"hydraulics.{name}.pressure") for name in ("a", "b", "feed"))
+    low = np.minimum(a, b)
+    assert a[0] - b[0] == pytest.approx(-torque / (displacement * ratio), abs=1.0)
+    assert 24 * BAR < low[0] < feed[0] < 30 * BAR
+    assert abs(low[-1] - low[0]) < 1e-3 * BAR
+    assert abs(feed[-1] - feed[0]) < 1e-3 * BAR

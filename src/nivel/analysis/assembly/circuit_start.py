@@ -121,6 +121,16 @@ def _refuse_strokes(machine: MachineRecord, system: System) -> None:
         raise ModelError(faults)
 
 
+@dataclass(frozen=True)
+class _Loaded:
+    """Line `high` of a motor that carries a load: its pressure follows that of the line `low`, by `ratio` from `offset` [Pa] on."""
+
+    high: int
+    low: int
+    ratio: float
+    offset: float
+
+
 class _Start:
     """Pressures of nodes and states of circuits on their way to the start."""
 
@@ -135,6 +145,7 @@ class _Start:
         self.pressure = np.array([self._at_first(k, node) for k, node in enumerate(self.nodes)])
         self.held = {k for k, node in enumerate(self.nodes) if node.start is not None}
         self.gas = [node for node in self.nodes if node.energy != NONE]
+        self.loaded: list[_Loaded] = []  # lines of motors, until the circuit is at rest
 
     def _given(self, k: int) -> float:
         return float(self.circuit.pressure[k])
@@ -254,29 +265,43 @@ class _Start:
                 return
         self.pressure[own] = found[own]
         self.held |= set(own)
+        if pair.b is not None and len(own) == 2 and self._motor_between(pair) is not None:
+            high, low = sorted((pair.a, pair.b), key=lambda k: -float(found[k]))
+            ratio = self._ratio(effect[high], effect[low])
+            self.loaded.append(_Loaded(high, low, ratio, float(found[high] - ratio * found[low])))
 
     def _motor_between(self, pair: _Pair) -> HydraulicMotor | None:
         names = {self.nodes[k].name for k in (pair.a, pair.b) if k is not None}
         motors = (each for each in self.machine.hydraulics if isinstance(each, HydraulicMotor))
-        return next((each for each in motors if set(each.ports.values()) == names), None)
+        return next((each for each in motors if {each.ports["A"], each.ports["B"]} == names), None)
 
     # --- rest ---
 
     def come_to_rest(self) -> None:
-        """Let all states that are not held go where they stay."""
-        fixed = {self.nodes[k].state for k in self.held}
+        """Let all states that are not held go where they stay; the line of a loaded motor on its low side too, if there is such a place,
+        with the load on top of it."""
+        before, loaded = self.y.copy(), self.loaded
+        if self._relax() or not loaded:
+            return
+        self.y[:], self.loaded = before, []
+        self._relax()
+
+    def _relax(self) -> bool:
+        """Whether the states come to rest."""
+        fixed = {self.nodes[k].state for k in self.held - {pair.low for pair in self.loaded}}
         fixed |= {state for node in self.nodes for state in (node.energy, node.warmth)}
         fixed |= {k for k, fact in enumerate(self.system.states) if fact.sampled or fact.name.startswith("hydraulics.")}
         own = _states_of_circuits(self.system)
         free = np.array([k for k in own if k not in fixed], dtype=int)
         if not len(free):
-            return
+            return True
         step, scale = FIRST, np.array([self.system.states[k].scale for k in free])
         for _ in range(MOST):
             rate = self._rates(free)
             if rate is None or np.all(np.abs(rate) <= AT_REST * scale):
-                return
+                return rate is not None
             step *= FACTOR if self._step(free, scale, step) else 1.0 / FACTOR**2
+        return False
 
     def refuse_engines(self) -> None:
         """Engines that cannot turn what they drive: they have no steady speed."""
@@ -300,6 +325,12 @@ class _Start:
         for node in self.gas:
             self._warm(node)
         status, rate = self.motion.evaluate(0.0, self.y)
+        if status == OK and self.loaded:
+            for pair in self.loaded:
+                node, pressure = self.nodes[pair.high], pair.offset + pair.ratio * self._given(pair.low)
+                fluid, room = self.circuit.fluid[node.fluid], self.circuit.room[pair.high]
+                self.y[self.first + node.state] = mass_at(fluid, room, float(self.circuit.volume[pair.high]), pressure)
+            status, rate = self.motion.evaluate(0.0, self.y)
         found = rate[self.first + free]
         return found if status == OK and np.isfinite(found).all() else None
 

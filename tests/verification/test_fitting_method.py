@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from nivel.errors import ModelError
+from nivel.files.reader import parse_machine
+from nivel.files.writer import write_machine
 from simulating import G, hinge, machine, simulate, slide, solid
 
 SHORT = {"duration": 0.2}
@@ -224,3 +226,11 @@ def test_check_tells_the_method_of_the_run():
     found, run = machine(sections).check(), simulate(sections, **SHORT)
     assert (found.settings.integrator, found.reason) == (run.settings["integrator"], run.settings["reason"])
     assert "method: dopri5, because no method is named; where it is stiff, radau goes on" in str(found)
+
+
+def test_what_is_named_is_written():
+    """A file that names the integrator or the tolerance that is the default of the record says so when it is written."""
+    sections = block(STIFF) | {"simulation": {"integrator": "rk4", "tolerance": 1e-6}}
+    again = parse_machine(write_machine(machine(sections).record))
+    assert again.simulation.model_fields_set == {"integrator", "tolerance"}
+    assert parse_machine(write_machine(machine(block(STIFF)).record)).simulation.model_fields_set == set()

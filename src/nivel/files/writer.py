@@ -75,11 +75,21 @@ def _fields(record: Record) -> dict[str, Any]:
     plain = {}
     for name, field in type(record).model_fields.items():
         value = getattr(record, name)
-        if name == "type" or name in type(record).always or value != field.get_default(call_default_factory=True):
+        is_default = value == field.get_default(call_default_factory=True) and not _says(value)
+        if name == "type" or name in type(record).always or name in _said(record) or not is_default:
             plain[field.alias or name] = _plain(value)
     kind = {"type": plain.pop("type")} if "type" in plain else {}
     in_lines = isinstance(record, MachineRecord | Body | SimulationSettings) or any(map(_is_tall, plain.values()))
     return {**kind, **plain} if in_lines else _Line({**kind, **plain})
+
+
+def _said(record: Record) -> set[str]:
+    """Fields that mean something where they are given, also with their defaults."""
+    return record.model_fields_set & type(record).where_given
+
+
+def _says(value: object) -> bool:
+    return isinstance(value, Record) and bool(_said(value))
 
 
 class _Line(dict[str, Any]):

@@ -35,12 +35,14 @@ def run_attributes(
     source : text of the machine's file. reason : why it has its integrator where nobody asked for it.
     """
     system, assembly = prepared.motion.system, prepared.assembly
-    unnamed = {"integrator"} if names_no_integrator(machine) else set()  # what the file says to leave to nivel
+    # what the file leaves to nivel
+    simulation = machine.simulation
+    unnamed = simulation.where_given - simulation.model_fields_set if names_no_integrator(machine) else frozenset()
     coordinates = system.layout.coordinates["joint_coordinate"]
     return {
         "machine": machine.name,
         "machine_record": machine.model_dump_json(
-            by_alias=True, exclude_none=True, exclude={"simulation": unnamed} if unnamed else None
+            by_alias=True, exclude_none=True, exclude={"simulation": set(unnamed)} if unnamed else None
         ),
         "machine_source": source,
         "scene": json.dumps(

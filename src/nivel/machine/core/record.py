@@ -68,6 +68,7 @@ class Record(BaseModel, metaclass=RecordClass):
     # keys that mean a field too, and its name
     _spellings: ClassVar[Mapping[str, str]] = {}
     always: ClassVar[frozenset[str]] = frozenset()  # fields that a file is given also with their defaults
+    where_given: ClassVar[frozenset[str]] = frozenset()  # the same where they were given
 
     @checked_arguments
     def __init__(self, /, **data: Any) -> None:
@@ -108,6 +109,7 @@ class Record(BaseModel, metaclass=RecordClass):
                     "tagged",
                     "collection",
                     "always",
+                    "where_given",
                     "model_config",
                     "usual",
                     "model_rebuild",

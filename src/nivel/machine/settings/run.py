@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import ValidationInfo, field_validator
 
@@ -125,6 +125,8 @@ class SimulationSettings(Checked):
     Integrators that choose their steps try `step` first, and keep the motion within ten times the `tolerance` (relative to the largest
     value of each coordinate so far, or the size of the machine).
     """
+
+    where_given: ClassVar[frozenset[str]] = frozenset({"integrator", "step", "tolerance"})
 
     duration: Duration = Field(default=1.0, description="simulated time, e.g. 8 or '8 s'")
     step: Duration = Field(

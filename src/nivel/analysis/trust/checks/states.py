@@ -9,8 +9,9 @@ from nivel.analysis.trust.subject import Run
 from nivel.results.peaks import peak
 from nivel.results.trust import Item, number
 
-# A state whose values stay below this share of its scale is not followed to the tolerance.
-SMALL = 0.01
+# A state whose values stay below this share of its scale is not followed, and where the tolerance is finer below the share of which that is
+# FOLLOWED.
+SMALL, FOLLOWED = 0.01, 1e-4
 
 
 def _controls_errors(run: Run) -> bool:
@@ -32,12 +33,13 @@ class SmallState:
 
 def look(run: Run) -> list[SmallState]:
     """The small states; scales of components of circuits are those of their components."""
+    small = min(SMALL, (run.plan.settings.tolerance or 1.0) / FOLLOWED)
     out, components = [], {component.name for component in run.machine.hydraulics}
     for fact in run.prepared.motion.system.states:
         if fact.integral or fact.name.partition(".")[0] in components:
             continue
         largest = peak(run.result, fact.result).value
-        if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
+        if not fact.sampled and 0.0 < largest < small * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return out
 

@@ -10,9 +10,12 @@ from calculix_decks import CASES, ELASTIC, ORIENTATION, STRESSES, block, deck, d
 from nivel.flexible.foreign.cards import CARDS, NO_STRESS, REFUSED, USED, WITHOUT_INFLUENCE
 from nivel.flexible.foreign.matrix import FormatError
 from nivel.flexible.foreign.read_mesh import read_mesh
+from nivel.flexible.foreign.shells import expansion
 from nivel.flexible.foreign.solids import blocks_of
 from nivel.flexible.foreign.stress import UnknownStressError, elastic_blocks
 from nivel.flexible.model.solid_elements import SolidElements
+from test_shells import E
+from test_shells import deck as shell_deck
 
 # Dhondt, CalculiX CrunchiX User's Manual 2.20, section 7, and the keywords that its program reads beside these
 CALCULIX = """AMPLITUDE, BASE MOTION, BEAM GENERAL SECTION, BEAM SECTION, BOUNDARY, BUCKLE, CFD, CFLUX, CHANGE CONTACT TYPE, CHANGE
@@ -125,6 +128,45 @@ def test_modulus_and_shear_across_the_fibres(tmp_path):
     slopes = e[[0, 3, 5, 3, 1, 4, 5, 4, 2]].T.reshape(-1, 3, 3)
     moved = np.stack([(elements.position @ slope.T).ravel() for slope in slopes], axis=1)
     np.testing.assert_allclose(elements.stress(moved), np.tile(stress, (len(elements.stations), 1, 1)), atol=1e-9)
+
+
+def test_axes_of_shells_are_projected_onto_them(tmp_path):
+    """A strip that rises at 40° along x: x of the material is along it, z is its normal, with and without *ORIENTATION."""
+    c, s = np.cos(np.radians(40.0)), np.sin(np.radians(40.0))
+    text = shell_deck("S4", place=lambda x, y: (c * x, y, s * x)).replace(f"*ELASTIC\n{E}, 0.3", ELASTIC["engineering"])
+    for more in ("", "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n0., 500., 0., 0., 500., 1."):
+        given = text if not more else more + "\n" + text.replace("MATERIAL=S", "MATERIAL=S, ORIENTATION=AXES")
+        (tmp_path / "deck.inp").write_text(given, encoding="utf-8")
+        mesh = expansion(read_mesh(tmp_path / "deck.inp")).mesh
+        place = {int(number): k for k, number in enumerate(mesh.numbers)}
+        (shells,) = elastic_blocks(mesh, blocks_of(mesh, place, mesh.places), place, 1.0, 1.0)
+        assert shells.elasticity is not None
+        for number, found in zip(mesh.element_numbers["C3D8I"], shells.elasticity[:, 0], strict=True):
+            centre, normal = mesh.planes[number]
+            along = np.array([1.0, 0, 0]) if not more else (centre - (0, 500, 0)) * (1, 1, 0)
+            along = along - (along @ normal) * normal
+            x = along / np.linalg.norm(along)
+            np.testing.assert_allclose(normal, [-s, 0.0, c], atol=1e-12)
+            wanted = tensor(orthotropic(), np.array([x, np.cross(normal, x), normal]))
+            np.testing.assert_allclose(found, wanted, atol=1e-9 * wanted.max())
+
+
+def test_steps_of_strain_between_materials_are_no_error_of_the_mesh(tmp_path):
+    """Two bars in series, of which each has its uniform strain: between them strain has a step, and finer elements would add nothing."""
+    text = (
+        deck("C3D8R", "iso", "", "", "iso").replace("C3D8R", "C3D8").replace(ELASTIC["iso"], "*ELASTIC\n70000., .3", 1)
+    )
+    elements = elements_of(tmp_path, text)
+    assert [part.blocks[0].material for part in elements.by_material] == ["M1", "M2"]
+    x = elements.position[:, 0]
+    border = elements.position[elements.by_material[0].stations, 0].max()
+    moved = np.zeros((len(x), 3))
+    moved[:, 0] = np.where(x <= border, 3e-3 * x, 3e-3 * border + 1e-3 * (x - border))
+    moved = moved.ravel()[:, None]
+    np.testing.assert_allclose(elements.energy_error(moved), 0.0, atol=1e-20)
+    assert (
+        elements.smoothing_energy(moved)[0] > 0.01 * elements.strain_energy(moved)[0]
+    )  # over the step it would be large
 
 
 PLAIN = deck("C3D8", "iso-t", "", "uniform", "")

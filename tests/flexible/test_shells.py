@@ -86,7 +86,7 @@ def reduced(folder, interfaces, reduction):
     return reduce(model_file(folder, interfaces=interfaces, reduction=reduction)).body
 
 
-def write_matrices(folder, text, poisson=0.3):
+def write_matrices(folder, text, poisson=0.3, digits=16):
     """Matrices of S8R as CalculiX writes them: those of C3D20R, strain at 2 × 2 × 2 points and mass at 3 × 3 × 3, by solids' nodes in
     the order of the nodes of the shells, by whose numbers the rows are named."""
     mesh = mesh_of(folder, text)
@@ -117,7 +117,9 @@ def write_matrices(folder, text, poisson=0.3):
     for name, each in (("sti", stiffness), ("mas", mass)):
         matrix = sp.coo_array(sp.triu(sp.csc_array((each.ravel(), (i, j)))))
         np.savetxt(
-            folder / f"deck.{name}", np.column_stack([matrix.row + 1, matrix.col + 1, matrix.data]), fmt="%d %d %.16e"
+            folder / f"deck.{name}",
+            np.column_stack([matrix.row + 1, matrix.col + 1, matrix.data]),
+            fmt=f"%d %d %.{digits}e",
         )
     (folder / "deck.dof").write_text("".join(f"{node}.{axis}\n" for node, _ in layers for axis in (1, 2, 3)))
 
@@ -349,3 +351,19 @@ def test_a_rigid_group_of_the_deck_holds_the_nodes_of_shells(tmp_path):
         ModelError, match=r"RIGID BODY turns about the straight line .* `interfaces: {NAME: {set: ROOT}}`"
     ):
         reduced(tmp_path, "root: {node: 500}", "modes: 6")
+
+
+def test_thin_shells_whose_matrices_have_too_few_digits_are_told(tmp_path):
+    """With 13 digits after the point, as CalculiX writes them; not with 16. Thinner still, they are refused."""
+    text = deck("S8R", cells=(6, 6), size=(100.0, 100.0), section="0.1")
+    path = model_file(tmp_path, interfaces="", reduction="modes: 6, method: normal-modes")
+    for digits in (16, 13):
+        write_matrices(tmp_path, text, digits=digits)
+        (tmp_path / "deck.inp").write_text(text, encoding="utf-8")
+        told = [each for each in reduce(path).findings.statements if "too few digits" in each]
+        assert len(told) == (digits == 13)
+    text = text.replace("\n0.1\n", "\n0.01\n")
+    write_matrices(tmp_path, text, digits=13)
+    (tmp_path / "deck.inp").write_text(text, encoding="utf-8")
+    with pytest.raises(ModelError, match="the stiffness matrix has too few digits for a body as thin as this"):
+        reduce(path)

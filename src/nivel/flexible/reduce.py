@@ -110,6 +110,9 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
     say("computing the modes of the whole model for comparison", 0.7)
     error = mesh_error(located, model, modes, eigenvalues)
     findings = findings_of(body, attachments, boundary, basis, found, modes, error)
+    share, text = checks.digits(body, (2.0 * np.pi * findings.full[0]) ** 2) if findings.full else (0.0, "")
+    if share > checks.FEW_DIGITS:
+        raise _at_source(located, text[0].lower() + text[1:])
     body.forget_factor()
     say("computing inertia invariants and stress modes", 0.88)
     reduced = ReducedBody(

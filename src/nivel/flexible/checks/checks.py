@@ -22,10 +22,17 @@ POINT: Final = 1e-10  # of mass times size², below which an inertia is none
 LIGHTEST, DENSEST = 0.01, 1e5  # [kg/m^3]
 NEGATIVE: Final = 1e-9  # share of the largest eigenvalue, below which a negative one is round-off
 LANCZOS: Final = 60  # vectors
+MORE_DIGITS: Final = "Take larger or thicker elements, or matrices with more digits"
 ONE_POINT: Final = (
     "Elements with strain at their middle alone (C3D8R, and S4R, which is one layer of these) bend without any: take S4 or S8R, C3D8I or "
     "C3D20R, in their place"
 )
+DIGITS, FEW_DIGITS = (
+    1e-4,
+    0.02,
+)  # energy of rigid motions by that of the lowest mode: from where it is told, and refused
+SPREAD: Final = 8.0  # times this the energy of a mode was wrong, of thin plates as CalculiX writes them
+THIN: Final = 1e-5  # frequency of rigid motions by that of a wave along the body, above which digits are missing
 SHOWN: Final = 6  # nodes that a message names
 
 
@@ -254,8 +261,28 @@ def _power(ratio: float) -> str:
     return f", about 1e{exponent}: {meaning}; check `units`, and the units of densities"
 
 
+def rigid_energy(body: FreeBody) -> float:
+    """[1/s²] the largest energy of a rigid motion by its kinetic energy at 1 rad/s: zero but for the digits of the stiffness matrix."""
+    return float(np.abs(np.linalg.eigvalsh(body.rigid.T @ (body.K @ body.rigid))).max())
+
+
+def digits(body: FreeBody, lowest: float) -> tuple[float, str]:
+    """Energy of rigid motions as a share of that of the lowest mode, with eigenvalue `lowest` [1/s²], and what it means."""
+    share = rigid_energy(body) / max(lowest, 1e-300)
+    return share, (
+        f"Rigid motions store {share:.2g} of the energy of the lowest mode: the stiffness matrix has too few digits for a body as thin as "
+        f"this, and the lowest frequencies may be wrong by {50.0 * SPREAD * share:.2g} %. {MORE_DIGITS}"
+    )
+
+
 def mechanism(body: FreeBody, error: NoStiffnessError) -> str:
-    """Which nodes can move although no rigid motion is left."""
+    """Which nodes can move although no rigid motion is left; or that the digits of the matrix are too few to know."""
+    noise, speed = np.sqrt(rigid_energy(body)), wave_speed(body.model)
+    if speed is not None and noise > THIN * 2.0 * np.pi * speed / body.model.size:
+        return (
+            f"the stiffness matrix has too few digits for a body as thin as this: rigid motions store the energy of "
+            f"{noise / (2.0 * np.pi):.2g} Hz, and a motion that is not rigid stores none. {MORE_DIGITS}"
+        )
     moved = np.nan_to_num(body.model.node_motion(error.motion[:, None])[:, :, 0])
     size = np.abs(moved).max(axis=1)
     nodes = np.argsort(size)[::-1]

@@ -10,7 +10,7 @@ import numpy as np
 from nivel.flexible.body.body import MeshError
 from nivel.flexible.body.invariants import Invariants
 from nivel.flexible.body.mass_invariants import invariants
-from nivel.flexible.checks.checks import ONE_POINT
+from nivel.flexible.checks.checks import DIGITS, ONE_POINT, digits
 from nivel.flexible.model.model import AXES, Array
 from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.reduction.bases import Basis
@@ -116,6 +116,7 @@ def findings_of(
         statements=[
             *_statements(full, reduced, found),
             *_hourglass_statement(body, values, whole),
+            *_digits_statement(body, values),
             *_mesh_statement(error),
         ],
         notes=list(model.notes),
@@ -219,6 +220,11 @@ def _hourglass_statement(body: FreeBody, values: Array, modes: Array) -> list[st
         f"{len(bad)} of {len(values)} modes of the free body are hourglass modes: in mode {first + 1} at {frequency:.4g} Hz strains of the "
         f"elements make {strained:.2g} % of the energy, the rest is hourglass control. {ONE_POINT}."
     ]
+
+
+def _digits_statement(body: FreeBody, values: Array) -> list[str]:
+    share, text = digits(body, float(values[0])) if len(values) else (0.0, "")
+    return [f"{text}."] if share > DIGITS else []
 
 
 def _mesh_statement(error: MeshError | None) -> list[str]:

@@ -103,7 +103,10 @@ def _card(text: str, line: Line) -> Card:
         name, _, value = part.partition("=")
         options[_squeezed(name)] = value.strip().strip('"')
     squeezed = _squeezed(first[1:])
-    keyword = CARDS.get(squeezed, " ".join(first[1:].upper().split()))
+    plain = " ".join(first[1:].upper().split())
+    keyword = CARDS.get(squeezed) or CARDS.get(
+        squeezed.removesuffix("S"), plain
+    )  # CalculiX looks at the begin of a keyword
     if problem := refusal(keyword):
         raise FormatError(problem, line)
     return Card(keyword, options, line)

@@ -18,9 +18,10 @@ from nivel.flexible.model.sparse import Sparse
 
 MEAN: Final = ("C3D8", INCOMPATIBLE)  # elements of one temperature
 C3D20: Final = "C3D20"
-BARLOW: Final = (
-    "stress of elements C3D20 is that of 2 × 2 × 2 points, where it is most accurate; CalculiX takes 3 × 3 × 3 points"
-)
+TOLD: Final = {
+    C3D20: "stress of elements C3D20 is that of 2 × 2 × 2 points, where it is most accurate; CalculiX takes 3 × 3 × 3 points",
+    "C3D6": "stress of elements C3D6 is that of their two points; CalculiX 2.20 exchanges nodes above and below in its result file",
+}  # where nodal stress is another one than in a result file of CalculiX
 SAME_ENERGY, LIKE_ENERGY = (
     0.01,
     0.3,
@@ -65,7 +66,7 @@ def with_elements(
     other = _other_energy(elements, model, springs=mesh.springs, tolerance=LIKE_ENERGY if loose else SAME_ENERGY)
     if other:
         return _without_stress(model, other)
-    told = (BARLOW,) if C3D20 in mesh.elements else ()
+    told = [text for kind, text in TOLD.items() if kind in mesh.elements]
     return model.changed(elements=elements, volume=elements.volume, notes=(*model.notes, *_steps(elements), *told))
 
 

@@ -64,6 +64,20 @@ def test_what_the_joints_leave_free_stays():
     assert sim.time == pytest.approx(0.1)
 
 
+def test_the_energy_balance_goes_on_from_the_new_place():
+    """What the place gives in energy is no error of the steps, and a state from before has its own balance again."""
+    sim = arm().start()
+    sim.advance(0.1)
+    before, error, energy = sim.state, sim["energy_error"], sim["kinetic_energy"] + sim["potential_energy"]
+    sim.place({"shoulder.angle": -1.0}, rates={"shoulder.angle": 5.0})
+    assert abs(sim["kinetic_energy"] + sim["potential_energy"] - energy) > 20.0
+    assert sim["energy_error"] == pytest.approx(error, abs=1e-12)
+    sim.advance(0.1)
+    assert abs(sim["energy_error"]) < 1e-5
+    sim.restore(before)
+    assert sim["energy_error"] == error
+
+
 def test_turns_are_counted_and_events_begin_on_their_new_side():
     sim = arm().start()
     sim.place({"shoulder.angle": 2 * np.pi + 0.5})

@@ -275,7 +275,7 @@ class Simulation:
         """Give joint coordinates [m, rad] and their rates [m/s, rad/s] other values, with all joints closed.
 
         Coordinates that the joints leave free keep their values and rates. What no coordinate describes, as a body that nothing holds,
-        moves as little as it can. The time, states of elements and inputs stay.
+        moves as little as it can. The time, states of elements and inputs stay, and the energy balance goes on from the new place.
         Raises ModelError for an unknown name, for values that the joints do not allow (nothing is changed then), for machines with
         flexible bodies, and where the simulation is over.
         """
@@ -291,7 +291,7 @@ class Simulation:
         reference, states = system.record.coordinates.reference, y[len(y) - len(system.start_of_states) :]
         reference = self._measured(reference)
         placed = self._placing.placed(self.time, posture, reference, states.copy(), wanted)
-        kept = self.state
+        kept, error = self.state, float(self._view("energy_error"))
         y[:] = self._run.previous[:] = placed.y
         reference = system.record.coordinates.reference
         reference[:] = placed.reference
@@ -301,6 +301,8 @@ class Simulation:
             self.restore(kept)
             message = "joint coordinates cannot be set in these coordinates: use coordinates='relative' or 'absolute'"
             raise ModelError(Fault("", 0, 0, "coordinates", message))
+        system.record.control.energy[2] += float(self._view("energy_error")) - error  # the balance goes on from here
+        self._observe()
 
     def _measured(self, reference: NDArray[np.float64]) -> NDArray[np.float64]:
         """Reference of the measured coordinates; of joints those that the frame shows, with all their turns."""

@@ -214,6 +214,7 @@ def test_decks_as_they_come(tmp_path):
         ("500.\n120000.", "0.\n120000.", "must ascend"),
         ("210000., .3,", "2e5e5, .3,", "cannot be read: `2e5e5"),
         ("*ELEMENT, TYPE=C3D8,", "*ELEMENT,", "needs `TYPE=`"),
+        ("*ELEMENT", "*ASSEMBLY\n*NODE\n1, 0., 0., 7.\n*ELEMENT", "node 1 stands in a part and in the assembly"),
     ],
 )
 def test_what_cannot_be_followed_is_refused_with_its_line(tmp_path, old, new, words):
@@ -234,10 +235,18 @@ def test_what_cannot_be_followed_is_refused_with_its_line(tmp_path, old, new, wo
         ("ELSET=E1, MAT", "ELSET=E2, MAT", "element 1 has no material"),
         ("*SOLID", "*TEMPERATURE\nNALL, 20.\n*SOLID", "changes temperatures in a step"),
         ("NALL, 260.", "NALL, 260., 5.", "gradients"),
+        (
+            "*SOLID",
+            "*ORIENTATION, NAME=AXES\nLIST\n*ELASTIC, TYPE=ORTHO\n9., 1., 9., 1., 1., 9., 1., 1.\n1.\n*SOLID",
+            r"\*ORIENTATION .* distribution",
+        ),
         ("*SOLID", "*ELEMENT, TYPE=F3D8\n9, 1, 2, 3, 4, 5, 6, 7, 8\n*SOLID", "elements F3D8"),
     ],
 )
 def test_what_is_no_elasticity_has_no_stress_by_name(tmp_path, old, new, words):
     assert old in PLAIN
+    text = PLAIN.replace(old, new, 1)
     with pytest.raises(UnknownStressError, match=words):
-        elements_of(tmp_path, PLAIN.replace(old, new, 1))
+        elements_of(
+            tmp_path, text if "LIST" not in new else text.replace("MATERIAL=M1", "MATERIAL=M1, ORIENTATION=AXES")
+        )

@@ -56,7 +56,8 @@ def stress_modes(body: ReducedBody) -> StressModes:
     """The modal stresses. Raises ModelError where the body has none."""
     if body.stress is None:
         raise ModelError(
-            f"the body {body.name} knows no stress: reduce it with `recovery: {{stress: true}}` from a model with elements"
+            f"the body {body.name} knows no stress: reduce it with `recovery: {{stress: true}}` from a model with elements of known "
+            "elasticity; the page of its reduction says why it is not known"
         )
     return body.stress
 

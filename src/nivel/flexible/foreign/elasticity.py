@@ -177,7 +177,7 @@ def orientation(card: Card, lines: Sequence[list[str]]) -> Orientation:
         "COORDINATES",
     )
     points = np.zeros((2, 3))
-    if odd or other or not lines or len([part for part in lines[0] if part]) < 2:
+    if odd or other or not lines or len([part for part in lines[0] if part]) < 2 or any(lines[0][6:]):
         what = f"with {odd[0]}" if odd else "by a system, a definition or a distribution of another kind"
         return Orientation(
             cylindrical, points, card.line, problem=f"*ORIENTATION {what} (line {card.line}) cannot be followed"

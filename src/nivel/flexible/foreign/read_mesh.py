@@ -73,6 +73,7 @@ class _Input:
         self.temperatures: list[tuple[str, float]] = []
         self.law: Law | None = None
         self.instances = self.coupling = self.steps = 0
+        self.assembled = False
 
     def mesh(self, path: Path) -> Mesh:
         """Raises FormatError."""
@@ -107,6 +108,7 @@ class _Input:
     def _begin(self, card: Card) -> None:
         """What a keyword alone says."""
         self.pending, self.lines, line = [], [], card.line
+        self.assembled |= card.keyword in ("PART", "INSTANCE", "ASSEMBLY")
         self.out.springs |= card.keyword in STORING or card.name("TYPE") in SPRINGS
         if "INPUT" in card.options:
             raise FormatError(
@@ -183,7 +185,7 @@ class _Input:
                     f"*INSTANCE moves its nodes by `{', '.join(parts)[:60]}`; write a flat input file", line
                 )
             case "NODE":
-                self._node(card, parts)
+                self._node(card, parts, line)
             case "ELEMENT" if card.name("TYPE") in SOLIDS:
                 self._element(card, parts)
             case "ELEMENT" if card.name("TYPE") in SHELLS:
@@ -216,10 +218,12 @@ class _Input:
                 assert card is not None
                 raise FormatError(f"element {self.pending[0]} of type {card.name('TYPE')} has too few nodes", card.line)
 
-    def _node(self, card: Card, parts: list[str]) -> None:
+    def _node(self, card: Card, parts: list[str], line: Line) -> None:
         number = int(parts[0])
         place = [fortran_number(part) if part else 0.0 for part in [*parts[1:4], "", "", ""][:3]]
         if self.places.setdefault(number, place) != place:
+            if self.assembled:
+                raise FormatError(f"node {number} stands in a part and in the assembly; write a flat input file", line)
             self.moved.append(number)
             self.places[number] = place
         if "NSET" in card.options:

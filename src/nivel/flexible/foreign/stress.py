@@ -100,7 +100,8 @@ def elastic_blocks(
             groups.setdefault(section_of.get(number), []).append(k)
         for section, members in groups.items():
             law = _law(mesh, section, mesh.element_numbers[kind][members[0]])
-            part = replace(block.part(members), material=law.name)
+            axes = "" if section is None or law.kind == "ISO" else section.orientation
+            part = replace(block.part(members), material=f"{law.name} {axes}".strip())
             at = None if temperature is None or len(law.rows) < 2 else _temperatures(part, kind, temperature)
             D = law.stiffness(at)
             D = pressure * (D if D.ndim == 4 else D[None, None])

@@ -184,6 +184,13 @@ def test_a_parameter_called_t_is_not_taken_for_a_slip():
     assert "(`t` is the parameter here, not the tonne)" in str(caught.value)
 
 
+@pytest.mark.parametrize(("name", "said"), [("L", "litre is `l` or `dm^3`"), ("l", "litre is `L` or `dm^3`")])
+def test_a_parameter_that_takes_the_litre_away_is_named(name, said):
+    text = f"format: 1\nparameters: {{{name}: 1.2 m}}\nhydraulics:\n  supply: {{type: volume, volume: 0.5 {name}}}\n"
+    with pytest.raises(ModelError, match=f"`{name}` is your parameter; {re.escape(said)}"):
+        parse_machine(text, "a.yaml")
+
+
 def test_a_part_takes_such_parameters_from_the_file_that_uses_it(tmp_path):
     (tmp_path / "part.yaml").write_text(MACHINE.replace("gravity: [0, 0, -g]\n", ""), encoding="utf-8")
     whole = "format: 1\nparameters: {m: 5 kg}\nassemblies:\n  a: {file: part.yaml, parameters: {m: 2*m, h: 7 m, g: 2 m/s^2}}\n"

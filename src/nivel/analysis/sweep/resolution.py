@@ -16,7 +16,7 @@ from nivel.machine.settings.values import settings_of
 from nivel.machine.study import StudyParameter
 from nivel.machine.study.analyses import SETTINGS
 from nivel.machine.study.any_quantity import dimension_of, si
-from nivel.machine.study.parameter import Values
+from nivel.machine.study.parameter import Tolerance, Values
 from nivel.machine.units.dimension import symbol
 from nivel.model import Model
 from nivel.words.wording import shown
@@ -97,6 +97,9 @@ def _with_nominal(study: StudyFile, machine: Model, path: str, parameter: StudyP
 def _check(study: StudyFile, machine: Model, path: str, parameter: StudyParameter) -> None:
     """Raise ModelError where the machine has no such path, or it measures something else."""
     place = ("parameters", path)
+    if isinstance(parameter, Tolerance) and parameter.is_lost:
+        message = f"{shown(parameter.tolerance)} is less than the last digit of the nominal value {si(parameter.nominal):g}: nothing varies"
+        raise ModelError([study.fault((*place, "tolerance"), message)])
     probe = Probe("values", parameter.values[0]) if isinstance(parameter, Values) else _probe(parameter)
     try:
         machine.with_values({path: probe.value})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 from typing import Any, Final
 
 import numpy as np
@@ -66,8 +67,13 @@ def _count(parameters: Parameters, design: str, samples: int | None) -> int:
         return (samples or 1) * (len(parameters) + 2)
     if design in DRAWN:
         return samples or 1
-    lengths = [len(_listed(each)) for each in parameters.values()]
-    return lengths[0] if design == "rows" else int(np.prod(np.array(lengths, dtype=float)))
+    lengths = [_length(each) for each in parameters.values()]
+    return max(lengths) if design == "rows" else prod(lengths)
+
+
+def _length(parameter: Distribution) -> int:
+    """Number of the values of a parameter, which are not made for that."""
+    return len(parameter.values) if isinstance(parameter, Values) else getattr(parameter, "count", None) or 1
 
 
 def _listed(parameter: Distribution) -> list[Any]:

@@ -201,6 +201,12 @@ class Tolerance(Between):
     def with_nominal(self, value: float) -> Self:
         return self.replace(nominal=value) if self.needs_nominal else self
 
+    @property
+    def is_lost(self) -> bool:
+        """Whether the tolerance is less than the last digit of the nominal value that a computer has."""
+        low, high = self.bounds
+        return self.nominal is not None and not low < high
+
 
 PARAMETERS: Final[tuple[type[Checked], ...]] = (Values, Range, Uniform, Normal, Triangular, Tolerance)
 TYPES: Final = tuple(each.model_fields["type"].annotation.__args__[0] for each in PARAMETERS)  # type: ignore[union-attr]

@@ -290,6 +290,8 @@ class Quantity:
             instead = MASSLESS if self.kind == "mass" and number == 0 else ""
             article = KINDS[self.kind][0] if isinstance(self.kind, str) else "a number"
             raise fault(f"{article} greater than zero was expected, got {shown(value)}{instead}")
+        if self.positive and number > LARGEST and self.kind == "length":  # a size, of which areas and volumes are made
+            raise fault(f"{shown(value)}: {number:.3g} m is more than the limit of {LARGEST:.0e}: a slip of a unit?")
         if self.kind == "displacement" and _is_plain_volume(value, parameters_of(info)):
             return PlainVolume(number)
         return number

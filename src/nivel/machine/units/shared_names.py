@@ -12,6 +12,7 @@ from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import CONSTANTS, ExpressionError, Name, Number, Parameters, leaves
 from nivel.machine.units.unit import UNITS
 
+LITRE: Final = ("l", "L")  # what a parameter may take the name of, also behind a number
 # units with the letters of quantities
 _WORDS: Final = {
     "m": "the metre",
@@ -55,6 +56,9 @@ def shared_names_hint(text: str, parameters: Parameters) -> str:
     for name in dict.fromkeys(found):
         if name.place == "free" and (name.text in UNITS or name.text in FREE_CONSTANTS):
             hints.append(f"`{name.text}` is the parameter here, not {_other_meaning(name.text)}")
+        elif name.text in LITRE and name.place != "free":
+            others = [f"`{each}`" for each in (*LITRE, "dm^3") if each not in parameters]
+            hints.append(f"`{name.text}` is your parameter; litre is {' or '.join(others)}")
         elif re.search(rf"\*\s*{name.text}\b", text) and name.text in UNITS:
             hints.append(
                 f"`{name.text}` is {_other_meaning(name.text)} here; the parameter is written `(2 N)*{name.text}`"

@@ -12,9 +12,15 @@ from click.testing import CliRunner
 
 from nivel.cli import main
 from nivel.errors import ModelError, SolveError
+from nivel.machine import Body
+from nivel.machine.bodies.shape import Mesh
+from nivel.machine.bodies.surface import surface_text
 from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.plausible import remarks
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from simulating import hinge, machine, solid
+from solid_meshes import box_mesh
 
 HERE = Path(__file__).parent
 
@@ -241,3 +247,72 @@ def test_a_thin_rod_with_its_frame_at_its_end_is_a_body():
     """Its small moment of inertia is about the way to its centre of mass, and nothing is lost."""
     rod = {"mass": 1, "inertia": [1e-12, 1 / 12, 1 / 12], "centre_of_mass": [0.5, 0, 0]}
     assert machine({"bodies": {"a": rod}}).check().bodies[0].principal_inertia[0] == pytest.approx(1e-12, rel=1e-3)
+
+
+CYLINDER = "{type: cylinder, bodies: [ground, block], points: [[0, 0, 0], [1, 0, 0]], rod: 3 cm, stroke: 1 m, retracted_length: 50 cm, piston: %s}"  # noqa: E501
+CIRCUIT = """format: 1
+bodies: {{block: {{mass: 5 kg, inertia: [1, 1, 1]}}}}
+joints: {{rail: {{type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0]}}}}
+hydraulics:
+  tank: {{type: tank}}
+  supply: {{type: volume, volume: 1 L}}
+  pump: {{type: pump, ports: {{A: {a}, B: {b}}}, displacement: 28 cm^3/rev, speed: 1500 rpm}}
+  relief: {{type: relief-valve, ports: {{P: supply, T: tank}}, opens_at: 200 bar, opening_range: 20 bar, flow: 1 L/s, pressure_drop: 9 bar}}
+  lift: {lift}
+simulation: {{duration: 1 s, step: 1 ms}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "piston", "place", "words"),
+    [
+        ("tank", "supply", "9e301 mm", "9:", "is more than the limit of 1e+100: a slip of a unit?"),
+        ("between", "supply", "50 mm", "7:", "add `between: {type: volume, volume: 0.2 L}`"),
+    ],
+)
+def test_slips_of_circuits_are_told_at_their_line(a, b, piston, place, words, tmp_path):
+    (tmp_path / "a.yaml").write_text(CIRCUIT.format(a=a, b=b, lift=CYLINDER % piston), encoding="utf-8")
+    code, said = command("check", "a.yaml", folder=tmp_path)
+    assert code == 2
+    assert f"a.yaml:{place}" in said
+    assert words in said
+
+
+def test_a_run_that_a_reversed_pump_ends_names_it(tmp_path):
+    (tmp_path / "a.yaml").write_text(CIRCUIT.format(a="supply", b="tank", lift=CYLINDER % "50 mm"), encoding="utf-8")
+    code, said = command("run", "a.yaml", "--no-report", "--no-verify", "--quiet", folder=tmp_path)
+    assert code == 3
+    assert "pump: the pump is reversed" in said
+    assert "write `ports: {A: tank, B: supply}`" in said
+    assert "shorter" not in said
+
+
+@pytest.mark.parametrize(
+    ("parameter", "words"),
+    [
+        (
+            "{type: range, from: 1, to: 2, count: 100000000}",
+            "this design has 100000000 variants; at most 1000000 are run",
+        ),
+        ("{type: tolerance, nominal: 1 kg, tolerance: 1e-20 kg}", "is less than the last digit of the nominal value 1"),
+    ],
+)
+def test_counts_and_tolerances_of_studies_are_looked_at_before_anything_is_made(parameter, words, tmp_path):
+    solid_text = "format: 1\nbodies: {block: {mass: 1 kg, inertia: [1, 1, 1]}}\n"
+    (tmp_path / "machine.yaml").write_text(solid_text, encoding="utf-8")
+    study = f"format: 1\nmachine: machine.yaml\nparameters:\n  block.mass: {parameter}\n"
+    study += "" if "range" in parameter else "design: random\nsamples: 4\n"
+    (tmp_path / "study.yaml").write_text(study, encoding="utf-8")
+    code, said = command("sweep", "study.yaml", folder=tmp_path)
+    assert code == 2
+    assert "study.yaml:" in said
+    assert words in said
+
+
+def test_a_body_of_a_kilometre_is_remarked_on():
+    """A cube of 1000 in a file of millimetres: 1e9 m³ of 1000 kg/m³."""
+    surface = surface_text(*box_mesh(1000.0, 1000.0, 1000.0))
+    body = Body(name="cube", shape=Mesh(type="mesh", surface=surface), density=1000)
+    (remark,) = [each for each in remarks(MachineRecord(bodies=(body,))) if each.place == "bodies.cube.shape"]
+    assert "is 1000 m long and has a mass of 1e+12 kg" in remark.message
+    assert remark.message.endswith("with `unit: 1 mm` of its file, make 1 m and 1000 kg")

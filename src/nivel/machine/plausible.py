@@ -9,8 +9,11 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
+import numpy as np
+
+from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.bodies.shape import Capsule, Extrusion, Mesh, Sphere
-from nivel.machine.bodies.solids import share_of_hull
+from nivel.machine.bodies.solids import mesh_surface, share_of_hull, squared_gyration
 from nivel.machine.circuit_remarks import circuit_remarks
 from nivel.machine.core.record import Record
 from nivel.machine.forces import Contact
@@ -25,6 +28,9 @@ from nivel.machine.uses.references import SECTIONS
 
 # Of its hull a body fills no less than this share where the hull may touch in its place.
 HOLLOW: Final = 0.9
+# Bodies of machines are shorter [m] and lighter [kg].
+LONGEST: Final = 100.0
+HEAVIEST: Final = 1e6
 
 
 @dataclass(frozen=True)
@@ -49,6 +55,7 @@ def remarks(machine: MachineRecord) -> Iterator[Remark]:
     yield from _of_volumes(machine)
     yield from _unfillable(machine)
     yield from _hollow(machine)
+    yield from _immense(machine)
     yield from _narrow(machine)
     for name, message in resting_remarks(machine):
         yield Remark(f"forces.{name}", message, math.inf)
@@ -126,6 +133,28 @@ def _hollow(machine: MachineRecord) -> Iterator[Remark]:
                 )
                 message = f"`{name}` is concave, and its hull touches, of which it fills {100 * share:.0f} %; {advice}"
                 yield Remark(f"forces.{force.name}", message, math.inf)
+
+
+def _immense(machine: MachineRecord) -> Iterator[Remark]:
+    """Bodies that are larger or heavier than those of machines, as where the file of a mesh is in millimetres."""
+    for body in machine.bodies:
+        shape = body.shape
+        if shape is None or body.point_mass or body.flexible is not None:
+            continue
+        if isinstance(shape, Mesh):
+            extent = float(np.ptp(mesh_surface(shape)[0], axis=0).max())
+        else:
+            extent = math.sqrt(12.0 * float(np.max(squared_gyration(shape))))  # of a bar its length
+        mass = mass_of(body)
+        if extent <= LONGEST and mass <= HEAVIEST:
+            continue
+        smaller = f"{extent / 1000.0:.4g} m" + (f" and {mass / 1e9:.4g} kg" if body.density is not None else "")
+        advice = f"with `unit: {shape.unit:g} mm` of its file" if isinstance(shape, Mesh) else "in millimetres"
+        message = (
+            f"`{body.name}` is {extent:.4g} m long and has a mass of {mass:.4g} kg; is it given in millimetres? Lengths divided by 1000, "
+            f"{advice}, make {smaller}"
+        )
+        yield Remark(f"bodies.{body.name}.shape", message, math.inf)
 
 
 def _narrow(machine: MachineRecord) -> Iterator[Remark]:

@@ -61,6 +61,7 @@ from nivel.kernels.core.status import (
     CONTRADICTION,
     DONE,
     MULTIPLIERS_NOT_FOUND,
+    NO_VOLUME,
     NOT_CLOSED,
     NOT_CONVERGED,
     NOT_FINITE,
@@ -69,6 +70,7 @@ from nivel.kernels.core.status import (
     STEP_TOO_SMALL,
 )
 from nivel.kernels.output.observe import observe
+from nivel.machine.circuit_remarks import circuit_remarks
 from nivel.native.entry import Entry
 from nivel.results.frames.occurrence import Occurrence
 from nivel.system.system import Array, System
@@ -332,6 +334,9 @@ def failure_of(
         jumping=prepared.jumping,
     )
     message, advice = failure(stop)
+    if status == NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
+        said = [f"{name}: {remark}" for name, remark in circuit_remarks(prepared.machine.hydraulics)]
+        advice = ". ".join(said) if said else advice
     return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
 
 

@@ -85,10 +85,10 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
         if node not in nodes:
             whole = [each for each in nodes if each.startswith(f"{node}.")]
             hint = f"; a chamber of it is needed: {' or '.join(f'`{each}`' for each in whole)}" if whole else ""
-            yield (
-                where,
-                f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes)),
-            )
+            said = f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes))
+            if "did you mean" not in said and node.isidentifier():
+                said += f"; where components meet, add `{node}: {{type: volume, volume: 0.2 L}}`"
+            yield where, said
         elif nodes[node] == SIGNAL and port not in sensing:
             yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"
         elif _has_chambers(type_) and nodes[node] != "volume":

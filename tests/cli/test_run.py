@@ -212,8 +212,11 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
         (["--rotations", "euler-angles"], ["rotations", "formulation: lagrange"]),
         (["--tolerance", "small"], ["tolerance", "a number was expected, got `small`"]),
         (["--tolerance", "2"], ["tolerance", "less than 1 was expected, got `2`"]),
-        (["--tolerance", "1e-8"], ["`tolerance` has no effect", "`integrator: rk4` is fixed"]),
-        (["--largest-step", "1 ms"], ["`largest_step` has no effect", "`integrator: rk4` is fixed"]),
+        (["--integrator", "rk4", "--tolerance", "1e-8"], ["`tolerance` has no effect", "`integrator: rk4` is fixed"]),
+        (
+            ["--integrator", "rk4", "--largest-step", "1 ms"],
+            ["`largest_step` has no effect", "`integrator: rk4` is fixed"],
+        ),
         (["--cut", "hinge", "--coordinates", "absolute"], ["`cut` has no effect", "coordinates: relative"]),
         (["--set", "simulation.penalty.omega=10"], ["`penalty` has no effect", "augmented-lagrangian"]),
         (["--set", "simulation.corrector.iteration=newton"], ["`corrector` has no effect", "rk4"]),
@@ -227,10 +230,10 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
             ["`generalised_alpha` has no effect", "integrator: generalised-alpha"],
         ),
         (
-            ["--output-interval", "1e-5"],
+            ["--integrator", "rk4", "--output-interval", "1e-5"],
             ["--output-interval  ", "pendulum.yaml:", "`output_interval` 1e-05 s is shorter than `step`"],
         ),
-        (["--output-interval", "1.5 ms"], ["--output-interval  ", "multiple of the step"]),
+        (["--integrator", "rk4", "--output-interval", "1.5 ms"], ["--output-interval  ", "multiple of the step"]),
         (["--set", "bodies.bra.mass=2"], ["bra", "bar"]),
         (["--set", "nonsense"], ["PATH=VALUE"]),
         (["--out", "missing/folder/x.nc"], ["missing"]),
@@ -265,7 +268,8 @@ def test_everything_that_does_not_go_together_is_said_at_once_and_before_anythin
 
 def test_settings_of_other_methods_may_rest_in_the_file(folder):
     text = PENDULUM.replace(
-        "step: 1 ms", "step: 1 ms, tolerance: 1e-9, largest_step: 1 ms, penalty: {omega: 10}, cut: [hinge]"
+        "step: 1 ms",
+        "step: 1 ms, integrator: rk4, tolerance: 1e-9, largest_step: 1 ms, penalty: {omega: 10}, cut: [hinge]",
     )
     (folder / "pendulum.yaml").write_text(text)
     done = nivel(folder, "run", "pendulum.yaml", "--no-report", "--coordinates", "absolute")

@@ -29,9 +29,11 @@ from nivel.words.wording import seconds
 
 # Lines of the trust report that speak of what steps do.
 OF_STEPS = frozenset(
-    {"energy", "violation", "rate_violation", "accuracy", "quantities", "parts", "verified"}
+    {"energy", "violation", "rate_violation", "accuracy", "quantities", "parts"}
     | {"loads", "sampling", "events", "contact", "steps", "turn", "hydraulics", "damped", "rolling"}
 )
+# Lines on what was not examined, or how a run ended.
+OF_NOTHING = frozenset({"verified", "unexamined", "outcome"})
 # A failure of steps, which another method may not have.
 STATUSES = (Status.STEP_TOO_SMALL, Status.NOT_FINITE, Status.NOT_CONVERGED, Status.CRAWLS, Status.OUT_OF_REACH)
 # Other choices may take so many times as long as the first one did.
@@ -187,13 +189,10 @@ def _with_tries(trust: Trust, tries: list[Try], plan: Plan) -> Trust:
     others = [each for each in tries if each.words != in_words(plan)]
     items = []
     for item in trust.items:
-        if item.verdict == "green":
-            said = ""
-        elif item.name not in OF_STEPS:
+        said = ""
+        if item.verdict != "green" and item.name not in OF_STEPS | OF_NOTHING:
             said = "; no step makes this better: it is not of the steps"
-        elif others:
+        elif item.verdict != "green" and item.name in OF_STEPS and others:
             said = f"; tried: {', '.join(f'{each.words}: {each.gave(item.name)}' for each in others)}"
-        else:
-            said = ""
         items.append(replace(item, text=f"{item.text}{said}"))
     return replace(trust, items=tuple(items))

@@ -143,10 +143,14 @@ class Study:
         if search is None:
             said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
             raise ModelError(self.file.fault((), said))
+        from nivel.analysis.plan.settings import with_usual_frames
+        from nivel.analysis.sweep.task import only_numbers
+
+        runs = with_usual_frames(self.machine) if only_numbers(outputs) else self.machine
 
         def find(journal: Journal | None) -> tuple[Optimum, bool]:
             units = {} if journal is None else journal.facts
-            found = self.machine.optimise(
+            found = runs.optimise(
                 self._output(search.output, units),
                 self._bounds,
                 maximise=search.maximise,
@@ -161,7 +165,8 @@ class Study:
                 journal=journal,
                 listener=listener,
             )
-            return replace(found, dataset=self._of_search(found.dataset, list(outputs), units)), found.kept
+            dataset = self._of_search(found.dataset, list(outputs), units)
+            return replace(found, dataset=dataset, machine=self.machine.with_values(found.values)), found.kept
 
         return self._searched(find, search, out, resume=resume, force=force)
 

@@ -127,17 +127,17 @@ def test_every_analysis_gives_numbers(spring, tmp_path):
         other={"type": "value", "of": "mode.2.frequency"},
     )
     found = run_variant(Task(machine, "linearise", {"about": "equilibrium"}, modes), {"block.mass": 4}).outputs
-    assert found["f"] == (pytest.approx(5.0 / (2 * np.pi), rel=1e-9), "Hz")
+    assert found["f"][:2] == (pytest.approx(5.0 / (2 * np.pi), rel=1e-9), "Hz")
     assert found["stable"].value == 1.0
     assert np.isnan(found["other"].value)
     (tmp_path / "driven.yaml").write_text(DRIVEN, encoding="utf-8")
     driven = nivel.load(tmp_path / "driven.yaml")
     load = outputs(x={"type": "max", "of": "pin.force.x"})
     found = run_variant(Task(driven, "kinematics", {"positions": 11}, load), {"parameters.speed": "4 rad/s"}).outputs
-    assert found["x"] == (pytest.approx(3 * 16 * 0.5, rel=1e-9), "N")
+    assert found["x"][:2] == (pytest.approx(3 * 16 * 0.5, rel=1e-9), "N")
     effort = outputs(t={"type": "max", "of": "pin.angle.effort"})
     found = run_variant(Task(driven, "inverse", {"positions": 11}, effort), {"arm.mass": 2}).outputs
-    assert found["t"] == (pytest.approx(2 * 10 * 0.5, rel=1e-9), "N m")
+    assert found["t"][:2] == (pytest.approx(2 * 10 * 0.5, rel=1e-9), "N m")
 
 
 @pytest.mark.parametrize(

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
 import xarray
 
 from nivel.analysis.gradients.check import LIGHTS, Checked, check
-from nivel.analysis.gradients.outputs import Array, Output, outputs_of
+from nivel.analysis.gradients.outputs import Array, Output, Reduced, outputs_of
 from nivel.analysis.gradients.parameters import Parameter, parameters_of
 from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
 from nivel.analysis.plan.choice import FOR_STIFF
@@ -25,6 +26,7 @@ from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.model import Model
+from nivel.results.curve import TOLD
 from nivel.results.frames.labelled import data_array
 from nivel.results.frames.occurrence import to_json
 from nivel.results.frames.row_units import per
@@ -49,10 +51,13 @@ HEADLINES = {
 class Varied:
     """A machine and its runs with other values of parameters, by the methods and settings of one plan.
 
-    Where the machine names no integrator, all of them have the one that its own run has.
+    Where the machine names no integrator, all of them have the one that its own run has. as_asked : frames are those that were asked for;
+    else numbers are made from no fewer than usual.
     """
 
-    def __init__(self, machine: Model, plan: Plan, source: str, listener: Listener | None = None) -> None:
+    def __init__(
+        self, machine: Model, plan: Plan, source: str, listener: Listener | None = None, *, as_asked: bool = True
+    ) -> None:
         prepared, self._given = prepare(plan.methods), machine.origin.settings_outside
         if plan.is_open:
             named = _settled(plan, prepared, listener).machine.simulation
@@ -60,6 +65,8 @@ class Varied:
             machine = machine.with_settings(known)
             plan = plan_run(machine.record, self._given)
             prepared = prepare(plan.methods)
+        if not as_asked:
+            plan = replace(plan, settings=plan.settings.with_usual_frames)
         self._machine, self.plan, self.prepared, self._source = machine, plan, prepared, source
 
     @property
@@ -143,7 +150,7 @@ def gradient(
     refuse(plan)
     parameters = parameters_of(machine, paths)
     listener.say("preparing")
-    varied = Varied(machine, plan, source, listener)
+    varied = Varied(machine, plan, source, listener, as_asked=curves)
     plain = varied.run({})
     asked = outputs_of(outputs, plain, curves=curves)
     _refuse_events(asked, varied.prepared)
@@ -157,7 +164,7 @@ def gradient(
         def values_at(point: Array) -> list[Array]:
             return values_of(asked, varied.moved(parameters, point))
 
-        verdicts = check([each[1] for each in found], parameters, values_at, varied.settings.tolerance)
+        verdicts = check([each.slope for each in found], parameters, values_at, varied.settings.tolerance)
     return _dataset(slopes, plain, asked, found, verdicts)
 
 
@@ -189,16 +196,16 @@ def _dataset(
     slopes: Slopes,
     plain: Result,
     outputs: Sequence[Output],
-    found: Sequence[tuple[Array, Array]],
+    found: Sequence[Reduced],
     verdicts: Sequence[Checked | None],
 ) -> xarray.Dataset:
     data: dict[str, Any] = {}
     lights: dict[str, str] = {}
-    for output, (value, slope), verdict in zip(outputs, found, verdicts, strict=True):
+    for output, (value, slope, doubt), verdict in zip(outputs, found, verdicts, strict=True):
         units = output.units(plain)
-        lights[output.label] = verdict.light if verdict is not None else "not checked"
+        lights[output.label] = _light(verdict, slope, doubt)
         data[output.label] = _like(output, plain, value, {"units": units, "long_name": output.label})
-        errors = verdict.errors() if verdict is not None else np.full_like(slope, np.nan)
+        errors = verdict.errors() + doubt if verdict is not None else np.full_like(slope, np.nan)
         for k, parameter in enumerate(slopes.parameters):
             name = f"d({output.label})/d({parameter.path})"
             worst = float(np.max(errors[k])) if np.size(errors[k]) else 0.0
@@ -216,6 +223,14 @@ def _dataset(
     light = max(known, key=LIGHTS.index) if known else "not checked"
     attributes = {"machine": plain.name, "verdict": light, "headline": HEADLINES[light], "verdicts": json.dumps(lights)}
     return xarray.Dataset(data, attrs=attributes)
+
+
+def _light(verdict: Checked | None, slope: Array, doubt: Array) -> str:
+    """That of the differences; amber at most where frames leave more open than `TOLD` of the largest slope along a parameter."""
+    if verdict is None:
+        return "not checked"
+    size = np.max(np.abs(slope), axis=tuple(range(1, slope.ndim)), keepdims=True, initial=0.0)
+    return "amber" if verdict.light == "green" and bool((doubt > TOLD * size).any()) else verdict.light
 
 
 def _like(output: Output, plain: Result, value: Array, attributes: dict[str, Any]) -> xarray.DataArray:

@@ -1,7 +1,7 @@
 """Outputs of gradients: a number, or an array of them, of the curves of a result; its value and its slopes.
 
 crank.position            at the end of the run           crank.position at 0.5 s      then
-max(…)  min(…)  peak(…)   the largest, smallest frame, the largest magnitude
+max(…)  min(…)  peak(…)   the largest and smallest value, the largest magnitude, between frames too
 rms(…)  mean(…)  integral(…)   over the time of the run
 time(lift)                when the event `lift` came for the first time
 """
@@ -19,6 +19,9 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
+from nivel.results.curve import Curve, curve_of
+from nivel.results.reductions import Number, extreme, integral_of_product, largest, smallest
+from nivel.results.reductions import integral as whole
 from nivel.results.result import Result
 from nivel.words.wording import unknown_word
 
@@ -28,80 +31,107 @@ _CALL = re.compile(r"^\s*(\w+)\((.+)\)\s*$")
 _AT = re.compile(r"^(.+?)\s+at\s+(.+)$")
 
 
-class Curve(NamedTuple):
-    """A curve of a run and its slopes along one direction. time (n,), value (n, …); the slopes of both."""
+class Moving(NamedTuple):
+    """A curve and its slopes along one direction: slope (n, m), at times that stay; first, last : slopes of the times of its first and last
+    frame, which move where an event ends the run."""
 
-    time: Array
+    curve: Curve
+    slope: Curve
+    first: float = 0.0
+    last: float = 0.0
+
+    @property
+    def thinned(self) -> Moving:
+        """With every other frame, and the last one."""
+        frames = np.unique(np.append(np.arange(0, len(self.curve.time), 2), len(self.curve.time) - 1))
+        return self._replace(curve=_some(self.curve, frames), slope=_some(self.slope, frames))
+
+
+def _some(of: Curve, frames: NDArray[np.intp]) -> Curve:
+    none = np.zeros((len(frames) - 1, of.value.shape[1]))
+    return Curve(of.time[frames], of.value[frames], of.rate[frames], none, none)
+
+
+class Reduced(NamedTuple):
+    """Values (m,), their slopes (m,), and what these may be off by as the curve is known at frames (m,)."""
+
     value: Array
-    time_slope: Array
     slope: Array
+    doubt: Array
 
 
-Reduce = Callable[[Curve], tuple[Array, Array]]
+Reduce = Callable[[Moving], Reduced]
 
 
-def final(curve: Curve) -> tuple[Array, Array]:
+def final(of: Moving) -> Reduced:
     """The last frame."""
-    return curve.value[-1], curve.slope[-1]
+    slope = of.slope.value[-1] + of.curve.rate[-1] * of.last
+    return Reduced(of.curve.value[-1], slope, np.zeros_like(slope))
 
 
-def largest(curve: Curve) -> tuple[Array, Array]:
-    """The largest of all frames, entry by entry."""
-    k = np.argmax(curve.value, axis=0)[None]
-    return np.take_along_axis(curve.value, k, 0)[0], np.take_along_axis(curve.slope, k, 0)[0]
+def _at_extreme(find: Callable[[Curve], Number]) -> Reduce:
+    """An extreme: its slope is that of the curve at its time, as the rate is zero there (envelope theorem); at an end of the run that moves
+    the curve has a rate too."""
+
+    def reduce(of: Moving) -> Reduced:
+        found, columns = find(of.curve), np.arange(of.curve.value.shape[1])
+        slope = of.slope.at(found.time)[columns, columns]
+        for end, moves in ((0, of.first), (-1, of.last)):
+            slope = slope + np.where(found.time == of.curve.time[end], of.curve.rate[end] * moves, 0.0)
+        return Reduced(found.value, slope, of.slope.doubt_at(found.time)[columns, columns])
+
+    return reduce
 
 
-def smallest(curve: Curve) -> tuple[Array, Array]:
-    """The smallest of all frames, entry by entry."""
-    value, slope = largest(curve._replace(value=-curve.value, slope=-curve.slope))
-    return -value, -slope
+def peak(of: Moving) -> Reduced:
+    """The largest magnitude."""
+    found = _at_extreme(extreme)(of)
+    sign = np.where(found.value < 0.0, -1.0, 1.0)
+    return found._replace(value=sign * found.value, slope=sign * found.slope)
 
 
-def peak(curve: Curve) -> tuple[Array, Array]:
-    """The largest magnitude of all frames, entry by entry."""
-    sign = np.where(curve.value < 0.0, -1.0, 1.0)
-    return largest(curve._replace(value=sign * curve.value, slope=sign * curve.slope))
+def integral(of: Moving) -> Reduced:
+    """Over time."""
+    slope = whole(of.slope)
+    ends = of.curve.value[-1] * of.last - of.curve.value[0] * of.first
+    return Reduced(whole(of.curve).value, slope.value + ends, slope.doubt)
 
 
-def integral(curve: Curve) -> tuple[Array, Array]:
-    """Over time, by trapezes between frames."""
-    shape = (-1, *[1] * (curve.value.ndim - 1))
-    h, h_slope = (np.diff(each).reshape(shape) for each in (curve.time, curve.time_slope))
-    mean, mean_slope = (0.5 * (each[1:] + each[:-1]) for each in (curve.value, curve.slope))
-    return np.sum(h * mean, axis=0), np.sum(h * mean_slope + h_slope * mean, axis=0)
-
-
-def mean(curve: Curve) -> tuple[Array, Array]:
+def mean(of: Moving) -> Reduced:
     """The integral over the time of the run, as a share of that."""
-    total, slope = integral(curve)
-    span, span_slope = (float(each[-1] - each[0]) for each in (curve.time, curve.time_slope))
-    return total / span, slope / span - total / span * (span_slope / span)
+    return _mean(of, integral(of))
 
 
-def rms(curve: Curve) -> tuple[Array, Array]:
+def _mean(of: Moving, total: Reduced) -> Reduced:
+    span = float(of.curve.time[-1] - of.curve.time[0])
+    value = total.value / span
+    return Reduced(value, total.slope / span - value * (of.last - of.first) / span, total.doubt / span)
+
+
+def rms(of: Moving) -> Reduced:
     """The root of the mean square."""
-    square, slope = mean(curve._replace(value=curve.value**2, slope=2.0 * curve.value * curve.slope))
-    root = np.sqrt(square)
-    return root, np.divide(0.5 * slope, root, out=np.zeros_like(root), where=root > 0.0)
+    slope, values = integral_of_product(of.curve, of.slope), of.curve.value
+    ends = values[-1] ** 2 * of.last - values[0] ** 2 * of.first
+    square = integral_of_product(of.curve, of.curve)
+    found = _mean(of, Reduced(square.value, 2.0 * slope.value + ends, 2.0 * slope.doubt))
+    root = np.sqrt(found.value)
+    halves = (np.divide(0.5 * each, root, out=np.zeros_like(root), where=root > 0.0) for each in found[1:])
+    return Reduced(root, *halves)
 
 
 def at(t: float) -> Reduce:
-    """The value at a time [s], on straight lines between frames."""
+    """The value at a time [s]."""
+    time = np.array([t])
 
-    def value_at(curve: Curve) -> tuple[Array, Array]:
-        k = int(np.clip(np.searchsorted(curve.time, t, side="right") - 1, 0, len(curve.time) - 2))
-        h = curve.time[k + 1] - curve.time[k]
-        share, rate = (t - curve.time[k]) / h, (curve.value[k + 1] - curve.value[k]) / h
-        moved = (1.0 - share) * curve.time_slope[k] + share * curve.time_slope[k + 1]
-        value = curve.value[k] + share * (curve.value[k + 1] - curve.value[k])
-        return value, curve.slope[k] + share * (curve.slope[k + 1] - curve.slope[k]) - rate * moved
+    def value_at(of: Moving) -> Reduced:
+        return Reduced(of.curve.at(time)[0], of.slope.at(time)[0], of.slope.doubt_at(time)[0])
 
     return value_at
 
 
 REDUCTIONS: dict[str, Reduce] = {
-    "max": largest,
-    "min": smallest,
+    "max": _at_extreme(largest),
+    "min": _at_extreme(smallest),
     "peak": peak,
     "rms": rms,
     "mean": mean,
@@ -175,6 +205,8 @@ def value_of(output: Output, result: Result) -> Array:
     if output.is_event:
         return np.array(next((each.time for each in result.events if each.name == output.name), np.nan))
     values: Any = result.array(output.name)
-    nothing = np.zeros_like(values)
-    curve = Curve(result.time, values, np.zeros_like(result.time), nothing)
-    return values if output.reduce is None else output.reduce(curve)[0]
+    if output.reduce is None:
+        return values
+    own = curve_of(result, output.name)
+    still = Curve(own.time, *(np.zeros_like(each) for each in (own.value, own.rate, own.doubt, own.hidden)))
+    return output.reduce(Moving(own, still)).value.reshape(values.shape[1:])

@@ -66,7 +66,7 @@ def _verdict(
 ) -> str:
     listener.say("comparing with differences of runs")
     asked = outputs_of([name for name in CHECKED if name in result.variables], result)
-    found = [slopes.evaluate(output)[1] for output in asked]
+    found = [slopes.evaluate(output).slope for output in asked]
 
     def values_at(point: Array) -> list[Array]:
         return values_of(asked, varied.moved(parameters, point))

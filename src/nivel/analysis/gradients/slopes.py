@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.gradients.outputs import Array, Curve, Output, value_of
+from nivel.analysis.gradients.outputs import Array, Moving, Output, Reduce, Reduced, value_of
 from nivel.analysis.gradients.parameters import Parameter
 from nivel.analysis.gradients.seeds import seed
 from nivel.analysis.gradients.whole_loop import WholeLoop, whole_entries
@@ -23,6 +23,7 @@ from nivel.integrate.loop.run import BUDGET, EVENTS, FRAMES, OPEN_LIMIT, TIME
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
 from nivel.native.duals import LANES
+from nivel.results.curve import DOUBT, curve, curve_of
 from nivel.results.memory import MemoryContents
 from nivel.results.result import Result
 
@@ -38,8 +39,7 @@ class Lanes(NamedTuple):
 
 
 class Slopes:
-    """The curves of a run and their slopes. result : their values. evaluate(output) gives the value of an output, and slopes along all
-    parameters, for a change of each by one of its units."""
+    """The curves of a run and their slopes. result : their values."""
 
     def __init__(
         self, header: Header, parameters: Sequence[Parameter], passes: Sequence[Lanes], events: Sequence[str]
@@ -48,31 +48,50 @@ class Slopes:
         self._header = header
         self.result = self._result(passes[0].frames[..., 0])
 
-    def evaluate(self, output: Output) -> tuple[Array, Array]:
-        """(value, slopes): slopes have the parameters as their first axis."""
+    def evaluate(self, output: Output) -> Reduced:
+        """The value of an output, its slopes for a change of each parameter by one of its units, and their doubts, parameters first."""
         found = [self._along(output, k) for k in range(len(self.parameters))]
-        scale = np.array([each.scale for each in self.parameters])
-        slopes = np.array([slope for _, slope in found])
-        return found[0][0], slopes / scale.reshape(-1, *[1] * (slopes.ndim - 1))
+        scale = np.array([each.scale for each in self.parameters]).reshape(-1, *[1] * np.ndim(found[0].value))
+        slopes, doubts = (np.array([each[n] for each in found]) / scale for n in (1, 2))
+        return Reduced(found[0].value, slopes, doubts)
 
     def lanes(self, k: int) -> Array:
         """Slopes (n, width) of all columns of the frames along parameter k, for a change by its scale."""
         return self._passes[k // LANES].frames[..., 1 + k % LANES]
 
-    def _along(self, output: Output, k: int) -> tuple[Array, Array]:
+    def _along(self, output: Output, k: int) -> Reduced:
         lanes, lane = self._passes[k // LANES], 1 + k % LANES
         if output.is_event:
             number = self._events.index(output.name)
             came = np.flatnonzero(lanes.events[:, 1, 0] == number)
             if not len(came):
-                return np.array(np.nan), np.array(np.nan)
-            return lanes.events[came[0], 0, 0], lanes.events[came[0], 0, lane]
-        slope = self._result(self.lanes(k))
-        curve = Curve(self.result.time, self.result.array(output.name), slope.time, slope.array(output.name))
-        return (curve.value, curve.slope) if output.reduce is None else output.reduce(curve)
+                return Reduced(*[np.array(np.nan)] * 3)
+            return Reduced(lanes.events[came[0], 0, 0], lanes.events[came[0], 0, lane], np.array(0.0))
+        slopes = self.lanes(k).copy()
+        moves, slopes[:, 0] = slopes[:, 0].copy(), self.result.time
+        slope = self._result(slopes)
+        values = self.result.array(output.name)
+        if output.reduce is None:
+            return Reduced(values, slope.array(output.name), np.zeros_like(values))
+        found = _with_doubt(output.reduce, self._moving(output.name, slope, moves))
+        return Reduced(*(each.reshape(values.shape[1:]) for each in found))
+
+    def _moving(self, name: str, slope: Result, moves: Array) -> Moving:
+        """A curve with its slopes at times that stay. moves (n,) : slopes of the times of frames."""
+        own, along = curve_of(self.result, name), curve_of(slope, name)
+        if moves.any():
+            along = curve(own.time, along.value - own.rate * moves[:, None])
+        return Moving(own, along, float(moves[0]), float(moves[-1]))
 
     def _result(self, frames: NDArray[np.float64]) -> Result:
         return Result(MemoryContents(self._header, frames, self._header.attributes))
+
+
+def _with_doubt(reduce: Reduce, moving: Moving) -> Reduced:
+    """The slope by all frames, and what every other frame makes otherwise, if that is more than its doubt: the time of an extreme is wrong
+    too."""
+    found = reduce(moving)
+    return found._replace(doubt=np.maximum(found.doubt, DOUBT * np.abs(found.slope - reduce(moving.thinned).slope)))
 
 
 def find_slopes(

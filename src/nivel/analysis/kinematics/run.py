@@ -25,6 +25,7 @@ from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.probes import GOLDEN, Probes
 from nivel.analysis.trust.report import assess
 from nivel.analysis.trust.subject import Positions
 from nivel.errors import SolveError
@@ -37,6 +38,7 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.kinematics import KinematicsSettings
+from nivel.results.curve import PROBED
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -45,6 +47,8 @@ from nivel.system.system import Array
 
 # share of the least singular value at the start, below which an analysis that cannot go on has come to a singular position
 STUCK = 1e-4
+# positions between those that are asked for, at most
+MOST_BETWEEN = 2000
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
 FACTS = IntegratorFacts("", follow_positions, order=1, numbers=1)
@@ -94,7 +98,7 @@ def kinematics(
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     listener.say("finding positions", settings.duration)
     with terminable():
-        finished, run = follow(prepared, steps, chosen[0], listener)
+        finished, run = follow(prepared, steps, chosen[0], listener, between(prepared, steps))
         finished.timing |= seconds
         return _close(sink, machine, prepared, finished, run)
 
@@ -108,7 +112,31 @@ def _attributes(
     return {**attributes, "assembly": json.dumps(assembly), "analysis": "kinematics"}
 
 
-def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: Listener) -> tuple[RunOutcome, Run]:
+class _Taken:
+    """Frames of positions beside those that are asked for."""
+
+    def __init__(self) -> None:
+        self.frames: list[Array] = []
+
+    def begin(self, header: Header) -> None:
+        """The layout is known."""
+
+    def take(self, frames: Array) -> None:
+        self.frames += list(frames.copy())
+
+
+def between(prepared: Prepared, settings: RunSettings) -> Probes:
+    """Positions at other times, no multiple of which fits those that are asked for, as probes of the curves through these."""
+    count, taken = max(1, settings.steps), _Taken()
+    step = settings.step * GOLDEN * max(1.0, count / MOST_BETWEEN)
+    steps = max(1, int(settings.duration / step))
+    follow(prepared, replace(settings, step=step, steps=steps, every=1, output_interval=step), taken, Listener())
+    return Probes(prepared.motion, (), taken.frames)
+
+
+def follow(
+    prepared: Prepared, settings: RunSettings, sink: Sink, listener: Listener, probes: Probes | None = None
+) -> tuple[RunOutcome, Run]:
     """Give every position to the sink (already begun). Returns how it ended, and the history."""
     system = prepared.motion.system
     system.record.control.stabilise[:] = direct.coefficients(settings.step, None, None)
@@ -117,6 +145,7 @@ def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: List
     correct = import_module(prepared.path.correction).correct
     evaluate, correct, machine = kernels.evaluate.address, correct.address, prepared.motion.handle
     finished, sinks = RunOutcome("done"), sharing(prepared, [sink])
+    sinks = sinks if probes is None else (probes, *sinks)
     begin = time.perf_counter()
     status, loop_seconds = march_in_chunks(
         lambda: follow_positions(evaluate, correct, machine.address, history.address),
@@ -132,6 +161,8 @@ def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: List
         finished.failure = _failure(prepared, settings, run, status)
         if status != CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
+    if probes is not None:
+        finished.between_frames = probes.close()
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),
@@ -177,6 +208,7 @@ def _close(sink: Memory | Store, machine: MachineRecord, prepared: Prepared, fin
         prepared=prepared,
         halved=int(run.counter[REJECTED]),
         near=near,
+        between_frames=finished.between_frames,
         # a machine that jams has come to the singular position, not past it
         passed=tuple(pair for pair in near.passed if not jammed or pair[1] < at) if near is not None else (),
     )
@@ -189,6 +221,7 @@ def _close(sink: Memory | Store, machine: MachineRecord, prepared: Prepared, fin
             "stopped_by": "",
             "trust": assess(positions).to_json(),
             "timing": json.dumps(finished.timing),
+            PROBED: json.dumps(finished.between_frames),
         }
     )
     if finished.failure is not None:

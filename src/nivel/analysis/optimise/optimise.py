@@ -18,6 +18,7 @@ from nivel.analysis.optimise.libraries import LIBRARIES_OF
 from nivel.analysis.optimise.search import CONSTRAINED, KEPT, Search
 from nivel.analysis.optimise.spoken_outputs import Spoken, event_of, spoken_output
 from nivel.analysis.optimise.table import nothing_found, table_of
+from nivel.analysis.plan.settings import with_usual_frames
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import OutputFailedError
@@ -99,8 +100,10 @@ def optimise(
         return _read(result, readers, first=not evaluations.made)
 
     begin = perf_counter()
+    seen = any(callable(each) for each in said.values())  # frames, by functions of the user
+    runs = machine if seen else with_usual_frames(machine)
     evaluations = Evaluations(
-        machine, box, read, len(names), threads=threads, exact=exact, time_limit=time_limit, journal=journal
+        runs, box, read, len(names), threads=threads, exact=exact, time_limit=time_limit, journal=journal
     )
     search = Search(evaluations, names, limits, sign, method, most, tolerance, seed)
     found, messages = [], []

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
+from nivel.results.curve import Curve, curve_of
+from nivel.results.reductions import REDUCTIONS
 from nivel.results.result import Result
 from nivel.words.wording import shown, unknown_word
 
@@ -18,19 +20,6 @@ Spoken = Callable[[Result], float]
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def _integral(t: Numbers, y: Numbers) -> float:
-    """By the trapezoidal rule."""
-    return float(0.5 * np.sum(np.diff(t) * (y[1:] + y[:-1])))
-
-
-REDUCED: Final[dict[str, Callable[[Numbers, Numbers], float]]] = {
-    "max": lambda _, y: float(y.max()),
-    "min": lambda _, y: float(y.min()),
-    "peak": lambda _, y: float(np.abs(y).max()),
-    "mean": lambda t, y: _integral(t, y) / max(float(t[-1] - t[0]), 1e-300),
-    "rms": lambda t, y: float(np.sqrt(_integral(t, y * y) / max(float(t[-1] - t[0]), 1e-300))),
-    "integral": _integral,
-}
 CALL = re.compile(r"(\w+)\((.*)\)")
 
 
@@ -47,13 +36,13 @@ def spoken_output(said: str | Callable[[Result], float]) -> Spoken:
         word, inner = found[1], found[2].strip()
         if word == "time":
             return lambda result: _event_time(result, inner)
-        if word not in REDUCED:
-            raise ModelError(Fault("", 0, 0, words, unknown_word(word, [*REDUCED, "time"], "reduction")))
-        reduce = REDUCED[word]
-        return lambda result: reduce(result.time, history(result, inner))
+        if word not in REDUCTIONS:
+            raise ModelError(Fault("", 0, 0, words, unknown_word(word, [*REDUCTIONS, "time"], "reduction")))
+        reduce = REDUCTIONS[word]
+        return lambda result: float(reduce(history(result, inner)).value[0])
     name, at, moment = words.rpartition(" at ")
     if not at:
-        return lambda result: float(history(result, words)[-1])
+        return lambda result: float(history(result, words).value[-1, 0])
     try:
         time = float(read_quantity(moment, ANY, {}))
     except (ExpressionError, TypeError, ValueError):
@@ -67,18 +56,18 @@ def event_of(said: str | Callable[[Result], float]) -> str:
     return found[2].strip() if found and found[1] == "time" else ""
 
 
-def history(result: Result, name: str) -> Numbers:
-    """(n,) of a result that is one number at each time. Raises ModelError where it is several, or none."""
+def history(result: Result, name: str) -> Curve:
+    """The curve of a result that is one number at each time. Raises ModelError where it is several, or none."""
     values = result.array(name)
     if values.ndim != 1:
         raise ModelError(Fault("", 0, 0, name, f"one number was expected; it has {values.shape[1:]}: name one of them"))
-    return values
+    return curve_of(result, name)
 
 
 def at_times(result: Result, name: str, times: Numbers) -> Numbers:
-    """Values at times, between two frames by straight lines; not numbers before the start and after the end of the run."""
+    """Values at times, between two frames by cubics; not numbers before the start and after the end of the run."""
     t = result.time
-    out = np.interp(times, t, history(result, name))
+    out = history(result, name).at(times)[:, 0]
     slack = 1e-9 * abs(t[-1])
     out[(times < t[0] - slack) | (times > t[-1] + slack)] = np.nan
     return out

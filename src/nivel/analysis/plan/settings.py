@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
+from typing import TypeVar
 
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
@@ -14,8 +15,10 @@ from nivel.machine.settings.run import Corrector, Penalty, SimulationSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.methods import chooses
+from nivel.model import Model
 from nivel.motion.catalogue import FORMULATIONS
 
+M = TypeVar("M", bound=Model)
 # Without an output interval: the shortest multiple of the step that gives at most this many frames.
 FRAMES = 1000
 # More steps than this are a slip of the pen: at a microsecond each they take more than ten days.
@@ -55,6 +58,15 @@ class RunSettings:
     def frames(self) -> float:
         """How many are asked for, at most."""
         return self.duration / self.output_interval + 2.0
+
+    @property
+    def with_usual_frames(self) -> RunSettings:
+        """The same run with frames that are no farther apart than without an output interval: numbers are made from these, whatever frames
+        are asked for."""
+        if not self.steps:
+            return replace(self, output_interval=min(self.output_interval, self.duration / FRAMES))
+        every = min(self.every, ceil(self.steps / FRAMES))
+        return replace(self, every=every, output_interval=every * self.step)
 
     def as_dict(self) -> dict[str, object]:
         """For the result's `settings`."""
@@ -138,6 +150,15 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         baumgarte=None if own is None or own.alpha is None or own.beta is None else (own.alpha, own.beta),
         constants=_constants(settings),
     )
+
+
+def with_usual_frames(machine: M) -> M:
+    """The same machine with frames no farther apart than without an output interval, for numbers that are made from them."""
+    simulation = machine.record.simulation
+    if simulation.output_interval is None or simulation.output_interval * FRAMES <= simulation.duration:
+        return machine
+    record = machine.record.with_simulation(simulation.replace(output_interval=None))
+    return type(machine).from_record(record, machine.origin)
 
 
 def waiting_time(name: str, value: float | str) -> float:

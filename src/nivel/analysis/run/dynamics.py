@@ -31,6 +31,7 @@ from nivel.analysis.progress.listener import Listener, Progress
 from nivel.analysis.progress.pacing import Pacing
 from nivel.analysis.run.history import go_on_with, start_history
 from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions
+from nivel.analysis.run.probes import Probes
 from nivel.integrate.explicit.dormand_prince import STIFF
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
@@ -93,6 +94,7 @@ class RunOutcome:
     run that failed in the last state that was accepted. status : of the compiled loop.
     ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses : of `NarrowFeatures`.
     went_on : the integrator that went on where the run became stiff, and from when [s].
+    between_frames : of `Probes`.
     """
 
     outcome: str
@@ -107,6 +109,7 @@ class RunOutcome:
     ends: Array | None = None
     impulses: dict[str, float] = field(default_factory=dict)
     went_on: tuple[str, float] | None = None
+    between_frames: dict[str, list[float]] = field(default_factory=dict)
 
 
 class Loop(NamedTuple):
@@ -151,12 +154,14 @@ def march(
     system, loop = prepared.motion.system, loop or start_loop(prepared, settings)
     run, sinks = loop.history.record, sharing(prepared, sinks) if shared else sinks
     finished, narrow = RunOutcome("done"), NarrowFeatures.of(prepared, len(run.ends))
+    probes = Probes.of(prepared.motion, run, settings.duration) if sinks else None
+    sinks = sinks if probes is None else (probes, *sinks)
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     crawl = Crawl(settings.duration, bool(prepared.jumping)) if settings.steps == 0 else None
     while status in GOES_ON and finished.outcome == "done":
         status, spent = march_in_chunks(
-            loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl, narrow
+            loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl, narrow, probes
         )
         loop_seconds += spent
         if status == STIFF:
@@ -165,6 +170,8 @@ def march(
             finished.went_on, status = (settings.integrator, float(run.clock[TIME])), BUDGET_SPENT
             if narrow is not None:
                 narrow.follow(prepared)
+            if probes is not None:
+                probes.motion = prepared.motion
         if status in BEFORE_A_JAM:
             jam = jam_of(prepared, settings, run)
         if status == OPEN and jam is None and can_be_asked(prepared):
@@ -177,6 +184,8 @@ def march(
         finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
+    if probes is not None:
+        finished.between_frames = probes.close()
     failed = finished.outcome == "failed"
     finished.pace, finished.status = run.pace, int(status)
     finished.last = float(run.clock[ACCEPTED if failed else TIME]), (run.previous if failed else run.y).copy()
@@ -255,6 +264,7 @@ def march_in_chunks(
     pacing: Pacing | None = None,
     crawl: Crawl | None = None,
     narrow: NarrowFeatures | None = None,
+    probes: Probes | None = None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
@@ -263,13 +273,18 @@ def march_in_chunks(
             if pacing is not None and not pacing.before(run):
                 finished.outcome = "interrupted"
                 break
+            if probes is not None and narrow is None:
+                probes.before(run)
             run.counter[BUDGET] = budget if narrow is None else narrow.before(run, budget)
             begin = clock_of_python.thread_time()
             status = advance()
             spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
-            if chunk_steps is None and status == BUDGET_SPENT:
+            cut = probes is not None and probes.is_due(run)
+            if chunk_steps is None and status == BUDGET_SPENT and not cut:
                 budget = _next_budget(budget, spent)
+            if probes is not None and narrow is None:
+                probes.after(run)
             if narrow is not None:
                 narrow.hold(run)
                 if not narrow.is_whole(run, goes_on=status in GOES_ON) and not interrupted():
@@ -279,6 +294,8 @@ def march_in_chunks(
                     continue
                 give_held(narrow, run, system, sinks, finished, goes_on=status in (*GOES_ON, STIFF))
             give_frames(run, sinks)
+            if probes is not None and status == BUDGET_SPENT:
+                probes.look(run)
             finished.events += taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))

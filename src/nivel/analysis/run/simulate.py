@@ -18,6 +18,7 @@ from nivel.analysis.trust.report import assess
 from nivel.analysis.trust.subject import Run
 from nivel.errors import SolveError
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED
+from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.occurrence import to_json
 from nivel.results.iterations import ATTRIBUTE as ITERATIONS
@@ -92,6 +93,7 @@ def close_run(
         "events": to_json(finished.events),
         "stopped_by": finished.stopped_by,
         "timing": json.dumps({**finished.timing, **timing}),
+        PROBED: json.dumps(finished.between_frames),
     }
     if finished.pace is not None:
         steps, total, most = finished.pace[[STEPPED, ITERATED, MOST_ITERATED]]

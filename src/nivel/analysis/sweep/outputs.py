@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -17,7 +17,10 @@ from nivel.machine.units.dimension import described, without_angle
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.analyses.linear_model import LinearModel
+from nivel.results.curve import Curve, curve, curve_of
+from nivel.results.reductions import REDUCTIONS
 from nivel.results.result import Result
+from nivel.results.trust import amount
 from nivel.words.wording import unknown_word
 
 Array = NDArray[np.float64]
@@ -27,17 +30,23 @@ OF_MODE = {"frequency": "Hz", "damping_ratio": "1", "real": "1/s", "imaginary": 
 
 
 class Number(NamedTuple):
-    """An output of a variant, and its SI unit."""
+    """An output of a variant, and its SI unit. doubt : what it may be off by, as it was made from numbers at frames; 0 where that is little
+    beside the range of these."""
 
     value: float
     units: str
+    doubt: float = 0.0
+
+    @property
+    def lacks(self) -> str:
+        """What is not verified of it, in words."""
+        return f"may be off by {amount(self.doubt, self.units)} between frames"
 
 
 class History(NamedTuple):
-    """Numbers (n,) over times (n,) [s]."""
+    """A number over time as a curve of one column."""
 
-    time: Array
-    values: Array
+    curve: Curve
     units: str
 
 
@@ -81,15 +90,21 @@ def _number(found: Found, output: Output) -> Number:
         case EventTime():
             return Number(_event_time(found, output.event), "s")
         case FinalValue():
-            history = history_of(found, output.of)
-            return Number(float(history.values[-1]) if len(history.values) else np.nan, history.units)
+            values, units = history_of(found, output.of)
+            return Number(float(values.value[-1, 0]) if len(values.time) else np.nan, units)
         case AtTime():
             return _at(history_of(found, output.of), output.time)
         case AtEvent():
             return _at(history_of(found, output.of), _event_time(found, output.event))
-    history = history_of(found, output.of)
-    values = REDUCTIONS[output.type](*_window(history, output.start, output.end))
-    return Number(values, _integrated(history.units) if output.type == "integral" else history.units)
+    history, units = history_of(found, output.of)
+    part = _window(history, output.start, output.end)
+    if not len(part.time):
+        return Number(np.nan, _integrated(units) if output.type == "integral" else units)
+    reduced = REDUCTIONS[output.type](part)
+    span = part.time[-1] - part.time[0] if output.type == "integral" else 1.0
+    is_told = history.is_told(reduced.doubt / (span or 1.0))[0]
+    value, doubt = float(reduced.value[0]), float(reduced.doubt[0]) if is_told else 0.0
+    return Number(value, _integrated(units) if output.type == "integral" else units, doubt)
 
 
 def history_of(found: Found, name: str) -> History:
@@ -108,7 +123,7 @@ def history_of(found: Found, name: str) -> History:
         raise ModelError(
             f"`{name}` has {values[0].size if len(values) else 'several'} numbers; write one, as {near or name}"
         )
-    return History(found.time, values, found.units(name))
+    return History(curve_of(found, name), found.units(name))
 
 
 def _of_efforts(found: Efforts, name: str) -> History:
@@ -119,7 +134,8 @@ def _of_efforts(found: Efforts, name: str) -> History:
         columns[f"{actuator}.power"] = (found.power[:, k], "W")
     if name not in columns:
         raise ModelError(unknown_word(name, list(columns), "name"))
-    return History(found.time, *columns[name])
+    values, units = columns[name]
+    return History(curve(found.time, values), units)
 
 
 def _scalar(found: Found, name: str) -> Number:
@@ -155,10 +171,12 @@ def _event_time(found: Found, name: str) -> float:
 
 
 def _at(history: History, time: float) -> Number:
-    """Between two frames by a straight line; not a number outside of the result."""
-    if not len(history.time) or not _inside(history.time, time):
-        return Number(np.nan, history.units)
-    return Number(float(np.interp(time, history.time, history.values)), history.units)
+    """Between two frames by a cubic; not a number outside of the result."""
+    of, units = history
+    if not len(of.time) or not _inside(of.time, time):
+        return Number(np.nan, units)
+    doubt = of.doubt_at(np.array([time]))[0]
+    return Number(float(of.at(np.array([time]))[0, 0]), units, float(doubt[0]) if of.is_told(doubt)[0] else 0.0)
 
 
 def _inside(times: Array, time: float) -> bool:
@@ -166,34 +184,14 @@ def _inside(times: Array, time: float) -> bool:
     return bool(times[0] - near <= time <= times[-1] + near)
 
 
-def _window(history: History, start: float | None, end: float | None) -> tuple[Array, Array]:
-    """Times and values from `start` to `end`, with those at both by straight lines."""
-    time, values = history.time, history.values
+def _window(history: Curve, start: float | None, end: float | None) -> Curve:
+    """The curve from `start` to `end`; empty where it does not have them."""
+    time = history.time
     if (start is None and end is None) or not len(time):
-        return time, values
+        return history
     first = float(time[0]) if start is None else max(start, float(time[0]))
     last = float(time[-1]) if end is None else min(end, float(time[-1]))
-    if first > last:
-        return time[:0], values[:0]
-    inside = (time > first) & (time < last)
-    times = np.concatenate([[first], time[inside], [last]])
-    return times, np.concatenate([[np.interp(first, time, values)], values[inside], [np.interp(last, time, values)]])
-
-
-def _mean(time: Array, values: Array) -> float:
-    if len(time) < 2 or time[-1] == time[0]:
-        return float(values[0]) if len(values) else np.nan
-    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
-
-
-REDUCTIONS: Mapping[str, Callable[[Array, Array], float]] = {
-    "max": lambda _, values: float(np.max(values)) if len(values) else np.nan,
-    "min": lambda _, values: float(np.min(values)) if len(values) else np.nan,
-    "peak": lambda _, values: float(np.max(np.abs(values))) if len(values) else np.nan,
-    "rms": lambda time, values: float(np.sqrt(_mean(time, values**2))),
-    "mean": _mean,
-    "integral": lambda time, values: float(np.trapezoid(values, time)) if len(values) else np.nan,
-}
+    return history.within(first, last) if first <= last else curve(time[:0], history.value[:0])
 
 
 def _integrated(units: str) -> str:

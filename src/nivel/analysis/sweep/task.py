@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from nivel.machine.study import Output
+from nivel.analysis.plan.settings import with_usual_frames
+from nivel.machine.study import Output, PythonOutput
 from nivel.model import Model
 
 
@@ -30,3 +31,13 @@ class Task:
     time_limit: float | None = None
     judge: bool = True
     sample: tuple[Mapping[str, Any], ...] = ()
+
+    def __post_init__(self) -> None:
+        """Numbers alone are made from as many frames as usual, whatever the machine asks for."""
+        if self.analysis == "run" and not self.save and only_numbers(self.outputs):
+            object.__setattr__(self, "machine", with_usual_frames(self.machine))
+
+
+def only_numbers(outputs: Mapping[str, Output]) -> bool:
+    """Whether there are outputs, of which none is a function of the user, which sees frames."""
+    return bool(outputs) and not any(isinstance(each, PythonOutput) for each in outputs.values())

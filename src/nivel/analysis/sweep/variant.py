@@ -95,7 +95,11 @@ def _with_outputs(kept: VariantRun, found: Found, task: Task) -> VariantRun:
             numbers |= outputs_of(found, {name: output})
         except OutputFailedError as error:
             failures.append(str(error))
-    told = {"outcome": FAILED, "reason": "; ".join(failures)} if failures else {}
+    told: dict[str, Any] = {"outcome": FAILED, "reason": "; ".join(failures)} if failures else {}
+    lacks = [f"{name}, which {number.lacks}" for name, number in numbers.items() if number.doubt]
+    if lacks and kept.verdict:
+        trust = found.trust.of_derived(*lacks)
+        told |= {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline}
     return replace(kept, outputs=numbers, **told)
 
 

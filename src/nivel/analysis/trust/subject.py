@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from nivel.integrate.loop.run import MOVING
+from nivel.results.curve import probed
 from nivel.results.peaks import Peak, worst_row
 from nivel.results.scales import Readable, largest_speed, machine_size, speed_of_rest
 from nivel.results.trust import Item
@@ -128,6 +129,11 @@ class Run(Motion, Computed):
         return json.loads(str(self.result.attributes.get("assembly", "{}")))
 
     @property
+    def between_frames(self) -> Mapping[str, list[float]]:
+        """By variable what its numbers were apart from their curves at times between frames, of `nivel.analysis.run.probes.Probes`."""
+        return self.finished.between_frames
+
+    @property
     def finer(self) -> Verified:
         """The second run, for checks that need one."""
         assert self.second is not None
@@ -177,11 +183,12 @@ class Equilibria(Recorded, Computed):
 @dataclass(frozen=True, kw_only=True)
 class Positions(Recorded, Computed):
     """Positions of a kinematic analysis. halved : steps that were shortened on the way. near : the singular position that it came nearest
-    to; None where there are no constraints. passed : pairs of times [s] between which one was passed."""
+    to; None where there are no constraints. passed : pairs of times [s] between which one was passed. between_frames : of `Probes`."""
 
     halved: int = 0
     near: Singularity | None = None
     passed: tuple[tuple[float, float], ...] = ()
+    between_frames: Mapping[str, list[float]] = field(default_factory=dict)
 
     @cached_property
     def scales(self) -> Scales:
@@ -208,6 +215,11 @@ class Actuated(Subject):
     efforts: Efforts
     drivers: tuple[Driver, ...]
     replaced: tuple[Driver, ...] = ()
+
+    @property
+    def between_frames(self) -> Mapping[str, list[float]]:
+        """As of the analysis that made the motion."""
+        return probed(self.result.attributes)
 
     @cached_property
     def scales(self) -> Scales:

@@ -66,7 +66,7 @@ class FinalValue(StudyOutput):
 
 
 class AtTime(StudyOutput):
-    """The value of a history at a time, between two frames by a straight line."""
+    """The value of a history at a time, between two frames by a cubic."""
 
     type: Literal["at-time"]
     of: str = Field(description=NAME)

@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.results.comparison.comparison_files import write_text
+from nivel.results.curve import TOLD, curve
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.pages import page_maker
+from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
@@ -70,26 +72,36 @@ class Efforts(Tabulated):
         return self.rank == len(self.actuators)
 
     def facts(self) -> list[dict[str, Any]]:
-        """Peak, RMS, largest power, and the work done and taken back, of every actuator."""
-        out = []
-        for k, name in enumerate(self.actuators):
-            effort, power = self.effort[:, k], self.power[:, k]
-            at = int(np.argmax(np.abs(effort))) if len(effort) else 0
-            span = float(self.time[-1] - self.time[0]) if len(self.time) > 1 else 0.0
-            square = float(np.trapezoid(effort**2, self.time)) / span if span else float(np.mean(effort**2))
-            out.append(
-                {
-                    "actuator": name,
-                    "unit": self.units[k],
-                    "peak": float(effort[at]),
-                    "peak_time": float(self.time[at]),
-                    "rms": float(np.sqrt(square)),
-                    "peak_power": float(np.abs(power).max(initial=0.0)),
-                    "work_done": float(np.trapezoid(np.maximum(power, 0.0), self.time)),
-                    "work_taken": float(np.trapezoid(np.minimum(power, 0.0), self.time)),
-                }
-            )
-        return out
+        """Peak, RMS, largest power, and the work done and taken back, of every actuator, between the times of the efforts too."""
+        effort, power = (curve(self.time, each) for each in (self.effort, self.power))
+        highest, root, largest_power = extreme(effort), rms(effort), peak(power)
+        net, both = integral(power), integral_of_magnitude(power)
+        return [
+            {
+                "actuator": name,
+                "unit": self.units[k],
+                "peak": float(highest.value[k]),
+                "peak_time": float(highest.time[k]),
+                "rms": float(root.value[k]),
+                "peak_power": float(largest_power.value[k]),
+                "work_done": float(0.5 * (both.value[k] + net.value[k])),
+                "work_taken": float(0.5 * (net.value[k] - both.value[k])),
+            }
+            for k, name in enumerate(self.actuators)
+        ]
+
+    @property
+    def open_between(self) -> tuple[str, float, str, float]:
+        """The actuator whose peak effort the times of the efforts leave most open, what that may be off by, its unit, and the share of the
+        peak; empty where all are little."""
+        of = curve(self.time, self.effort)
+        found = extreme(of)
+        share = found.doubt / np.maximum(np.abs(found.value), 1e-300)
+        told = of.is_told(found.doubt) & (share > TOLD)
+        if not told.any():
+            return "", 0.0, "", 0.0
+        k = int(np.argmax(np.where(told, share, 0.0)))
+        return self.actuators[k], float(found.doubt[k]), self.units[k], float(share[k])
 
     def statements(self) -> list[str]:
         """What a reader has to know: lines of the trust report that are not green, or are said in any case."""

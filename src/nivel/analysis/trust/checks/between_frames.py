@@ -1,76 +1,163 @@
-"""Peaks between the frames of a run: how much larger forces, reactions, pressures and sensors may be than any stored number."""
+"""Numbers between frames: how much farther they go than any stored number shows, and what no frame shows of them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.trust.check import FRAMES, Check
-from nivel.analysis.trust.subject import Run
-from nivel.results.frames.loads import FEW, frames_of_a_swing, hidden_between_frames
+from nivel.analysis.trust.subject import Actuated, Positions, Run
+from nivel.results.curve import ROUNDED, Curve, curve
+from nivel.results.frames.contents import shape_of
+from nivel.results.frames.loads import with_probes
+from nivel.results.reductions import extreme
 from nivel.results.result import Result
-from nivel.results.trust import Item, number
+from nivel.results.trust import Item, amount, number
 
 # a peak that may be larger by this share is told; below it plots and tables show it
 HIDDEN = 0.05
+# of its range in the frames: a motion that goes otherwise between them is another one than they show
+OTHERWISE = 1e-2
 # frames that are looked at, at most
 MOST = 20_000
 LOADS = ("force.", "driver.", "sensor.", "hydraulics.")
+MOTIONS = ("position", "joint_coordinate", "modal_coordinate")
+NOT_SHOWN = (".sticks", ".count", "_local")
 
 
 @dataclass(frozen=True)
 class Hidden:
-    """The number whose peak frames may hide most of, as a share of its largest stored value; or that has fewer frames from one reversal to
-    the next than show peaks."""
+    """The number whose peak frames may hide most of, as a share of its largest stored value."""
 
     name: str
     share: float
-    frames: float
+
+
+@dataclass(frozen=True)
+class Otherwise:
+    """The number that goes otherwise between frames, or positions, by `off` [units], the largest as a share of its range. motion : it is a
+    place, or an analysis of positions was made, of which each number is one of the motion that was asked for."""
+
+    name: str
+    off: float
+    units: str
+    share: float
+    motion: bool
+    positions: bool
 
 
 def look(run: Run) -> Hidden | None:
     """The worst of all loads and sensors."""
-    result, worst = run.result, Hidden("", HIDDEN, np.inf)
+    result, worst = run.result, Hidden("", HIDDEN)
     if len(result.time) > MOST:
         return None
-    few = worst
-    for name, history in _histories(result):
-        share, frames = hidden_between_frames(history), frames_of_a_swing(history)
+    for name, of in _curves(result):
+        found = extreme(of)
+        share = float(found.doubt[0]) / max(float(np.abs(found.value[0])), 1e-300)
         if np.isfinite(share) and share > worst.share:
-            worst = Hidden(name, share, frames)
-        if frames < min(FEW, few.frames):
-            few = Hidden(name, share, frames)
-    return few if few.name else worst if worst.name else None
+            worst = Hidden(name, share)
+    return worst if worst.name else None
 
 
-def _histories(result: Result) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Names and histories (t, 1)."""
+def _curves(result: Result) -> Iterator[tuple[str, Curve]]:
+    """Names and curves of one column."""
     for name in ("joint_force", "joint_torque"):
         if name in result.variables:
             size = np.linalg.norm(result.array(name), axis=2)
+            of = with_probes(result, name, curve(result.time, size))
             floor = 1e-9 * float(np.max(size, initial=0.0))
-            for joint, history in zip(result.coordinates["joint"], size.T, strict=True):
-                if history.max(initial=0.0) > floor:
-                    yield f"{joint}.{name.removeprefix('joint_')}", history[:, None]
-    for name, variable in result.variables.items():
+            for k in np.flatnonzero(size.max(axis=0, initial=0.0) > floor):
+                yield f"{result.coordinates['joint'][k]}.{name.removeprefix('joint_')}", _column(of, int(k))
+    names = [
         # numbers without units are shares, directions and marks of what sticks
-        if name.startswith(LOADS) and variable.dims == ("time",) and result.units(name) not in ("", "1"):
-            history = np.asarray(result.array(name), dtype=float)
-            if np.ptp(history) > 1e-9 * np.max(np.abs(history), initial=0.0):
-                yield name, history[:, None]
+        name
+        for name, variable in result.variables.items()
+        if name.startswith(LOADS) and variable.dims == ("time",) and result.units(name) not in ("", "1")
+    ]
+    if names:
+        every = curve(result.time, np.column_stack([result.array(name) for name in names]))
+        size = np.max(np.abs(every.value), axis=0, initial=0.0)
+        for k in np.flatnonzero(np.ptp(every.value, axis=0) > 1e-9 * size):
+            yield names[k], _column(every, int(k))
+
+
+def _column(of: Curve, k: int) -> Curve:
+    part = slice(k, k + 1)
+    return Curve(of.time, of.value[:, part], of.rate[:, part], of.doubt[:, part], of.hidden[:, part])
 
 
 def say(found: Hidden) -> Item:
     """The line is green: the stored numbers are right."""
-    if found.frames < FEW:
-        why = f"{found.name} has {number(found.frames)} frames from one reversal to the next"
-    else:
-        why = f"that of {found.name} may be {number(100.0 * found.share)} % larger than any stored number"
+    why = f"that of {found.name} may be {number(100.0 * found.share)} % larger than any stored number"
     said = f"Not examined: peaks, work and cycles between frames: {why}; a shorter output_interval shows them"
     return Item("unexamined", "green", said, row=found.name)
 
 
-CHECKS = (Check("between_frames", Run, look, say, 914, (FRAMES,), "Peaks between frames", line="unexamined"),)
+def look_otherwise(subject: Run | Positions | Actuated) -> Otherwise | None:
+    """The worst number at a probe: of places, if one of these goes otherwise, else of all; of efforts what their own times leave open."""
+    positions = not isinstance(subject, Run)
+    found = [
+        each
+        for variable, off in subject.between_frames.items()
+        if not variable.endswith(NOT_SHOWN)
+        for each in _of_variable(subject.result, variable, np.asarray(off, dtype=float), positions)
+    ]
+    if not found and isinstance(subject, Actuated):
+        name, off, units, share = subject.efforts.open_between
+        if off > ROUNDED * _energy(subject) / (subject.scales.size if units == "N" else 1.0):
+            return Otherwise(f"the effort of {name}", off, units, share, motion=True, positions=True)
+        return None
+    return max(found, key=lambda each: (each.motion, each.share), default=None)
+
+
+def _energy(subject: Actuated) -> float:
+    """[J] the largest kinetic energy: efforts that are nothing beside it are round-off."""
+    known = "kinetic_energy" in subject.result.variables
+    return float(np.max(subject.result.array("kinetic_energy"), initial=0.0)) if known else 0.0
+
+
+def _of_variable(result: Any, variable: str, off: NDArray[np.float64], positions: bool) -> Iterator[Otherwise]:
+    """The worst number of a variable."""
+    values = result.array(variable).reshape(len(result.time), -1)
+    share = off / np.maximum(np.ptp(values, axis=0), 1e-300)
+    k = int(np.argmax(share))
+    dims = result.variables[variable].dims[1:]
+    place = np.unravel_index(k, shape_of(result.variables[variable], result.coordinates)) if dims else ()
+    names = [result.coordinates[dim][at] for dim, at in zip(dims, place, strict=True)]
+    name = ".".join([*names[:1], variable.removeprefix("joint_") if names else variable, *names[1:]])
+    is_motion = positions or (variable in MOTIONS and float(share[k]) > OTHERWISE)
+    units = result.units(name) if name in result else result.variables[variable].units
+    yield Otherwise(name, float(off[k]), units, float(share[k]), is_motion, positions)
+
+
+def say_otherwise(found: Otherwise) -> Item:
+    """Amber where the motion itself is another one between frames."""
+    frames, what = (
+        ("positions", "more positions show") if found.positions else ("frames", "a shorter output_interval shows")
+    )
+    off = f"{found.name} may go {amount(found.off, found.units)} beyond what {frames} show"
+    if found.motion:
+        said = f"Between {frames}: {off}; {what} it (green if it goes along a smooth curve)"
+        return Item("between_frames", "amber", said, row=found.name)
+    return Item(
+        "unexamined", "green", f"Not examined: peaks, work and cycles between frames: {off}; {what} it", row=found.name
+    )
+
+
+CHECKS = (
+    Check("between_frames", Run, look, say, 914, (FRAMES,), "Peaks between frames", line="unexamined"),
+    Check(
+        "otherwise",
+        (Run, Positions, Actuated),
+        look_otherwise,
+        say_otherwise,
+        27,
+        (FRAMES,),
+        "Between frames",
+        line="between_frames",
+    ),
+)

@@ -1,0 +1,257 @@
+"""Curve of a result between its frames, and the doubt about it.
+
+Between two frames a number goes along the cubic with its value and its rate at both (Hermite). Rates are those of the result where it has
+them, else of the polynomial through five frames. Each frame is compared with the cubic over its two neighbours, which is off by sixteen
+times as much as those of single intervals where the curve is smooth, and by twice as much at a corner: half of what it misses is the doubt.
+Where the result has second rates these are compared too: a vibration with whole periods between frames looks like rest to values alone.
+A run looks at its numbers at times that are no frames (`nivel.analysis.run.probes`); what these are apart from their curves is doubt too.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.results.frames.contents import shape_of
+from nivel.results.frames.names import derivative
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+Array = NDArray[np.float64]
+STENCIL: Final = 5  # frames through which a polynomial is laid where rates are not known
+DOUBT: Final = 0.5  # of what a cubic over two intervals misses at a corner, that over one does
+RATES: Final = {
+    "position": "velocity",
+    "velocity": "acceleration",
+    "angular_velocity": "angular_acceleration",
+    "joint_coordinate": "joint_rate",
+    "modal_coordinate": "modal_rate",
+    "modal_rate": "modal_acceleration",
+}
+INTEGRALS: Final = {rate: name for name, rate in RATES.items()}
+TOLD: Final = 1e-3  # of the range of a curve: a doubt about a number made from it that is said
+ROUNDED: Final = 1e-9  # of the largest magnitude: a doubt that is round-off
+QUARTERS: Final = (0.25, 0.5, 0.75)
+PROBED: Final = "between_frames"  # attribute of a result: JSON, by variable what its numbers are apart from their curves between frames
+
+
+@dataclass(frozen=True)
+class Curve:
+    """time (n,) [s], never falling; value (n, m), rate (n, m) [1/s]; doubt (n - 1, m) : what the cubic of an interval may be off by; hidden
+    (n - 1, m) : how far beyond its frames and cubic it may go. A jump from one frame to the next is a doubt, and hides no extreme."""
+
+    time: Array
+    value: Array
+    rate: Array
+    doubt: Array
+    hidden: Array
+
+    @property
+    def step(self) -> Array:
+        """(n - 1, 1) [s] time between two frames; where it is 0 the curve jumps."""
+        return np.diff(self.time)[:, None]
+
+    @property
+    def corners(self) -> tuple[Array, Array, Array, Array]:
+        """Values and rates (n - 1, m) at both ends of the intervals, as `hermite` takes them."""
+        return self.value[:-1], self.value[1:], self.rate[:-1], self.rate[1:]
+
+    @property
+    def negative(self) -> Curve:
+        """The curve with the other sign."""
+        return replace(self, value=-self.value, rate=-self.rate)
+
+    def is_told(self, doubt: Array) -> NDArray[np.bool_]:
+        """(m,) whether doubts about values of the columns are said."""
+        if not len(self.value):
+            return np.zeros(self.value.shape[1], dtype=bool)
+        extent, size = np.ptp(self.value, axis=0), np.max(np.abs(self.value), axis=0)
+        return doubt > np.maximum(TOLD * extent, ROUNDED * size)
+
+    def at(self, time: Array) -> Array:
+        """(k, m) values at times (k,) [s]; of the first or the last frame outside of the curve."""
+        if len(self.time) < 2:
+            return self.value[np.zeros(len(time), dtype=np.intp)]
+        k, share, step = self._place(time)
+        return hermite(share, step, *(each[k] for each in self.corners))
+
+    def doubt_at(self, time: Array) -> Array:
+        """(k, m) doubt at times (k,) [s]; none at frames."""
+        if len(self.time) < 2:
+            return np.zeros((len(time), self.value.shape[1]))
+        k, share, _ = self._place(time)
+        return np.where((share > 0.0) & (share < 1.0), self.doubt[k], 0.0)
+
+    def _place(self, time: Array) -> tuple[NDArray[np.intp], Array, Array]:
+        """Numbers (k,) of the intervals of times, shares and lengths (k, 1) of these."""
+        k = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2)
+        step = np.diff(self.time)[k]
+        share = np.divide(time - self.time[k], step, out=np.ones_like(step), where=step > 0.0)
+        return k, np.clip(share, 0.0, 1.0)[:, None], step[:, None]
+
+    def within(self, start: float, end: float) -> Curve:
+        """The part from `start` to `end` [s], which lie on it."""
+        if len(self.time) < 2:
+            return self
+        inside = np.flatnonzero((self.time > start) & (self.time < end))
+        k, share, step = self._place(np.array([start, end]))
+        corners = [each[k] for each in self.corners]
+        ends = hermite(share, step, *corners), hermite_rate(share, step, *corners)
+        value, rate = (
+            np.concatenate([cut[:1], each[inside], cut[1:]])
+            for cut, each in zip(ends, (self.value, self.rate), strict=True)
+        )
+        intervals = np.append(k[0], inside)
+        time = np.concatenate([[start], self.time[inside], [end]])
+        return Curve(time, value, rate, self.doubt[intervals], self.hidden[intervals])
+
+    def doubted(self, more: Array) -> Curve:
+        """The curve that may be off by `more` (m,) or (n - 1, m) too, wherever it goes."""
+        return replace(self, doubt=np.maximum(self.doubt, more), hidden=np.maximum(self.hidden, more))
+
+
+def curve(time: Array, value: Array, rate: Array | None = None, second: Array | None = None) -> Curve:
+    """The curve of values (n,) or (n, m). rate, second : derivatives where they are known."""
+    value = value.reshape(len(time), -1)
+    rate, second = (None if each is None else each.reshape(value.shape) for each in (rate, second))
+    slope, h = rates(time, value) if rate is None else rate, np.diff(time)[:, None]
+    if len(time) < STENCIL:
+        few = np.zeros((max(len(time) - 1, 0), value.shape[1]))
+        few += np.ptp(value, axis=0) if len(few) else 0.0
+        few += 0.0 if rate is None else h * np.maximum(np.abs(slope[:-1]), np.abs(slope[1:]))
+        return Curve(time, value, slope, few, few)
+    missed = _missed(time, value, _rates_of_others(time, value) if rate is None else rate)
+    doubt = DOUBT * np.where(h > 0.0, np.maximum(missed[:-1], missed[1:]), 0.0)
+    out = Curve(time, value, slope, doubt, np.minimum(doubt, _beyond(value)))
+    if second is None:
+        return out
+    bends = second[:-1], second[1:]
+    off = [quintic(share, h, out.corners, bends) - hermite(share, h, *out.corners) for share in QUARTERS]
+    return out.doubted(np.where(h > 0.0, np.max(np.abs(off), axis=0), 0.0))
+
+
+def _beyond(value: Array) -> Array:
+    """(n - 1, m) by how much the two frames of an interval are beyond the next one on either side; the first and the last as their
+    neighbours."""
+    low, high = (reduce(value[:-1], value[1:]) for reduce in (np.minimum, np.maximum))
+    of_inner = np.maximum(high[1:-1] - np.maximum(value[:-3], value[3:]), np.minimum(value[:-3], value[3:]) - low[1:-1])
+    inner = np.maximum(of_inner, 0.0)
+    return np.concatenate([inner[:1], inner, inner[-1:]])
+
+
+def curve_of(result: Result, name: str) -> Curve:
+    """The curve of a name of a result, with all rates that the result has. Raises ModelError where there is no such name."""
+    value, found = result.array(name), result.selection(name)
+    out = _curve_of_part(result, found.variable, found.where[1:], value)
+    off = probed(result.attributes).get(found.variable)
+    if off is None:
+        return out
+    variable = result.variables[found.variable]
+    shaped = np.asarray(off, dtype=float).reshape(shape_of(variable, result.coordinates))
+    return out.doubted(shaped[found.where[1:]].reshape(-1))
+
+
+def probed(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    """By variable what its numbers were apart from their curves at times between frames; without those that were not."""
+    return json.loads(str(attributes.get(PROBED, "{}")))
+
+
+def _curve_of_part(result: Result, variable: str, where: tuple[slice | int, ...], value: Array) -> Curve:
+    """The curve of a part of a variable. A number whose integral goes otherwise by some doubt, between two frames, may be off by that over
+    their time."""
+
+    def part(name: str) -> Array | None:
+        return result.array(name)[(slice(None), *where)] if name in result.variables else None
+
+    known = {} if result.is_statics else RATES
+    rate, whole = _beside(variable, known), _beside(variable, INTEGRALS if known else {})
+    out = curve(result.time, value, part(rate), part(_beside(rate, known)))
+    values, h = part(whole), out.step
+    if values is None or not len(h):
+        return out
+    doubt = _curve_of_part(result, whole, where, values).doubt
+    return out.doubted(np.divide(doubt, h, out=np.zeros_like(doubt), where=h > 0.0))
+
+
+def _beside(variable: str, names: Mapping[str, str]) -> str:
+    """The variable that `names` has for another one, also for the slopes of that along a parameter; empty where it has none."""
+    if (parts := derivative(variable)) is None:
+        return names.get(variable, "")
+    return f"d({names[parts[0]]})/d({parts[1]})" if parts[0] in names else ""
+
+
+def hermite(share: Any, h: Array, a: Array, b: Array, slope_a: Array, slope_b: Array) -> Array:
+    """The cubic with values a, b and rates at both ends, at a share of the interval h."""
+    c = b - a
+    second, third = 3.0 * c - h * (2.0 * slope_a + slope_b), h * (slope_a + slope_b) - 2.0 * c
+    return a + share * (h * slope_a + share * (second + share * third))
+
+
+def hermite_rate(share: Any, h: Array, a: Array, b: Array, slope_a: Array, slope_b: Array) -> Array:
+    """Its rate; 0 where it jumps."""
+    c = b - a
+    second, third = 3.0 * c - h * (2.0 * slope_a + slope_b), h * (slope_a + slope_b) - 2.0 * c
+    change = h * slope_a + share * (2.0 * second + 3.0 * share * third)
+    return np.divide(change, h, out=np.zeros_like(change), where=h > 0.0)
+
+
+def quintic(share: float, h: Array, corners: tuple[Array, Array, Array, Array], bends: tuple[Array, Array]) -> Array:
+    """The polynomial of degree five with values, rates and second rates, `bends`, at both ends."""
+    (a, b, slope_a, slope_b), (bend_a, bend_b) = corners, bends
+    rest = b - a - h * slope_a - 0.5 * h * h * bend_a
+    turn, bend = h * (slope_b - slope_a) - h * h * bend_a, h * h * (bend_b - bend_a)
+    third = 10.0 * rest - 4.0 * turn + 0.5 * bend
+    fourth, fifth = -15.0 * rest + 7.0 * turn - bend, 6.0 * rest - 3.0 * turn + 0.5 * bend
+    return a + share * (
+        h * slope_a + share * (0.5 * h * h * bend_a + share * (third + share * (fourth + share * fifth)))
+    )
+
+
+def rates(time: Array, value: Array) -> Array:
+    """Rates (n, m) of the polynomials through STENCIL frames about each, which do not go over jumps."""
+    out = np.zeros_like(value)
+    jumps = (np.flatnonzero(np.diff(time) <= 0.0) + 1).tolist()
+    for first, last in zip([0, *jumps], [*jumps, len(time)], strict=True):
+        n = last - first
+        width = min(STENCIL, n)
+        if width > 1:
+            begin = np.clip(np.arange(n) - width // 2, 0, n - width)
+            place = first + begin[:, None] + np.arange(width)
+            weights = _weights(time[place] - time[first:last, None], np.arange(n) - begin)
+            out[first:last] = np.einsum("kj,kjm->km", weights, value[place])
+    return out
+
+
+def _weights(x: Array, at: NDArray[np.intp]) -> Array:
+    """Weights (n, k) of values at places x (n, k) in the derivative of the polynomial through them at the place `at` of each row."""
+    out, rows = np.zeros_like(x), np.arange(len(x))
+    for j in range(x.shape[1]):
+        factors = np.ones(len(x))
+        for i in range(x.shape[1]):
+            if i != j:
+                factors *= np.where(i == at, 1.0, -x[:, i]) / (x[:, j] - x[:, i])
+        out[:, j] = np.where(j == at, 0.0, factors)
+    out[rows, at] = -out.sum(axis=1)
+    return out
+
+
+def _rates_of_others(time: Array, value: Array) -> Array:
+    """Rates at each frame by every other frame about it."""
+    out = np.empty_like(value)
+    for k in (0, 1):
+        out[k::2] = rates(time[k::2], value[k::2])
+    return out
+
+
+def _missed(time: Array, value: Array, rate: Array) -> Array:
+    """(n, m) by how much each frame is apart from the cubic over its neighbours; the first and the last frame as theirs."""
+    h = (time[2:] - time[:-2])[:, None]
+    share = np.divide((time[1:-1] - time[:-2])[:, None], h, out=np.zeros_like(h), where=h > 0.0)
+    inner = np.abs(value[1:-1] - hermite(share, h, value[:-2], value[2:], rate[:-2], rate[2:]))
+    return np.concatenate([inner[:1], inner, inner[-1:]])

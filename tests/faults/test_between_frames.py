@@ -1,0 +1,146 @@
+"""Numbers made from frames: right to their stated doubt, or told, whatever frames are kept; against closed forms of sines."""
+
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.analysis.sweep.task import Task
+from nivel.analysis.sweep.variant import run_variant
+from nivel.files import parse_machine
+from nivel.machine.study import Reduced
+from nivel.results.curve import curve, curve_of
+from nivel.results.reductions import REDUCTIONS, integral_of_magnitude, largest, turning_values
+
+HERE = Path(__file__).parent
+OMEGA, PHASE, END = 2.0 * np.pi * 3.0, 0.3, 2.0
+
+
+def primitive(t):
+    """∫ sin(ω t + φ) dt."""
+    return -np.cos(OMEGA * t + PHASE) / OMEGA
+
+
+def primitive_of_square(t):
+    """∫ sin² dt."""
+    return 0.5 * t - np.sin(2.0 * (OMEGA * t + PHASE)) / (4.0 * OMEGA)
+
+
+# of sin(ω t + φ) over six periods
+SINE = {
+    "max": 1.0,
+    "min": -1.0,
+    "peak": 1.0,
+    "mean": 0.0,
+    "integral": 0.0,
+    "rms": np.sqrt((primitive_of_square(END) - primitive_of_square(0.0)) / END),
+}
+
+
+@pytest.mark.parametrize("frames", [601, 241, 121, 61, 34, 19, 14, 13, 7, 4, 3, 2])
+@pytest.mark.parametrize("rates", [2, 1, 0])
+def test_numbers_of_a_sine_are_right_to_their_doubt(frames, rates):
+    """100 to 0.2 frames a period, 1 and 2 of them among these. rates : derivatives that are known; without any, frames that stand for a
+    slower sine cannot tell, and a run has probes."""
+    t = np.linspace(0.0, END, frames)
+    sine, slope = np.sin(OMEGA * t + PHASE), OMEGA * np.cos(OMEGA * t + PHASE)
+    of = curve(t, sine, slope if rates else None, -(OMEGA**2) * sine if rates > 1 else None)
+    if rates < 2 and frames < 34:
+        return
+    for name, wanted in SINE.items():
+        found = REDUCTIONS[name](of)
+        assert abs(found.value[0] - wanted) <= found.doubt[0] + 1e-12 or of.is_told(found.doubt)[0], name
+        assert found.doubt[0] < (1e-3 if frames > 200 else 0.05 if frames > 60 else np.inf), name
+    work = integral_of_magnitude(of)
+    assert abs(work.value[0] - END * 2.0 / np.pi) <= work.doubt[0] + 1e-3
+
+
+def test_a_peak_has_its_time_and_its_turns():
+    t = np.linspace(0.0, END, 97)
+    of = curve(t, np.sin(OMEGA * t + PHASE), OMEGA * np.cos(OMEGA * t + PHASE))
+    top = largest(of)
+    turns = (top.time[0] * OMEGA + PHASE - 0.5 * np.pi) / (2.0 * np.pi)
+    assert turns == pytest.approx(round(turns), abs=1e-4)
+    values = turning_values(of)
+    assert np.sum(values > 0.9998) == 6
+    part = REDUCTIONS["integral"](of.within(0.123, 1.0456))
+    assert abs(part.value[0] - primitive(1.0456) + primitive(0.123)) <= part.doubt[0] < 1e-3
+
+
+def test_a_jump_hides_no_peak_and_swings_nowhere():
+    t = np.linspace(0.0, 1.0, 41)
+    found = largest(curve(t, np.where(t < 0.5, 0.0, 100.0)))
+    assert (found.value[0], found.doubt[0]) == (100.0, 0.0)
+    spike = largest(curve(t, np.where(t == 0.5, 100.0, 0.0)))
+    assert spike.doubt[0] > 10.0
+
+
+@pytest.mark.parametrize(
+    ("hertz", "positions"), [*product((360, 120, 7.3), (361, 721)), (720, 361), (359, 361), (3, 361)]
+)
+def test_efforts_of_a_driver_between_positions(hertz, positions):
+    """m a ω² of a vibration of 1 mm; positions that meet it at rest are told."""
+    machine = nivel.load(HERE / "aliased-driver.yaml")
+    driver = machine.record.drivers[0]
+    machine = machine.replace(driver.replace(value=f"0.1*time+1e-3*sin(2*pi*{hertz}*time)"))
+    found = machine.kinematics(positions=positions)
+    force = REDUCTIONS["peak"](curve_of(found, "driver.d.effort"))
+    right = abs(force.value[0] - 1e-3 * (2.0 * np.pi * hertz) ** 2) <= force.doubt[0] + 1e-9
+    assert right or found.trust.light != "green"
+    assert right or "Between positions" in str(found.trust)
+    assert found.trust.light == "green" or positions < 20 * hertz
+
+
+def test_inverse_dynamics_tells_of_its_positions():
+    found = nivel.load(HERE / "aliased-driver.yaml").inverse(actuators="r")
+    assert found.facts()[0]["peak"] == pytest.approx(0.0, abs=1e-4)
+    assert found.trust.light == "amber"
+
+
+@pytest.mark.parametrize("interval", [0.05, 0.2])
+def test_the_slope_of_a_maximum_is_that_of_the_curve(interval):
+    """x = v/ω sin ω t, largest v √(m/k): the slope along k is -v √m / (2 k^1.5) = -5e-4."""
+    machine = nivel.load(HERE / "gradient-max.yaml")
+    outputs = ["max(r.displacement)", "integral(r.displacement)", "rms(r.displacement)"]
+    found = machine.gradient(outputs, ["forces.k.stiffness"], output_interval=interval)
+    slope = found[f"d({outputs[0]})/d(forces.k.stiffness)"]
+    assert float(found[outputs[0]]) == pytest.approx(0.1, abs=1e-8)
+    assert abs(float(slope) + 5e-4) <= slope.attrs["estimated_error"] + 1e-10
+    assert slope.attrs["verdict"] == "green"
+    # ∫ sin(ω t)/ω = (1 - cos ω)/ω², whose derivative along ω is times dω/dk = 1/(2 ω)
+    w = 10.0
+    wanted = (np.sin(w) / w**2 - 2.0 * (1.0 - np.cos(w)) / w**3) / (2.0 * w)
+    whole = found[f"d({outputs[1]})/d(forces.k.stiffness)"]
+    assert abs(float(whole) - wanted) <= whole.attrs["estimated_error"] + 1e-10
+    assert float(whole) == pytest.approx(wanted, rel=1e-4)
+
+
+RINGING = """
+format: 1
+name: ringing
+bodies: {a: {mass: 1, inertia: [1, 1, 1], velocity: [3, 0, 0]}}
+joints: {r: {type: translational, bodies: [ground, a], point: [0, 0, 0], axis: [1, 0, 0], start: {displacement: 0.1}}}
+forces: {coil: {type: joint-spring-damper, coordinate: r, stiffness: (50*pi)^2}}
+simulation: {duration: 2, step: 0.5 ms, output_interval: 40 ms, integrator: rk4}
+"""
+
+
+def test_a_run_that_keeps_one_frame_a_period_is_not_green():
+    """25 Hz, a frame every 40 ms: each shows the start."""
+    result = nivel.Machine.from_record(parse_machine(RINGING)).simulate()
+    assert np.ptp(result.array("r.displacement")) < 1e-3
+    assert any("m beyond what frames show" in each.text and each.verdict == "amber" for each in result.trust.items)
+    assert "peak power of force.coil between frames" in str(result.powers().attrs["headline"])
+
+
+def test_outputs_of_studies_do_not_depend_on_frames():
+    """Amplitude √(x₀² + (v₀/ω)²), and the spring's largest tension and mean square."""
+    machine = nivel.Machine.from_record(parse_machine(RINGING))
+    asked = {"x": ("peak", "r.displacement"), "f": ("max", "force.coil.magnitude"), "r": ("rms", "r.displacement")}
+    outputs = {name: Reduced(type=kind, of=of) for name, (kind, of) in asked.items()}
+    found = run_variant(Task(machine, outputs=outputs), {}).outputs
+    size = np.hypot(0.1, 3.0 / (50.0 * np.pi))
+    for name, wanted in (("x", size), ("f", size * (50.0 * np.pi) ** 2), ("r", size / np.sqrt(2.0))):
+        assert found[name].value == pytest.approx(wanted, rel=2e-3 if name == "f" else 2e-4)

@@ -238,7 +238,7 @@ def _watched(builder: SystemBuilder) -> Watched:
         held=np.zeros(len(switches)),
         value=np.zeros(count),
         rate=np.zeros(count),
-        followed=np.zeros(1, dtype=np.uint32),
+        followed=np.zeros(3, dtype=np.uint32),
     )
 
 

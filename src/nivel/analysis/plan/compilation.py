@@ -53,6 +53,7 @@ SENSOR, WATCH, SAMPLING = (
     "nivel.kernels.signals.watch",
     "nivel.kernels.signals.sampling",
 )
+HEIGHT_WAY = "nivel.kernels.forces.height_way"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
 OF_BEAMS = "nivel.kernels.residual.beam_tangent"
 POINTS = "nivel.kernels.residual.point_inertia"
@@ -165,6 +166,8 @@ def run_entries(plan: Plan) -> list[Entry]:
     """What a run takes."""
     methods = plan.methods
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
+    if any(getattr(force, "heights", None) is not None for force in methods.machine.forces):
+        modules.append(HEIGHT_WAY)
     path = methods.path
     if methods.machine.is_flexible:
         modules.append(FLOATING.module)  # singular positions are searched for in absolute coordinates
@@ -209,6 +212,7 @@ def all_entries() -> list[Entry]:
         POINTS,
         SENSOR,
         WATCH,
+        HEIGHT_WAY,
         SAMPLING,
         IMPLICIT_ACCELERATIONS,
         IMPLICIT_CORRECTION,

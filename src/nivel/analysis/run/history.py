@@ -50,6 +50,7 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.kernels.elements import friction as columns
+from nivel.kernels.forces import contact, height_contact, height_way
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.record import WATCH, Sampled
 from nivel.kernels.signals.sampling import sample
@@ -57,6 +58,7 @@ from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
+from nivel.system.forces.height_fields import rows_over_heights
 from nivel.system.signals.control import ONCE
 from nivel.system.signals.ticks import ratio_of
 from nivel.system.system import Array, System
@@ -277,6 +279,12 @@ def _watch(system: System, *, chosen: bool) -> int:
     count = len(watched.event) + (len(watched.surface) + len(watched.switch) if chosen else 0)
     if count:
         system.record.hooks.address[WATCH] = watch.address
+    first, last = rows_over_heights(system.record.elements)
+    if last > first:
+        watched.followed[1:] = first, last
+        system.record.hooks.address[WATCH] = height_way.watch.address
+        noted = contact.NUMBERS + np.array([height_contact.MISSED, height_contact.SEEN])
+        system.record.elements.number[first:last, noted] = 0.0
     return count
 
 

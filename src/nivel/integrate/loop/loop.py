@@ -39,6 +39,7 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.loop.samples import find_bound, take_samples, time_of
 from nivel.integrate.loop.step_control import fastest_turn
+from nivel.integrate.loop.surfaces import allow_ahead, keep_ways
 from nivel.integrate.loop.switches import change_sides, has_switches, note_sides
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK, OPEN
 from nivel.kernels.output.observe import accept, observe
@@ -184,6 +185,7 @@ def accept_state(evaluate, machine, history, due):
     if contradicts(record.saddle, constraints, record.control.failure):
         return CONTRADICTION
     counter[EVALUATED] = 1
+    keep_ways(machine, run)
     accept(machine, clock[TIME])
     note_energy(machine, run)
     if has_switches(machine, run):
@@ -265,6 +267,8 @@ def take_step(evaluate, correct, step, machine, history):
     else:
         allow(run)
     find_bound(machine, run)
+    if not fixed:
+        allow_ahead(machine, run)
     counter[DENSE] = 0
     speed = fastest_turn(machine)
     status = call_step(step, evaluate, machine, history)

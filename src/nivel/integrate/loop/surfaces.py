@@ -6,18 +6,25 @@ from nivel.integrate.loop.crossing import NEVER, SHARE, end_at, find_crossings, 
 from nivel.integrate.loop.run import (
     AFTER,
     BEFORE,
+    BOUND,
+    LARGEST,
     LENGTH,
     RATE_AFTER,
     RATE_BEFORE,
     RESTART,
     SIDE,
+    STEP,
     SWITCHED,
+    TIME,
     WHEN,
     run_at,
 )
 from nivel.integrate.loop.switches import find_between, first_switch, has_switches, let_go
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.record import record_at
+from nivel.kernels.record.hook import call_hook
+from nivel.kernels.record.record import WATCH, record_at
+from nivel.kernels.signals.watch import AHEAD, ARRIVE, KEEP, LOOK
 from nivel.native.function import leaf
 
 # At most so many states are looked at within a step that may touch a surface and leave it; none nearer to others than this share.
@@ -68,18 +75,72 @@ def look_into(evaluate, correct, machine, history, k):
 
 
 @leaf
+def has_heights(machine):
+    """Whether the ground of a contact has heights."""
+    followed = record_at(machine).watched.followed
+    return followed[2] > followed[1]
+
+
+@leaf
+def keep_ways(machine, run):
+    """Ways over heights begin, or go on, at the state last evaluated, which is accepted."""
+    if has_heights(machine):
+        call_hook(machine, WATCH, KEEP, run.clock[TIME])
+
+
+@leaf
+def allow_ahead(machine, run):
+    """clock[LARGEST] no longer than the heights ahead of what touches them allow."""
+    if has_heights(machine):
+        clock = run.clock
+        h = min(real(clock[STEP]), real(clock[LARGEST]), real(clock[BOUND]) - real(clock[TIME]))
+        call_hook(machine, WATCH, AHEAD, clock[TIME] + h)
+        share = real(record_at(machine).watched.value[0])
+        if share < 1.0:
+            clock[LARGEST] = share * h
+
+
+@leaf
+def look_over_heights(evaluate, correct, machine, history, events):
+    """WHEN := where points change their sides first over heights between the ends of the step. Returns a status.
+
+    What the way between both ends shows is looked at in the state there."""
+    run, watched = run_at(history), record_at(machine).watched
+    values, end = run.event_values, run.clock[TIME] + run.clock[LENGTH]
+    for k in range(events, first_switch(machine)):
+        theta = 0.0
+        for _ in range(LOOKS):
+            watched.value[k] = theta
+            call_hook(machine, WATCH, LOOK + k, end)
+            theta = real(watched.value[k])
+            if not theta < min(values[WHEN, k], 1.0):
+                break
+            status, value = value_at(evaluate, correct, machine, history, k, theta)
+            if status == OK and side_of(value, k, events) != values[SIDE, k]:
+                status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+                theta = 1.0
+            if status != OK:
+                return status
+    return OK
+
+
+@leaf
 def find_contacts(evaluate, correct, machine, history, events):
     """(status, θ) where the step has to end because a contact or stop begins or ends, or a switch changes; 1 where none does."""
     run = run_at(history)
     values = run.event_values
     if values.shape[1] == events:
         return OK, 1.0
+    if has_heights(machine):
+        call_hook(machine, WATCH, ARRIVE, run.clock[TIME] + run.clock[LENGTH])
     status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], 1.0)
     for k in range(events, first_switch(machine)):
         if status == OK and values[WHEN, k] == NEVER:
             status, theta, value = look_into(evaluate, correct, machine, history, k)
             if status == OK and theta < NEVER and side_of(value, k, events) != values[SIDE, k]:
                 status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+    if status == OK and has_heights(machine):
+        status = look_over_heights(evaluate, correct, machine, history, events)
     if status == OK and has_switches(machine, run):
         status = find_between(evaluate, correct, machine, history)
     end = first_of(values[WHEN], events)

@@ -44,8 +44,9 @@ from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
 # numbers behind those of `nivel.kernels.forces.contact`; KIND: of the points, as it has them; CORNERS: where those of a hull begin, among
-# the numbers of the ground; BALL: radius of the balls, 0 of points
-KIND, CORNERS, BALL, GROUND = 0, 1, 2, 3
+# the numbers of the ground; BALL: radius of the balls, 0 of points. Work of `nivel.kernels.forces.height_way`: END: a pose, MISSED: the
+# deepest overlap [m] that fixed steps have passed, MISSED_AT [s], and SEEN: the deepest at their ends
+KIND, CORNERS, BALL, END, MISSED, MISSED_AT, SEEN, GROUND = 0, 1, 2, 3, 21, 22, 23, 24
 
 
 @stage

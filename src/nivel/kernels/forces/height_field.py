@@ -11,11 +11,17 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.native.function import leaf, part
 
-# numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes; then the heights,
-# row by row along x, with one more on each side
-ALONG, ACROSS, WIDTH, LENGTH, HIGHEST, HEIGHTS = 0, 1, 2, 3, 4, 5
+# numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes, one of the second
+# derivative along any line by the squares of meshes [m]; then the heights, row by row along x, with one more on each side
+ALONG, ACROSS, WIDTH, LENGTH, HIGHEST, BEND, HEIGHTS = 0, 1, 2, 3, 4, 5, 6
+# Of the cubic between heights, the sum of the sizes of the weights of all sixteen.
+OVERSHOOT = 1.25**2
+# Bound of its second derivatives by second differences of the heights.
+CUBIC = 3.0
 # Steps of Newton's method, and halvings of one that does not come nearer; behind a step below this share of a mesh one more is the last.
 STEPS, HALVINGS, SETTLED = 40, 12, 1e-11
+# Searches anew from a place that is nearer, at most, and halvings with which that is found.
+SEARCHES, CLOSER = 8, 30
 # roundings of a squared distance, in units in the last place of what it is formed from
 ROUNDINGS = 8.0 * 2.2e-16
 
@@ -85,31 +91,62 @@ def step_to(n, x, y, c, bends):
     return (B * g1 - C * g0) / k, (B * g0 - A * g1) / k, real(k) > 0.0 and real(A) > 0.0
 
 
-@part
-def from_heights(n, c):
-    """(distance, normal, place) of a point c from the ground, in its axes; negative below it. The place is that of a nearest one which the
-    search from the place below c finds."""
-    c0 = real(c[0]), real(c[1]), real(c[2])
-    x, y = c0[0], c0[1]
+@leaf
+def search_from(n, x, y, c, before):
+    """(x, y, whether the bend of the surface counts there) of a place nearest to the point c of real numbers, by Newton's method from the
+    place above (x, y), whose squared distance is `before`."""
     mesh = real(n[WIDTH]) / real(n[ALONG])
     bends = 1.0
     for _ in range(STEPS):
-        u, v, is_least = step_to(n, x, y, c0, 1.0)
+        u, v, is_least = step_to(n, x, y, c, 1.0)
         bends = 1.0
         if not is_least:
             bends = 0.0
-            u, v, _ = step_to(n, x, y, c0, 0.0)
+            u, v, _ = step_to(n, x, y, c, 0.0)
         u, v = real(u), real(v)
         if u * u + v * v <= (SETTLED * mesh) ** 2:
             break
-        before = real(squared_distance(n, x, y, c0))
         d = np.sqrt(before)
-        allowed = before + ROUNDINGS * d * (d + np.abs(x) + np.abs(y) + np.abs(c0[2]))
+        allowed = before + ROUNDINGS * d * (d + np.abs(x) + np.abs(y) + np.abs(c[2]))
+        before = real(squared_distance(n, x + u, y + v, c))
         for _ in range(HALVINGS):
-            if real(squared_distance(n, x + u, y + v, c0)) <= allowed:
+            if before <= allowed:
                 break
             u, v = 0.5 * u, 0.5 * v
+            before = real(squared_distance(n, x + u, y + v, c))
         x, y = x + u, y + v
+    return x, y, bends
+
+
+@leaf
+def place_before(n, x, y, c, above):
+    """Where the line from the point c, which is `above` the surface or below, to the place above (x, y) comes to the surface before."""
+    p, q, r = x - c[0], y - c[1], real(surface(n, x, y)[0]) - c[2]
+    low, high = 0.0, 1.0
+    for _ in range(CLOSER):
+        t = 0.5 * (low + high)
+        if (c[2] + t * r - real(surface(n, c[0] + t * p, c[1] + t * q)[0])) * above > 0.0:
+            low = t
+        else:
+            high = t
+    return c[0] + high * p, c[1] + high * q
+
+
+@part
+def from_heights(n, c):
+    """(distance, normal, place) of a point c from the ground, in its axes; negative below it. The place is that of a nearest one which the
+    search from the place below c finds, seen from the side of c: else the search begins anew where the line to it crosses the ground."""
+    c0 = real(c[0]), real(c[1]), real(c[2])
+    x, y = c0[0], c0[1]
+    above = c0[2] - real(surface(n, x, y)[0])
+    x, y, bends = search_from(n, x, y, c0, above * above)
+    for _ in range(SEARCHES):
+        h, hx, hy, _, _, _ = surface(n, x, y)
+        out = -real(hx) * (c0[0] - x) - real(hy) * (c0[1] - y) + c0[2] - real(h)
+        if out * above >= 0.0:
+            break
+        x, y = place_before(n, x, y, c0, above)
+        x, y, bends = search_from(n, x, y, c0, real(squared_distance(n, x, y, c0)))
     # one step more carries the slopes
     o = 0.0 * c[0]
     du, dv, _ = step_to(n, x + o, y + o, c, bends)
@@ -118,3 +155,38 @@ def from_heights(n, c):
     size = np.sqrt(1.0 + hx * hx + hy * hy)
     n0, n1, n2 = -hx / size, -hy / size, 1.0 / size
     return (c[0] - s) * n0 + (c[1] - t) * n1 + (c[2] - h) * n2, n0, n1, n2, s, t, h
+
+
+@part
+def look_at_heights(n, low_x, high_x, low_y, high_y):
+    """(bound that no height over the rectangle passes, bound of its second derivative along any line by the squares of meshes)."""
+    along, across = np.int64(real(n[ALONG])), np.int64(real(n[ACROSS]))
+    i = np.int64(max(0.0, min(along - 1.0, np.floor((low_x / real(n[WIDTH]) + 0.5) * (along - 1.0)))))
+    j = np.int64(max(0.0, min(across - 1.0, np.floor((low_y / real(n[LENGTH]) + 0.5) * (across - 1.0)))))
+    last_i = np.int64(max(0.0, min(along - 1.0, np.ceil((high_x / real(n[WIDTH]) + 0.5) * (along - 1.0)))))
+    last_j = np.int64(max(0.0, min(across - 1.0, np.ceil((high_y / real(n[LENGTH]) + 0.5) * (across - 1.0)))))
+    width = along + 2
+    least, most, bend = np.inf, -np.inf, 0.0
+    for row in range(j, last_j + 1):
+        for column in range(i, last_i + 1):
+            at = HEIGHTS + (row + 1) * width + column + 1
+            z, left, right = real(n[at]), real(n[at - 1]), real(n[at + 1])
+            down, up = real(n[at - width]), real(n[at + width])
+            least = min(least, z, left, right, down, up)
+            most = max(most, z, left, right, down, up)
+            both = real(n[at + width + 1]) - up - right + z
+            bend = max(bend, np.abs(left - 2.0 * z + right) + np.abs(down - 2.0 * z + up) + 2.0 * np.abs(both))
+    return 0.5 * (least + most) + 0.5 * OVERSHOOT * (most - least), CUBIC * bend
+
+
+@leaf
+def mesh_of(ground):
+    """The shorter side of a mesh [m]."""
+    return min(real(ground[WIDTH]) / (real(ground[ALONG]) - 1.0), real(ground[LENGTH]) / (real(ground[ACROSS]) - 1.0))
+
+
+@leaf
+def meshes(n, p, q):
+    """Meshes from a place to another one along the side of which these are more."""
+    x, y = (q[0] - p[0]) / n[WIDTH] * (n[ALONG] - 1.0), (q[1] - p[1]) / n[LENGTH] * (n[ACROSS] - 1.0)
+    return max(np.abs(real(x)), np.abs(real(y)))

@@ -17,6 +17,7 @@ from nivel.kernels.forces import (
     ellipsoid_contact,
     friction_work,
     height_contact,
+    height_pose,
     hull_contact,
     round_contact,
     surface_distance,
@@ -131,7 +132,13 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     if force.heights is not None:
         ground = numbers_of_heights(force.heights)
         ball = size[0] if kind in (contact.SPHERE, contact.CAPSULE) else 0.0
-        numbers += [float(kind), float(len(ground)), ball, *ground]
+        numbers += [
+            float(kind),
+            float(len(ground)),
+            ball,
+            *[0.0] * (height_contact.GROUND - height_contact.END),
+            *ground,
+        ]
         kind, family = contact.ROUND, height_contact.apply
     numbers += corners
     patch = [NONE, 0, 0]
@@ -139,7 +146,8 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
     frame = markers[1] if force.bodies is None else builder.frame(force.bodies[1])
     columns = [first, kind, *markers, law, points, *patch, *_surface(builder, force, frame)]
-    builder.elements.add(family, columns, numbers, points, tuple(range(points)))
+    memory = points + (height_pose.KEPT if family is height_contact.apply else 0)
+    builder.elements.add(family, columns, numbers, memory, tuple(range(points)))
 
 
 def tangent_stiffness(machine: MachineRecord, force: Contact | Contacts | Stop, load: float) -> float | None:

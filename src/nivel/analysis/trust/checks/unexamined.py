@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from nivel.analysis.curves.functions import LawCurve, varying
 from nivel.analysis.curves.path import path_of
 from nivel.analysis.trust.check import STEPS, Check
 from nivel.analysis.trust.subject import Run
 from nivel.analysis.trust.touching_pairs import spheres_among
-from nivel.analysis.trust.ways import motion_of
-from nivel.machine.core.record import GROUND
-from nivel.machine.forces import Contact, Contacts
+from nivel.machine.forces import Contacts
 from nivel.results.trust import Item
 
 SHOWN = 6  # names in a sentence
@@ -22,8 +17,8 @@ SHOWN = 6  # names in a sentence
 
 @dataclass(frozen=True)
 class Unexamined:
-    """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, of heaps in which
-    too many spheres are too fast for *Contact*, and of ground with hills that bodies may pass between two frames."""
+    """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, and of heaps in
+    which too many spheres are too fast for *Contact*."""
 
     functions: tuple[str, ...]
     laws: tuple[str, ...]
@@ -40,35 +35,10 @@ def look(run: Run) -> Unexamined | None:
 
 
 def _unknown_contacts(run: Run) -> tuple[str, ...]:
-    """Heaps of which too many spheres are fast, and ground with heights over which a body goes farther between two frames than heights are
-    apart."""
+    """Heaps of which too many spheres are fast."""
     machine, result = run.machine, run.result
-    heaps = [
-        each.name
-        for each in machine.forces
-        if isinstance(each, Contacts) and spheres_among(machine, each, result) is None
-    ]
-    hilly = [each.name for each in machine.forces if isinstance(each, Contact) and _may_pass_hills(run, each)]
-    return (*heaps, *hilly)
-
-
-def _may_pass_hills(run: Run, force: Contact) -> bool:
-    if force.heights is None or force.body is None or len(run.result.time) < 2:
-        return False
-    rows, columns = force.heights.heights.shape
-    apart = min(force.heights.size[0] / (columns - 1), force.heights.size[1] / (rows - 1))
-    speed = _velocity(run, force.body)
-    plane = force.plane
-    ground = run.machine.marker_named[plane].body if isinstance(plane, str) else plane.body if plane else GROUND
-    if ground != GROUND:
-        speed = speed - _velocity(run, ground)
-    size = np.linalg.norm(speed, axis=1)
-    return bool((np.diff(run.result.time) * np.maximum(size[:-1], size[1:])).max() > apart)
-
-
-def _velocity(run: Run, body: str) -> NDArray[np.float64]:
-    """(n, 3) [m/s] of the origin of a body, at the frames."""
-    return motion_of(run.result, body, np.zeros(3))[1]
+    heaps = (each for each in machine.forces if isinstance(each, Contacts))
+    return tuple(each.name for each in heaps if spheres_among(machine, each, result) is None)
 
 
 def say(found: Unexamined) -> Item:

@@ -1,0 +1,301 @@
+"""Ways of bodies over ground with heights within a step: a hill, a ridge or a kerb between its ends is seen whatever the speed.
+
+Between its ends the place and the axes of a shape go on cubics. The way of a point is looked at in pieces of some meshes. Over a piece that
+is higher than all heights below it nothing touches, and over one whose heights bend by less than the overlap nothing begins or ends;
+elsewhere the overlap is found at every half of a mesh. Within one the ground is one cubic, which the tangents at the ends of a step show.
+
+Where steps are chosen, a step ends where a point is on its other side. If a point touches, a step goes on no further than the ground ahead
+is about a parabola. What fixed steps pass is noted.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
+from nivel.kernels.forces.contact import COUNT, DEEPEST, NUMBERS, RADIUS
+from nivel.kernels.forces.height_contact import BALL, END, GROUND, MISSED, MISSED_AT, SEEN
+from nivel.kernels.forces.height_field import (
+    BEND,
+    HIGHEST,
+    look_at_heights,
+    mesh_of,
+    meshes,
+)
+from nivel.kernels.forces.height_pose import (
+    KNOWN,
+    PLACE,
+    SINCE,
+    SPEED,
+    SPIN,
+    kept,
+    overlap_at,
+    predict,
+    put_back,
+    write_pose,
+)
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.kernels.signals.watch import AHEAD, ARRIVE, KEEP, LOOK, read_watched
+from nivel.native.function import stage
+
+# the share that is never reached
+NEVER = 2.0
+# Places at which a mesh is looked at, and those of a piece.
+IN_A_MESH, IN_A_PIECE = 2, 8
+# Ground that bends by less than this share of a mesh is a plane. Meshes along a side of a rectangle that is looked at as a whole, at most.
+PLANE, WHOLE = 1e-12, 16.0
+# Bends below this share of the overlap change no side. A way is about a parabola where it leaves its tangent by this share of what its
+# largest bend would make of it.
+SLIGHT, PARABOLA = 0.5, 0.25
+
+
+@stage
+def is_plane(machine, k):
+    """Whether all ground of element k is a plane."""
+    ground = record_at(machine).elements.number[k, NUMBERS + GROUND :]
+    return real(ground[BEND]) <= PLANE * mesh_of(ground)
+
+
+@stage
+def meshes_within(machine, k, out, at, h):
+    """A bound of the meshes that points of element k pass with the twist of the pose in out[at:] in the time h."""
+    n = record_at(machine).elements.number[k]
+    x, y, z = real(out[at + SPEED]), real(out[at + SPEED + 1]), real(out[at + SPEED + 2])
+    u, v, w = real(out[at + SPIN]), real(out[at + SPIN + 1]), real(out[at + SPIN + 2])
+    arm = real(n[RADIUS]) - real(n[NUMBERS + BALL])
+    speed = np.sqrt(x * x + y * y + z * z) + arm * np.sqrt(u * u + v * v + w * w)
+    return h * speed / mesh_of(n[NUMBERS + GROUND :])
+
+
+@stage
+def passes_nothing(machine, k, h):
+    """Whether element k goes less than a mesh in a step of length h, is above all heights on its way, or over a plane."""
+    record = record_at(machine)
+    n, memory, first = record.elements.number[k], record.elements.memory[k], np.int64(record.elements.columns[k, COUNT])
+    end, ground = NUMBERS + END, n[NUMBERS + GROUND :]
+    mesh, way = mesh_of(ground), max(meshes_within(machine, k, memory, first, h), meshes_within(machine, k, n, end, h))
+    if way <= 1.0:
+        return True
+    falls = max(-real(memory[first + SPEED + 2]), 0.0) + max(real(n[end + SPEED + 2]), 0.0)
+    lower = min(real(memory[first + PLACE + 2]), real(n[end + PLACE + 2])) - real(n[RADIUS]) - h * falls
+    if lower > real(ground[HIGHEST]):
+        return True
+    # the whole way is not longer than the bound of speeds has it
+    around = 0.5 * way * mesh + real(n[RADIUS])
+    if not around <= 0.5 * WHOLE * mesh:
+        return False
+    x, y = 0.5 * real(memory[first] + n[end]), 0.5 * real(memory[first + 1] + n[end + 1])
+    highest, bend = look_at_heights(ground, x - around, x + around, y - around, y + around)
+    return lower > highest or bend * way * way <= 8.0 * PLANE * mesh
+
+
+@stage
+def way_of(machine, k, n, h):
+    """(meshes along the way of point n, by how much its middle is beside the chord [m])."""
+    ground = record_at(machine).elements.number[k, NUMBERS + GROUND :]
+    _, p = overlap_at(machine, k, n, 0.0, h)
+    _, q = overlap_at(machine, k, n, 0.5, h)
+    _, r = overlap_at(machine, k, n, 1.0, h)
+    x, y, z = q[0] - 0.5 * (p[0] + r[0]), q[1] - 0.5 * (p[1] + r[1]), q[2] - 0.5 * (p[2] + r[2])
+    return meshes(ground, p, q) + meshes(ground, q, r), np.sqrt(x * x + y * y + z * z)
+
+
+@stage
+def piece_between(machine, k, n, begin, end, beside, h):
+    """(whether point n is clear of the ground from the share `begin` to `end`, how far its overlap may bend there).
+
+    beside : how far its way is beside its chord, at most."""
+    numbers = record_at(machine).elements.number[k]
+    ground, ball = numbers[NUMBERS + GROUND :], real(numbers[NUMBERS + BALL])
+    _, p = overlap_at(machine, k, n, begin, h)
+    _, q = overlap_at(machine, k, n, end, h)
+    around = ball + beside
+    highest, bend = look_at_heights(
+        ground, min(p[0], q[0]) - around, max(p[0], q[0]) + around, min(p[1], q[1]) - around, max(p[1], q[1]) + around
+    )
+    way = meshes(ground, p, q)
+    return min(p[2], q[2]) - around > highest, bend * way * way / 8.0 + beside
+
+
+@stage
+def first_other_side(machine, k, n, theta, h):
+    """The first share behind θ at which point n is on the other side than in the accepted state; NEVER where it is not seen on it."""
+    record = record_at(machine)
+    touches = real(record.elements.memory[k, n]) > 0.0
+    way, beside = way_of(machine, k, n, h)
+    if not 1.0 < way < np.inf:
+        return NEVER
+    count = np.int64(np.ceil(IN_A_MESH * way))
+    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
+    side = 1.0 if touches else -1.0
+    for piece in range(np.int64(theta * count) // IN_A_PIECE, pieces):
+        begin, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
+        is_clear, bend = piece_between(machine, k, n, begin / count, last / count, 4.0 * beside / (pieces * pieces), h)
+        if is_clear and not touches:
+            continue
+        f, g = -np.inf, overlap_at(machine, k, n, begin / count, h)[0] * side
+        if bend <= SLIGHT * min(g, overlap_at(machine, k, n, last / count, h)[0] * side):
+            continue
+        for i in range(begin + 1, last + 1):
+            d = overlap_at(machine, k, n, i / count, h)[0] * side
+            if d < 0.0 and i > theta * count:
+                return min(i / count, 1.0)
+            # a parabola through three of them
+            if g < f and g <= d and f < np.inf and f - 2.0 * g + d > 0.0:
+                at = (i - 1.0 + 0.5 * (f - d) / (f - 2.0 * g + d)) / count
+                least = g - (d - f) ** 2 / (8.0 * (f - 2.0 * g + d))
+                if at > theta and least < 0.0 and overlap_at(machine, k, n, at, h)[0] * side < 0.0:
+                    return at
+            f, g = g, d
+    return NEVER
+
+
+@stage
+def share_ahead(machine, k, n, h):
+    """Up to which share of a step of length h point n may go on: as far as the ground is about a parabola, and a mesh in any case."""
+    way, beside = way_of(machine, k, n, h)
+    if not 1.0 < way < np.inf:
+        return 1.0
+    count = np.int64(np.ceil(IN_A_MESH * way))
+    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
+    first = overlap_at(machine, k, n, 0.0, h)[0]
+    slope = overlap_at(machine, k, n, 1.0 / count, h)[0] - first
+    most, away = 0.0, 0.0
+    for piece in range(pieces):
+        begin, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
+        _, bend = piece_between(machine, k, n, begin / count, last / count, 4.0 * beside / (pieces * pieces), h)
+        if bend <= SLIGHT * first:
+            continue
+        f, g = np.nan, overlap_at(machine, k, n, begin / count, h)[0]
+        for i in range(begin + 1, last + 1):
+            d = overlap_at(machine, k, n, i / count, h)[0]
+            away = max(away, np.abs(d - first - slope * i))
+            if i > begin + 1:
+                most = max(most, np.abs(f - 2.0 * g + d))
+            if 0.5 * most * i * i > max(away / PARABOLA, SLIGHT * first):
+                return max(i - 1.0, 1.0 * IN_A_MESH) / count
+            f, g = g, d
+    return 1.0
+
+
+@stage
+def deepest_between(machine, k, n, h):
+    """(share, overlap) of point n where it is deepest within the step."""
+    way, beside = way_of(machine, k, n, h)
+    deepest, share = -np.inf, 0.0
+    if not 1.0 < way < np.inf:
+        return share, deepest
+    count = np.int64(np.ceil(IN_A_MESH * way))
+    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
+    for piece in range(pieces):
+        begin, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
+        is_clear, bend = piece_between(machine, k, n, begin / count, last / count, 4.0 * beside / (pieces * pieces), h)
+        at_begin, at_end = overlap_at(machine, k, n, begin / count, h)[0], overlap_at(machine, k, n, last / count, h)[0]
+        if is_clear or bend <= SLIGHT * np.abs(max(at_begin, at_end)):
+            continue
+        for i in range(begin, last + 1):
+            d = overlap_at(machine, k, n, i / count, h)[0]
+            if d > deepest:
+                deepest, share = d, i / count
+    return share, deepest
+
+
+@stage
+def note_missed(machine, k, t, h):
+    """Note the deepest overlap within the step that ends in the state last evaluated, and that at its end."""
+    elements = record_at(machine).elements
+    numbers = elements.number[k]
+    numbers[NUMBERS + SEEN] = max(real(numbers[NUMBERS + SEEN]), real(numbers[DEEPEST]))
+    if meshes_within(machine, k, elements.memory[k], np.int64(elements.columns[k, COUNT]), h) <= 0.5:
+        return
+    write_pose(machine, k, numbers, NUMBERS + END)
+    if passes_nothing(machine, k, h):
+        return
+    own = kept(machine, k)
+    for n in range(elements.columns[k, COUNT]):
+        share, depth = deepest_between(machine, k, n, h)
+        if depth > real(numbers[NUMBERS + MISSED]):
+            numbers[NUMBERS + MISSED], numbers[NUMBERS + MISSED_AT] = depth, t - (1.0 - share) * h
+    put_back(machine, k, own)
+
+
+@stage
+def keep(machine, k, t):
+    """Keep the pose of the state last evaluated; where steps are fixed, note what the step to it has passed."""
+    record = record_at(machine)
+    elements = record.elements
+    memory, first = elements.memory[k], np.int64(elements.columns[k, COUNT])
+    if record.watched.followed[0] == 0 and real(memory[first + KNOWN]) > 0.0:
+        note_missed(machine, k, t, t - real(memory[first + SINCE]))
+    write_pose(machine, k, elements.proposal[k], first)
+    elements.proposal[k, first + SINCE], elements.proposal[k, first + KNOWN] = t, 1.0
+
+
+@stage
+def look(machine, j, t):
+    """Value j that is watched, a share of the step that ends at t, becomes the first share behind it at which its surface is on its other
+    side."""
+    record = record_at(machine)
+    elements, watched = record.elements, record.watched
+    surface = watched.surface[j - watched.event.shape[0]]
+    k, n = np.int64(surface[0]), np.int64(surface[1])
+    theta = real(watched.value[j])
+    watched.value[j] = NEVER
+    if watched.followed[1] <= k < watched.followed[2] and not is_plane(machine, k):
+        h = t - real(elements.memory[k, np.int64(elements.columns[k, COUNT]) + SINCE])
+        if passes_nothing(machine, k, h):
+            return
+        own = kept(machine, k)
+        watched.value[j] = first_other_side(machine, k, n, theta, h)
+        put_back(machine, k, own)
+
+
+@stage
+def look_ahead(machine, k, t):
+    """Share of the step to t that element k allows."""
+    elements = record_at(machine).elements
+    memory, first, share, touches = elements.memory[k], np.int64(elements.columns[k, COUNT]), 1.0, False
+    for n in range(first):
+        touches = touches or real(memory[n]) > 0.0
+    h = t - real(memory[first + SINCE])
+    if not touches or meshes_within(machine, k, memory, first, h) <= 1.0:
+        return share
+    predict(elements.number[k], NUMBERS + END, memory, first, h)
+    if passes_nothing(machine, k, h):
+        return share
+    own = kept(machine, k)
+    for n in range(first):
+        if real(memory[n]) > 0.0:
+            share = min(share, share_ahead(machine, k, n, h))
+    put_back(machine, k, own)
+    return share
+
+
+@family
+def watch(machine, job, t):
+    """The hook WATCH of machines with such ground: job 0 as of others; KEEP the pose of the accepted state; ARRIVE: that at the end of a
+    step; AHEAD: the first value that is watched becomes the share of a step to t that is allowed; LOOK, see `look`."""
+    record = record_at(machine)
+    watched = record.watched
+    if job == 0:
+        read_watched(machine, t)
+        return OK
+    t = real(t)
+    if job >= LOOK:
+        look(machine, np.int64(job) - LOOK, t)
+    else:
+        share = 1.0
+        for k in range(watched.followed[1], watched.followed[2]):
+            if is_plane(machine, k):
+                continue
+            if job == KEEP:
+                keep(machine, k, t)
+            elif job == ARRIVE:
+                write_pose(machine, k, record.elements.number[k], NUMBERS + END)
+            else:
+                share = min(share, look_ahead(machine, k, t))
+        if job == AHEAD:
+            watched.value[0] = share
+    return OK

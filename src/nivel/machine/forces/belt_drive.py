@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
+from math import exp, pi
 from typing import Annotated, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Damping, NotNegativeForce, NotNegativeLength, PositiveNumber, Truth
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
 from nivel.machine.units.quantity import PositiveLength, Quantity
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -21,6 +21,28 @@ class BeltDrive(ForceElement):
     """Two elastic strands between two pulleys, which never push: a belt that slips (Euler, Eytelwein), a toothed belt, or a chain."""
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "slip_rate", "slip", "first_tension", "second_tension")
+
+    inequalities: ClassVar[Inequalities] = (
+        # Euler, Eytelwein: the larger tension is at most exp(μ φ) times the other
+        Holds(
+            "slip_rate",
+            lambda own, of: of["magnitude"],
+            lambda own, of: own.rise * (of["first_tension"] + of["second_tension"] - abs(of["magnitude"])) / 2.0,
+            lambda own, of: own.rise * (of["first_tension"] + of["second_tension"] - abs(of["magnitude"])) / 2.0,
+            lambda own, of: of["slip_rate"],
+            applies=lambda own: own.friction is not None,
+        ),
+        *(
+            Acts(
+                (f"has a slack {strand} strand", f"has a taut {strand} strand"),
+                "slip",
+                lambda own, of, way=way: way * of.way(own) - own.slack + own.pretension / own.stiffness,
+                lambda own, of, strand=strand: of[f"{strand}_tension"],
+                applies=lambda own: own.friction is None,
+            )
+            for strand, way in (("first", 1.0), ("second", -1.0))
+        ),
+    )
 
     type: Literal["belt-drive"] = "belt-drive"
     coordinate: CoordinateReference = Field(description="angle of the first pulley")
@@ -35,6 +57,11 @@ class BeltDrive(ForceElement):
         default=None, description="coefficient of friction on the pulleys", absent="none: teeth, it does not slip"
     )
     wrap: PositiveAngle = Field(default=pi, description="angle over which it touches the pulley on which it slips")
+
+    @property
+    def rise(self) -> float:
+        """exp(μ φ) - 1, by which one tension may be more than the other as a share of this."""
+        return exp((self.friction or 0.0) * self.wrap) - 1.0
 
     def problems(self) -> Iterator[Problem]:
         if self.slack and self.pretension:

@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeRate, PositiveNumber
 from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -17,12 +17,24 @@ CAPACITY = "force or torque with which it slips, a function; below zero it is op
 STATIC_RATIO = "of the effort that it holds at rest to that with which it slips"
 STRIBECK_RATE = "slip at which the one has mostly become the other; 0: as soon as it slips"
 
+LOCKS: Inequalities = (
+    Holds(
+        "slip",
+        lambda own, of: of["magnitude"],
+        lambda own, of: own.static_ratio * of["capacity"],
+        lambda own, of: of["capacity"],
+        lambda own, of: of["slip"],
+    ),
+)
+
 
 class Brake(ForceElement):
     """Friction between the bodies of a joint, which really holds where less than its capacity is wanted."""
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "capacity", "slip")
     stiff: ClassVar[bool] = False
+
+    inequalities: ClassVar[Inequalities] = LOCKS
 
     type: Literal["brake"] = "brake"
     coordinate: CoordinateReference
@@ -40,6 +52,8 @@ class Clutch(DriveLine):
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "capacity", "slip")
     stiff: ClassVar[bool] = False
+
+    inequalities: ClassVar[Inequalities] = LOCKS
 
     type: Literal["clutch"] = "clutch"
     capacity: CoordinateEffortFunction = Field(description=CAPACITY)

@@ -21,7 +21,7 @@ from nivel.machine.core.coefficient import (
 )
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Record
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
 from nivel.machine.forces.height_field import HeightField
 from nivel.machine.given import Field, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
@@ -67,6 +67,27 @@ class Contact(ForceElement):
         *(*OUTPUTS, "depth", "normal_force", "rate", "friction_force", "slip_speed"),
         *("friction_power", "surface_power", "sticks", "x", "y", "z"),
         *("normal_x", "normal_y", "normal_z", "friction_x", "friction_y", "friction_z", "friction_work"),
+    )
+
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is apart", "touches"),
+            "depth",
+            lambda own, of: of["depth"],
+            lambda own, of: of["normal_force"],
+            lambda own, of: of["rate"],
+            # a law may be zero
+            always=lambda own: own.law is None,
+        ),
+        Holds(
+            "slip_speed",
+            lambda own, of: of["friction_force"],
+            lambda own, of: own.static * of["normal_force"],
+            # where it spins it slides with less
+            lambda own, of: own.static * of["normal_force"] * of["sticks"],
+            lambda own, of: of["slip_speed"],
+            applies=lambda own: own.friction > 0.0,
+        ),
     )
 
     type: Literal["contact"] = "contact"

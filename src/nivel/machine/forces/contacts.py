@@ -12,7 +12,7 @@ from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, Positive
 from nivel.machine.core.marker import ManyMarkers
 from nivel.machine.core.record import GROUND, BodyName
 from nivel.machine.forces.contact import FRICTION_MODELS, HERTZ, FrictionModel, friction_model_of
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import listed
@@ -37,6 +37,15 @@ class Contacts(ForceElement):
         "friction_power",
         "count",
         "friction_work",
+    )
+
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is apart", "touches"),
+            "depth",
+            lambda own, of: of["depth"],
+            lambda own, of: of["normal_force"],
+        ),
     )
 
     type: Literal["contacts"] = "contacts"

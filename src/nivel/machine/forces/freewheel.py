@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import CoordinateDamping, PositiveCoordinateStiffness, PositiveEffort
 from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.forces.element import OUTPUTS, Acts, Holds, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
@@ -18,6 +18,25 @@ class Freewheel(DriveLine):
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "slip", "run")  # run: with a stiffness
     stiff: ClassVar[bool] = False
+
+    inequalities: ClassVar[Inequalities] = (
+        Holds(
+            "slip",
+            lambda own, of: of["magnitude"],
+            lambda own, of: of.all(own.capacity),
+            lambda own, of: of.all(own.capacity),
+            lambda own, of: of["slip"],
+            one_way=True,
+            applies=lambda own: own.is_rigid,
+        ),
+        Acts(
+            ("runs ahead", "takes along"),
+            "run",
+            lambda own, of: of["run"] - of.difference(own),
+            lambda own, of: of["magnitude"],
+            applies=lambda own: not own.is_rigid,
+        ),
+    )
 
     type: Literal["freewheel"] = "freewheel"
     against: Maybe[CoordinateReference] = Field(  # type: ignore[assignment]

@@ -17,7 +17,7 @@ from nivel.machine.core.coefficient import (
     PositiveSpeed,
     StiffnessPerLoad,
 )
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
 from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of
@@ -32,6 +32,17 @@ class Friction(ForceElement):
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "normal_load", "bristle")  # bristle: of the lugre model
 
     stiff: ClassVar[bool] = False
+
+    inequalities: ClassVar[Inequalities] = (
+        Holds(
+            "coordinate",
+            lambda own, of: of["magnitude"] + own.viscous * of.rate(own.coordinate),
+            lambda own, of: own.static * own.arm * of["normal_load"],
+            lambda own, of: own.coefficient * own.arm * of["normal_load"],
+            lambda own, of: of.rate(own.coordinate),
+            applies=lambda own: own.model == "stiction",
+        ),
+    )
 
     type: Literal["friction"] = "friction"
     coordinate: CoordinateReference
@@ -57,6 +68,11 @@ class Friction(ForceElement):
     bearing_length: Maybe[PositiveLength] = Field(
         default=None, description="over which a bending moment M loads the bearing by 2 M / bearing_length"
     )
+
+    @property
+    def arm(self) -> float:
+        """Speed of the surfaces by the rate of the coordinate [m], 1 of a length."""
+        return self.radius or 1.0 if kind_of(self.coordinate) != "length" else 1.0
 
     @property
     def static(self) -> float:

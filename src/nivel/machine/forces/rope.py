@@ -12,7 +12,7 @@ from nivel.machine.core.coefficient import Damping, NotNegativeNumber, PositiveN
 from nivel.machine.core.marker import ManyMarkers, Marker
 from nivel.machine.core.record import BodyName
 from nivel.machine.forces.between import End, GlobalPoint
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Direction, Length, Position, PositiveLength, Quantity, Velocity, listed
@@ -32,6 +32,17 @@ class Rope(ForceElement):
     """
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch", "last_tension")  # the latter with `friction` or mass
+
+    inequalities: ClassVar[Inequalities] = (
+        # the mass of a rope pulls at its ends where it is slack
+        Acts(
+            ("is slack", "is taut"),
+            "stretch",
+            lambda own, of: of["stretch"],
+            lambda own, of: of["magnitude"],
+            applies=lambda own: own.mass_per_length is None,
+        ),
+    )
 
     type: Literal["rope"] = "rope"
     markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(

@@ -11,7 +11,7 @@ from nivel.machine.core.coefficient import (
     PositiveCoordinateStiffness,
 )
 from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.forces.element import OUTPUTS, Acts, Inequalities
 from nivel.machine.given import Field
 
 
@@ -19,6 +19,18 @@ class Shaft(DriveLine):
     """Effort stiffness · twist + damping · rate, with twist = coordinate - ratio · against - free_value; none within the play."""
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "twist", "rate")
+
+    inequalities: ClassVar[Inequalities] = tuple(
+        Acts(
+            ("is within its play", "is on a flank"),
+            "twist",
+            lambda own, of, way=way: way * of["twist"] - 0.5 * own.backlash,
+            lambda own, of, way=way: of.part("magnitude", way),
+            lambda own, of, way=way: way * of["rate"],
+            applies=lambda own: own.backlash > 0.0,
+        )
+        for way in (1.0, -1.0)
+    )
 
     type: Literal["shaft"] = "shaft"
     stiffness: PositiveCoordinateStiffness

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import CoordinateValue, Exponent, Restitution
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -17,6 +17,25 @@ class Stop(ForceElement):
     """A coordinate is pushed back where it passes `lower` or `upper`: effort stiffness · depth ** exponent, damped."""
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth")
+
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is free of its lower end", "touches its lower end"),
+            "coordinate",
+            lambda own, of: own.lower - of.value(own.coordinate),
+            lambda own, of: of.part("magnitude", 1.0),
+            lambda own, of: -of.rate(own.coordinate),
+            applies=lambda own: own.lower is not None,
+        ),
+        Acts(
+            ("is free of its upper end", "touches its upper end"),
+            "coordinate",
+            lambda own, of: of.value(own.coordinate) - own.upper,
+            lambda own, of: of.part("magnitude", -1.0),
+            lambda own, of: of.rate(own.coordinate),
+            applies=lambda own: own.upper is not None,
+        ),
+    )
 
     type: Literal["stop"] = "stop"
     coordinate: CoordinateReference

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Share
 from nivel.machine.core.record import Name
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Quantity
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -21,6 +21,16 @@ class TransmissionLoss(ForceElement):
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "transmitted")
     stiff: ClassVar[bool] = False
+
+    inequalities: ClassVar[Inequalities] = (
+        Holds(
+            "coordinate",
+            lambda own, of: of["magnitude"],
+            lambda own, of: max(own.shares) * abs(of["transmitted"]),
+            lambda own, of: min(own.shares) * abs(of["transmitted"]),
+            lambda own, of: of.rate(own.coordinate),
+        ),
+    )
 
     type: Literal["transmission-loss"] = "transmission-loss"
     coupling: Name = Field(description="coupling, or joint of type screw")

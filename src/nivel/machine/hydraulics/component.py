@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Pressure, Share, SonicConductance, VolumeFlow
 from nivel.machine.core.record import Name, entry, unknown_word
+from nivel.machine.forces.element import Inequalities
 from nivel.machine.given import Field, Maybe, Usual
 from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, POWER, PRESSURE
 from nivel.machine.units.quantity import fault, shown
@@ -41,7 +42,8 @@ class Component(Checked):
     gas, or a liquid, may flow through it. passes : pairs of ports (from, to) between which fluid passes at any pressure; delivers :
     port into which it delivers a given flow, whatever the pressure; relieves : port whose pressure it bounds. These ask for a relief
     valve where none is reached. sensing : ports that feel a pressure and take no flow. loads : whether a load-sensing signal may take
-    the load of A or B from it. usual : what its results are between, by the words with which their names begin.
+    the load of A or B from it. usual : what its results are between, by the words with which their names begin. inequalities : that its
+    state obeys at all times.
     """
 
     collection: ClassVar[str] = "hydraulics"
@@ -59,6 +61,7 @@ class Component(Checked):
     sensing: ClassVar[tuple[str, ...]] = SENSING
     loads: ClassVar[bool] = False
     usual: ClassVar[Mapping[str, Usual]] = {"pressure": PRESSURE, "flow": FLOW, "power": POWER}
+    inequalities: ClassVar[Inequalities] = ()
 
     name: Name
     if TYPE_CHECKING:  # the word of every kind

@@ -17,6 +17,7 @@ from nivel.machine.core.coefficient import (
     VolumeFlow,
 )
 from nivel.machine.core.record import entry
+from nivel.machine.forces.element import Acts, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
 from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME
@@ -24,6 +25,16 @@ from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength
 
 VaryingPressure = Annotated[OneFunction, varying("pressure")]
+
+# what is closed has no flow but its leak
+PASSES = Acts(
+    ("is closed", "is open"),
+    "position",
+    lambda own, of: of["position"],
+    lambda own, of: of["flow"],
+    always=lambda own: False,
+    applies=lambda own: not own.leakage,
+)
 
 
 class CheckValve(Rated):
@@ -34,6 +45,17 @@ class CheckValve(Rated):
     may: ClassVar[tuple[str, ...]] = ("X",)
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"),)
+
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is closed", "is open"),
+            "opens_at",
+            lambda own, of: of.pressure("A") - of.pressure("B") - own.opens_at,
+            lambda own, of: of["flow"],
+            applies=lambda own: not own.lag and not own.leakage and "X" not in own.ports,
+        ),
+        PASSES,
+    )
 
     type: Literal["check-valve"] = "check-valve"
     opens_at: NotNegativePressure = Field(
@@ -66,6 +88,8 @@ class ReliefValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
     relieves: ClassVar[str] = "P"
 
+    inequalities: ClassVar[Inequalities] = (PASSES,)
+
     type: Literal["relief-valve"] = "relief-valve"
     opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open", usual=PRESSURE)
     opening_range: Pressure = Field(description="difference of pressure from there to fully open", usual=DIFFERENCE)
@@ -91,6 +115,16 @@ class CounterbalanceValve(Rated):
     early: ClassVar[tuple[str, ...]] = ("pressure_Y",)
     functions: ClassVar[tuple[str, ...]] = ("opens_at",)
     late: ClassVar[tuple[str, ...]] = ("flow", "check_flow", "position", "pilot_flow")
+
+    inequalities: ClassVar[Inequalities] = (
+        PASSES,
+        Acts(
+            ("has its check valve closed", "has its check valve open"),
+            "opens_at",
+            lambda own, of: of.pressure("V") - of.pressure("L") - own.check_opens_at,
+            lambda own, of: of["check_flow"],
+        ),
+    )
 
     type: Literal["counterbalance-valve"] = "counterbalance-valve"
     opens_at: VaryingPressure = Field(

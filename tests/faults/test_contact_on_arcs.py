@@ -76,25 +76,3 @@ def test_a_ball_that_steps_carry_through_another_of_a_heap_is_red():
     assert line.time == pytest.approx(5.25e-3, abs=1e-4)
     assert "ball" in line.text
     assert contacts(SHOT.replace("[%s, 0, 0]", "[0.525, 0.05, 0]")) == []
-
-
-def test_hills_that_a_body_may_pass_within_a_frame_are_named():
-    """Heights are 0.1 m apart, and the body goes 1 m from frame to frame, or 0.05 m."""
-    text = """
-format: 1
-gravity: [0, 0, -9.81]
-bodies: {puck: {mass: 1, position: [-2, 0, 0.1], velocity: [20, 0, 0], shape: {type: sphere, radius: 10 cm}}}
-markers: {floor: {body: ground, axis: [0, 0, 1]}}
-forces:
-  skims:
-    {type: contact, body: puck, plane: floor, stiffness: 1e5, restitution: 0.5,
-     heights: {size: [6, 6], function: 0*x, points: [61, 61]}}
-simulation: {duration: 0.1, step: 0.5 ms, output_interval: %s, integrator: rk4}
-"""
-
-    def named(interval):
-        trust = Machine.from_record(parse_machine(text % interval)).simulate(verify=False).trust
-        return [item.text for item in trust.items if "within a step at skims" in item.text]
-
-    assert named("50 ms")
-    assert not named("2.5 ms")

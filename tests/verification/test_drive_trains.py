@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 import force_zoo
 from nivel.errors import ModelError
@@ -95,6 +96,47 @@ def test_freewheel_takes_along_and_lets_overrun(method, stiffness):
     assert driven[-1] == pytest.approx(driven[at + 5], abs=1e-6 + 1.5 * sway)
     assert result.array("force.f.magnitude").min() > -1e-9
     assert result.array("force.f.magnitude")[-1] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_freewheel_that_would_fall_behind_begins_by_an_impulse(coordinates):
+    # J₁ ω₁ is kept: both begin with J₁ ω₁/(J₁ + J₂), and nothing slips
+    forces = {"f": {"type": "freewheel", "coordinate": "q", "against": "p"}}
+    result = simulate(shafts(forces, (7.0, 0.0)), **{**EXPLICIT, "coordinates": coordinates}, duration=0.05)
+    assert rates(result) == pytest.approx(0.02 * 7.0 / 0.07, rel=1e-8)
+    assert result.array("joint_coordinate")[-1] == pytest.approx(0.1, rel=1e-7)
+    # what runs ahead, and what has a capacity, begins as it was given
+    for speeds, more in (((0.0, 7.0), {}), ((7.0, 0.0), {"capacity": 1e3})):
+        result = simulate(shafts({"f": {**forces["f"], **more}}, speeds), **EXPLICIT, duration=0.002)
+        assert rates(result)[:, 0] == pytest.approx(speeds, abs=1e-12)
+
+
+def test_freewheel_behind_a_driver_that_swings():
+    """The shaft p is driven by 0.2 sin(10 t); q, braked by ω/2, is taken along while it would be slower alone, then runs on."""
+
+    def driver(t):
+        return 2.0 * np.cos(10.0 * t)
+
+    end, at, angle = 3.0, 0.0, 0.0
+    while at < end:
+        left = (np.arctan(0.05) + 2.0 * np.pi * round(10.0 * at / (2.0 * np.pi))) / 10.0  # -20 sin 10 t = -cos 10 t
+        angle += 0.2 * (np.sin(10.0 * min(left, end)) - np.sin(10.0 * at))
+        if left > end:
+            break
+        times = np.linspace(left + 0.1, left + 0.7, 5000)
+        first = int(np.argmax(driver(times) > driver(left) * np.exp(-0.5 * (times - left))))
+        taken = brentq(
+            lambda t, left=left: driver(left) * np.exp(-0.5 * (t - left)) - driver(t), *times[first - 1 : first + 1]
+        )
+        at = min(taken, end)
+        angle += 2.0 * driver(left) * (1.0 - np.exp(-0.5 * (at - left)))
+    forces = {"f": {"type": "freewheel", "coordinate": "q", "against": "p"},
+              "drag": {"type": "joint-spring-damper", "coordinate": "q", "damping": 0.5}}  # fmt: skip
+    sections = shafts(forces, inertias=(1.0, 1.0), drivers={"d": {"coordinate": "p", "value": "0.2*sin(10*time)"}})
+    # the lag of each cycle goes with the square of the step
+    for step, error in ((1e-3, 2e-4), (2.5e-4, 1.3e-5)):
+        result = simulate(sections, integrator="rk4", step=step, duration=end, output_interval="10 ms")
+        assert result.array("q.angle")[-1] == pytest.approx(angle, abs=error)
 
 
 def test_backstop_never_goes_backwards():

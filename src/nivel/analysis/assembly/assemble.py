@@ -11,7 +11,13 @@ from nivel.analysis.assembly.driven_start import half_turns, turn_to_targets
 from nivel.analysis.assembly.equations import MotionEquations, change_between
 from nivel.analysis.assembly.lost_directions import refuse_lost_directions
 from nivel.analysis.assembly.tilted_axes import refuse_tilted_axes
-from nivel.analysis.assembly.velocities import ROUND_OFF, consistent_velocities, given_velocities, section_of
+from nivel.analysis.assembly.velocities import (
+    ROUND_OFF,
+    consistent_velocities,
+    given_velocities,
+    section_of,
+    taken_along,
+)
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joints import composition_of
@@ -71,6 +77,8 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     if faults := list(half_turns(machine, motion, t, y)):
         raise ModelError(faults)
     y, change = consistent_velocities(machine, motion, t, y, wishes)
+    y, more = taken_along(motion, t, y)
+    change = change + more
     told = max(ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0)))
     velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)
     changed = {name for name, _, _ in velocity_change}

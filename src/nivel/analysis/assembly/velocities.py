@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.closing import OPEN, Wishes, least_change
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.errors import Fault, ModelError
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements import friction as columns
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
 
@@ -27,6 +29,8 @@ SOLUTIONS = 2
 LIGHTEST = 1e-2
 # Changes below this share of the largest velocity are round-off.
 ROUND_OFF = 1e-12
+# [s] in which impulses act: forces do nothing in it.
+INSTANT = 1e-9
 
 
 def consistent_velocities(
@@ -57,6 +61,31 @@ def consistent_velocities(
     _refuse_impossible_rates(system, wishes)
     state = _set_velocities(motion, t, y, new)
     return state, (new - before) * np.repeat([system.size, 1.0], 3)
+
+
+def taken_along(motion: MotionEquations, t: float, y: Array) -> tuple[Array, Array]:
+    """The state y in which no rigid freewheel without a capacity falls behind, and the changes (B, 6) of velocities as above: those by the
+    impulses that such freewheels exert in an instant."""
+    system, record = motion.system, motion.system.record
+    friction, none = record.friction, np.zeros((system.body_count, 6))
+    if not len(friction.columns):
+        return y, none
+    one_way = friction.columns[:, columns.WAY] == columns.ONE_WAY
+    rigid = one_way & (friction.number[:, columns.LOAD] >= columns.UNLIMITED)
+    if not rigid.any():
+        return y, none
+    motion.evaluate(t, y)
+    if not (record.coordinates.rate[friction.columns[rigid, columns.COORDINATE]] < 0.0).any():
+        return y, none
+    stick, record.control.stick[0] = float(record.control.stick[0]), INSTANT
+    status, rate = motion.evaluate(t, y)
+    record.control.stick[0] = stick
+    if status != OK or not np.isfinite(rate).all():
+        return y, none
+    state, velocities = y.copy(), slice(system.positions, len(y) - len(system.start_of_states))
+    state[velocities] += INSTANT * rate[velocities]
+    motion.evaluate(t, state)
+    return state, (state - y)[velocities][: none.size].reshape(none.shape)
 
 
 def given_velocities(machine: MachineRecord) -> NDArray[np.bool_]:

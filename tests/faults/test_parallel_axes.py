@@ -22,6 +22,20 @@ POINTS = {"A": (0.0, 0.0, 0.0), "B": (0.2, 0.0, 0.2), "C": (0.7, 0.0, 0.3), "D":
 TURNED = 0.3  # [rad] of the crank at the end
 
 
+@pytest.mark.parametrize("length", [1e-9, 1e-7, 1e-3])
+def test_a_pendulum_falls_however_short_it_is(length):
+    """From the side, at first with the acceleration g m l²/(J + m l²) of its centre."""
+    mass, inertia = 7.85e3 * length**3, 0.1 * 7.85e3 * length**5
+    body = {"position": [length, 0, 0], "mass": mass, "inertia": [inertia] * 3}
+    pin = {"type": "revolute", "bodies": ["ground", "a"], "point": [0, 0, 0], "axis": [0, 0, 1]}
+    duration = 1e-3 * np.sqrt(length)
+    result = machine({"bodies": {"a": body}, "joints": {"pin": pin}, "gravity": [0, -9.81, 0]}).simulate(
+        duration=duration, step=duration / 10, output_interval=duration, integrator="rk4", verify=False
+    )
+    fallen = 0.5 * 9.81 / 1.1 * duration**2
+    assert result.array("position")[-1, 0, 1] == pytest.approx(-fallen, rel=1e-4)
+
+
 def rocker_angle(points, turned):
     """Of the rocker of the four-bar A B C D in its plane, from where it was: circles about the ends of the crank and of the ground."""
     A, B, C, D = (complex(points[name][0], points[name][2]) for name in "ABCD")

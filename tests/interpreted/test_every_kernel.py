@@ -259,6 +259,12 @@ def test_redundant_joints_by_pivots(monkeypatch):
     short(machines.four_bar("revolute", "revolute"), EXPLICIT, steps=2, coordinates="absolute")
 
 
+def test_redundant_rows_chosen_anew(monkeypatch):
+    """Where those that stay depend on each other."""
+    monkeypatch.setattr(preparation, "rows_everywhere", lambda *_: (0, 1, 2))
+    short(machines.four_bar("revolute", "revolute"), EXPLICIT, steps=2, coordinates="absolute")
+
+
 def test_steps_chosen_by_the_error():
     """Of a stiff machine, with steps that are too long for its springs, and with a first one that is too long for all."""
     short(stiff_machines.elastic_pendulum(1e8), "generalised-alpha", steps=40, step_control="error", tolerance=1e-3)

@@ -37,7 +37,7 @@ def are_open(machine, limit):
         return exceeds(saddle, constraints.C, constraints.scale, least)
     rank, pivoted = record.control.rank, record.control.rank[PIVOTED] == 1
     for k in range(np.int64(rank[RANK]) if pivoted else saddle.order.shape[0]):
-        if not pivoted and saddle.least[k] == np.inf:
+        if not pivoted and saddle.least[k] < 0.0:
             continue
         row = saddle.row[saddle.order[saddle.pivot[k] if pivoted else k]]
         if np.abs(real(constraints.C[row])) > limit * constraints.scale[row]:

@@ -273,7 +273,7 @@ def _control(rows: int) -> Control:
         iterations=np.array([1, 0, 0], dtype=np.uint32),
         stabilise=np.zeros(4),
         feedback=np.ones((rows, 2)),
-        settled=np.array([SETTLED]),
+        settled=np.array([SETTLED, 0.0]),
         energy=np.zeros(3),
         power=np.zeros(2),
         stored=np.zeros(1),

@@ -19,6 +19,8 @@ from nivel.system.system import Array, System
 # Positions aside, as shares of the length of the machine (radians): the first that can be closed is taken.
 FAR = (0.3, 0.1, 0.03)
 POSITIONS = 2
+# A bound of pivots that none reaches.
+LEAST = 1e-300
 # The rows that stay are independent where their smallest singular value is above this share of a row.
 INDEPENDENT = 1e-5
 
@@ -77,5 +79,5 @@ def leave_out(system: System, rows: Collection[int]) -> None:
     saddle, control = system.record.saddle, system.record.control
     places = np.isin(saddle.row[saddle.order], np.array(sorted(rows), dtype=np.int64))
     if int(places.sum()) == len(saddle.row) - int(control.rank[0]):
-        saddle.least[places] = np.inf
+        saddle.least[:] = np.where(places, -1.0, 1.0) * np.maximum(saddle.least, LEAST)
         control.rank[LEFT_OUT] = places.sum()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.analysis.assembly.always_dependent_rows import LEAST
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.system.system import Array
 
@@ -30,4 +31,5 @@ def bound_pivots(motion: MotionEquations, y: Array) -> None:
     units = record.constraints.scale[record.saddle.row] ** 2
     largest = np.max(mobility(motion, y) / units, initial=0.0)
     least = record.saddle.least
-    least[:] = np.where(np.isinf(least), np.inf, IMMOVABLE * largest * units[record.saddle.order])
+    bound = np.maximum(IMMOVABLE * largest * units[record.saddle.order], LEAST)
+    least[:] = np.where(least < 0.0, -bound, bound)

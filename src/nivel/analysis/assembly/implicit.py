@@ -72,7 +72,7 @@ class ResidualOptions:
     nothing
     joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.integrate.newmark.alpha_error`.
     accelerations : it solves for them, so that in independent coordinates all that depends on these has to be found. compliance : 1/α of
-    penalty methods.
+    penalty methods, or that with which all rows of a redundant machine are met in least squares.
     """
 
     whole: str = ""
@@ -110,8 +110,8 @@ def with_residual(
     """The same equations, with the residual of implicit methods, its derivatives, and the record of its twin on dual numbers.
 
     path : where they are; None: those of newton-euler in these coordinates.
-    Of redundant constraints those rows stay that say something new at the state y of the start:
-    with the others the matrix would be singular.
+    Of redundant constraints without compliance those rows stay that say something new at the state y of the start: with the others the
+    matrix would be singular.
     """
     rows = len(motion.system.record.saddle.row)
     if path is None:
@@ -120,7 +120,7 @@ def with_residual(
         assert path is not None
     whole = _with_rows(motion, y, coordinates, wanted, path, np.arange(rows))
     rank = int(motion.system.record.control.rank[0])
-    if rank == rows:
+    if rank == rows or wanted.compliance is not None:
         return whole
     if wanted.whole:
         whole = _with_rows(motion, y, coordinates, INSTANT, path, np.arange(rows))

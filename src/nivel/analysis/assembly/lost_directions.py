@@ -13,7 +13,8 @@ from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import System
 
-# Points that are nearer than this share of the machine's length have no line between them; rows of derivatives below LOST no direction.
+# Points that are nearer than this share of the machine's length have no line between them; rows of derivatives below LOST of their
+# scale no direction.
 COINCIDE, LOST = 1e-9, 1e-7
 
 
@@ -27,7 +28,7 @@ def refuse_lost_directions(machine: MachineRecord, motion: MotionEquations) -> N
         return
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         lengths = row_lengths(motion)
-    lost = ~(lengths > LOST)
+    lost = ~(lengths > LOST * system.record.constraints.scale[: len(lengths)])
     owners = {system.row_owner[row] for row in np.flatnonzero(lost)}
     faults = []
     for k, joint in enumerate(machine.joints):

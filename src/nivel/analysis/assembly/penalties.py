@@ -24,6 +24,9 @@ PLACE = "simulation.penalty"
 FEEDBACK = 0.1
 # mobility 1/S_kk of a row, as a share of the largest, below which it counts as this share
 IMMOBILE = 1e-6
+# α of redundant rows, in multiples of the mass that a row moves. A state that is open by a share of 1/√factor, as one predicted may be,
+# makes dependent rows look independent; each iteration leaves 1/factor of what the one before left
+REDUNDANT = 1e4
 
 
 def penalise(
@@ -36,12 +39,7 @@ def penalise(
     saddle = record.saddle._replace(dense=np.zeros((0, 0)), null=np.zeros((0, 0)), pivot=np.zeros(0, dtype=np.uint32))
     system = replace(motion.system, record=record._replace(saddle=saddle))
     penalised = MotionEquations(system, motion.kernels)
-    mobile = mobility(penalised, y)
-    size = motion.system.size
-    units = record.constraints.scale[saddle.row] ** 2
-    # what nothing can move still needs a penalty; where this is all rows, they move nothing less than the whole machine
-    largest = np.max(mobile / units, initial=0.0) or 1.0 / (record.bodies.mass.sum() * size**2)
-    least = IMMOBILE * units * largest
+    mobile, least = _mobilities(penalised, y)
     alpha, factor = _stiffness(motion.system, penalty, facts)
     held = np.where((alpha > 0.0) & (mobile > least), alpha * mobile, np.inf)
     if np.any(held < 1.0):
@@ -51,6 +49,23 @@ def penalise(
     record.control.iterations[0] = penalty.iterations if facts.iterated else 1
     record.control.settled[0] = penalty.tolerance**2
     return penalised
+
+
+def soft_rows(motion: MotionEquations, y: Array) -> Array:
+    """1/α of each row of S in the matrix by which implicit methods meet all rows of a redundant machine, in least squares; y : the start.
+
+    Iterations are those of the augmented Lagrangian, so nothing is left open.
+    """
+    return np.maximum(*_mobilities(motion, y)) / REDUNDANT
+
+
+def _mobilities(motion: MotionEquations, y: Array) -> tuple[Array, Array]:
+    """1/S_kk of each row, and the least that counts: what nothing can move still needs a penalty. Where this is all rows, they move nothing
+    less than the whole machine."""
+    record, mobile = motion.system.record, mobility(motion, y)
+    units = record.constraints.scale[record.saddle.row] ** 2
+    largest = np.max(mobile / units, initial=0.0) or 1.0 / (record.bodies.mass.sum() * motion.system.size**2)
+    return mobile, IMMOBILE * units * largest
 
 
 def _stiffness(system: System, penalty: Penalty, facts: FormulationFacts) -> tuple[Array, Array]:

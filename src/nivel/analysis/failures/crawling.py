@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from nivel.analysis.failures.status import Status
@@ -11,6 +12,8 @@ from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, Run
 LOOKED_AT, SHORT, LEFT = 10_000, 1e-5, 1e7
 # Its end is out of reach where so many steps are left, at each of so many looks.
 OUT_OF_REACH, OFTEN, TIMES = 1e8, 2_000, 20
+# beside a position where the motion branches after so many looks
+SOON = 2
 
 
 @dataclass
@@ -31,10 +34,11 @@ class Pace:
 
 
 class Crawl:
-    """Whether a run of this duration [s] makes next to no way any more. jumps : some function jumps with the motion."""
+    """Whether a run of this duration [s] makes next to no way any more. jumps : some function jumps with the motion. branches : whether
+    the motion does, beside the state of a run."""
 
-    def __init__(self, duration: float, jumps: bool) -> None:
-        self.duration, self.jumps = duration, jumps
+    def __init__(self, duration: float, jumps: bool, branches: Callable[[Run], bool]) -> None:
+        self.duration, self.jumps, self.branches = duration, jumps, branches
         self.since, self.often, self.count = Pace(), Pace(), 0
 
     def seen(self, run: Run) -> Status | None:
@@ -46,6 +50,8 @@ class Crawl:
         mean = self.often.mean(run, OFTEN)
         if mean is not None:
             self.count = self.count + 1 if left > OUT_OF_REACH * mean else 0
+            if self.count == SOON and self.branches(run):
+                return Status.OUT_OF_REACH
         return Status.OUT_OF_REACH if self.count >= TIMES else None
 
 

@@ -33,6 +33,8 @@ ITERATIONS, MOST_ENTRIES = 30, 200_000
 LOST = 0.05
 # And soon before, as where the run failed if that is not in the step that leads beyond the jam, it has fallen to this.
 FALLEN = 0.5
+# And to this beside a position where motions branch, in which steps shrink.
+BESIDE = 1e-3
 # Rows take part in what is lost with at least this share of the one that does most.
 TAKES_PART = 0.1
 
@@ -103,6 +105,36 @@ def find_jam(prepared: Prepared, time: float, step: float, short: float, end: fl
     finally:
         for array, numbers in kept:
             array[...] = numbers
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of states that may be beyond all bounds
+def branching_joints(prepared: Prepared, time: float, y: Array) -> tuple[str, ...]:
+    """Joints whose rows depend on each other beside the state y of the run at `time` [s], but not at the start; none elsewhere."""
+    if not can_be_asked(prepared) or not np.isfinite(y).all():
+        return ()
+    kept = [(array, array.copy()) for array in _arrays(prepared.motion.system.record)]
+    try:
+        near = _Nearby(prepared, time, y)
+        if not near.has_lost(time, near.y, BESIDE):
+            return ()
+        shares = np.abs(np.linalg.svd(near.rows_at(time, near.y), full_matrices=False)[0][:, near.rank - 1])
+        owners = prepared.absolute.system.row_owner
+        return tuple(dict.fromkeys(owners[row] for row in np.flatnonzero(shares >= TAKES_PART * shares.max())))
+    except (ModelError, np.linalg.LinAlgError):
+        return ()
+    finally:
+        for array, numbers in kept:
+            array[...] = numbers
+
+
+def branching_advice(joints: tuple[str, ...], step: float) -> tuple[str, str]:
+    """(message, advice) of steps that shrink beside a singular position. step : the present one [s]."""
+    return (
+        f"steps have shrunk to {step:.2g} s beside a singular position, where rows of {_listed(joints)} depend on each other: the motion "
+        f"branches there, and a method that chooses its steps may turn into the other branch",
+        f"A fixed step passes it by inertia, as `integrator: rk4`; so may a larger tolerance. To have one motion alone, keep "
+        f"{_listed(joints)} from coming into line, or add what decides there: a second crank, a spring, a limit.",
+    )
 
 
 class _Nearby:

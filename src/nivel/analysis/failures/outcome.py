@@ -251,19 +251,29 @@ def _open(stop: Stop) -> Told | None:
 
 
 def _contradiction(stop: Stop) -> Told | None:
-    system, constraints = stop.motion.system, stop.motion.system.record.constraints
+    system, control = stop.motion.system, stop.motion.system.record.control
     repeated = _repeated_by(stop.motion, stop.number)
     if not len(repeated):
         return _drift(stop)
     owners = dict.fromkeys(system.row_owner[row] for row in repeated[::-1])  # drivers stand last
     message = (
         f"the constraint {system.rows[stop.number]}, which repeated others at the start, contradicts them now "
-        f"(open by {constraints.C[stop.number]:.3g}); it should follow from {', '.join(owners)}"
+        f"(open by {system.record.constraints.C[stop.number]:.3g}); it should follow from {', '.join(owners)}"
     )
-    advice = (
-        "Do two drivers, or a driver and the joints or couplings around it, prescribe the same motion differently? Remove one of "
-        "them. Without them it is drift: take --stabilisation direct."
-    )
+    if any(system.rows[row].endswith((".driver", ".coupling")) for row in (*repeated, stop.number)):
+        advice = (
+            "Do two drivers, or a driver and the joints or couplings around it, prescribe the same motion differently? Remove one of "
+            "them."
+        )
+    elif control.stabilise[2] > 0.0:
+        advice = (
+            "The joints fit together where the run started, and not here: is the loop, by its lengths and axes, mobile everywhere? "
+            f"`nivel check` proposes joints with which nothing is redundant. With --step {stop.step / 10:.3g} an error of steps is smaller."
+        )
+    else:
+        advice = (
+            f"That is drift: take --stabilisation direct, which closes all constraints, or --step {stop.step / 10:.3g}."
+        )
     return message, advice
 
 

@@ -21,7 +21,7 @@ from nivel.analysis.assembly.exact_joints import exact_joints
 from nivel.analysis.assembly.ground import touches_ground
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
 from nivel.analysis.assembly.modal_rows import modal_rows
-from nivel.analysis.assembly.penalties import penalise
+from nivel.analysis.assembly.penalties import penalise, soft_rows
 from nivel.analysis.assembly.redundancy import Redundancy, analyse
 from nivel.analysis.assembly.row_settings import refuse_unknown_rows
 from nivel.analysis.curves.corners import corners
@@ -167,7 +167,7 @@ def prepare(
     if integrator.needs == "circuits":
         prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:
-        prepared = with_residual(prepared, y, methods.coordinates, residual or _wanted(prepared, methods), path)
+        prepared = with_residual(prepared, y, methods.coordinates, residual or _wanted(prepared, y, methods), path)
     return Prepared(
         path,
         prepared,
@@ -287,12 +287,15 @@ def _balanced(motion: MotionEquations, y: Array, methods: Methods) -> MotionEqua
     return with_residual(motion, y, coordinates, ResidualOptions(balance=True))
 
 
-def _wanted(motion: MotionEquations, methods: Methods) -> ResidualOptions:
+def _wanted(motion: MotionEquations, y: Array, methods: Methods) -> ResidualOptions:
     """What the integrator asks of the residual. Raises ModelError where multipliers would never settle."""
     machine, saddle, integrator = methods.machine, motion.system.record.saddle, methods.integrator
     simulation = machine.simulation
     if constraint_index(methods.formulation, simulation.stabilisation, methods.path) == 3:
         refuse_unsettled_multipliers(machine, len(saddle.row))
+    compliance = saddle.shift if methods.penalised else None
+    if len(saddle.dense) and not methods.solves_residual:
+        compliance = soft_rows(motion, y)
     return ResidualOptions(
         whole=integrator.over_step(machine.is_flexible),
         corners=corners(machine, at_begin=integrator.ends == "jumps"),
@@ -302,5 +305,5 @@ def _wanted(motion: MotionEquations, methods: Methods) -> ResidualOptions:
         free=not touches_ground(machine, motion.system) if integrator.needs == "whole steps" else None,
         filtered=integrator.optional_control and methods.chooses_steps,
         accelerations=integrator.needs == "accelerations",
-        compliance=saddle.shift if methods.penalised else None,
+        compliance=compliance,
     )

@@ -6,6 +6,7 @@ import threading
 import time as clock_of_python
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from importlib import import_module
 from re import sub
 from types import ModuleType
@@ -19,9 +20,10 @@ from nivel.analysis.assembly.row_settings import of_rows
 from nivel.analysis.failures.crawling import Crawl
 from nivel.analysis.failures.divergence import GROWN, UNBOUND
 from nivel.analysis.failures.fastest import fastest_beyond, held_step
-from nivel.analysis.failures.lockup import Jam, can_be_asked, find_jam
+from nivel.analysis.failures.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
 from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.plan.compilation import build, preparation_entries
+from nivel.analysis.failures.status import Status
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared, with_integrator
@@ -83,6 +85,8 @@ GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
 # What a method may end with near a position that its machine cannot pass.
 BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
 _ONE_AT_A_TIME = threading.Lock()
+# What a run ends with whose steps shrink.
+SHRUNK = (Status.OUT_OF_REACH, Status.CRAWLS, STEP_TOO_SMALL, NOT_CONVERGED)
 
 
 @dataclass
@@ -158,7 +162,9 @@ def march(
     sinks = sinks if probes is None else (probes, *sinks)
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
-    crawl = Crawl(settings.duration, bool(prepared.jumping)) if settings.steps == 0 else None
+    crawl = (
+        Crawl(settings.duration, bool(prepared.jumping), partial(_branches, prepared)) if settings.steps == 0 else None
+    )
     while status in GOES_ON and finished.outcome == "done":
         status, spent = march_in_chunks(
             loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl, narrow, probes
@@ -324,6 +330,11 @@ def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
     return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
 
 
+def _branches(prepared: Prepared, run: Run) -> bool:
+    """Whether the motion branches beside the last accepted state."""
+    return bool(branching_joints(prepared, float(run.clock[ACCEPTED]), run.previous))
+
+
 def accept_open(motion: MotionEquations, run: Run) -> None:
     """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
     motion.evaluate(float(run.clock[TIME]), run.y)
@@ -354,6 +365,9 @@ def failure_of(
     if status == NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
         said = [f"{name}: {remark}" for name, remark in circuit_remarks(prepared.machine.hydraulics)]
         advice = ". ".join(said) if said else advice
+    if status in SHRUNK and stop.chosen_by and (joints := branching_joints(prepared, time, run.previous)):
+        message, advice = branching_advice(joints, stop.step)
+        message = f"stopped at t = {time:.6g} s: {message}"
     return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
 
 

@@ -129,5 +129,5 @@ def _left_out(prepared: Prepared, motion: MotionEquations, duration: float) -> C
     """Rows that repeat others everywhere: those that the run leaves out; none where that is not known."""
     saddle = prepared.motion.system.record.saddle
     if prepared.motion.system.record.control.rank[LEFT_OUT]:
-        return saddle.row[saddle.order[saddle.least == np.inf]].tolist()
+        return saddle.row[saddle.order[saddle.least < 0.0]].tolist()
     return rows_everywhere(motion, prepared.assembly.y, duration)

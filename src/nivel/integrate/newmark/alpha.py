@@ -99,7 +99,7 @@ def fixed_step(evaluate, machine, history):
         fresh = is_fresh(run)
         if fresh:
             start(evaluate, machine, history, t, end - t)
-        elif record_at(machine).newton.level[0] in (1, 2):
+        elif record_at(machine).newton.level[0] > 0:
             refresh(machine, run)
         h = run.clock[STEP] if not at_corner and t == run.clock[TIME] else end - t
         end_side = before(end) if at_corner else end
@@ -157,7 +157,7 @@ def controlled_step(evaluate, machine, history):
         bound_step(machine, run)
         c[HELD] = 0.0
         c[LEAPS] = min(c[LEAPS] + 1.0, MOST_LEAPS)
-    if not fresh and newton.level[0] in (1, 2):
+    if not fresh and newton.level[0] > 0:
         # once: after an attempt that failed the record has its multipliers, which may be no numbers
         refresh(machine, run)
     status, error = OK, 0.0

@@ -34,7 +34,8 @@ def refresh(machine, run):
 
     In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
     would alternate for ever. a becomes what `keep_step` would have made of these accelerations. Efforts with stiction stay as they are:
-    where several hold one motion the evaluation may share it out otherwise.
+    where several hold one motion the evaluation may share it out otherwise. As index 3, of a redundant machine take the multipliers alone:
+    what does nothing would grow from step to step.
     """
     if run.numbers[SMOOTHED] == 1.0:
         run.numbers[SMOOTHED] = 0.0
@@ -45,14 +46,16 @@ def refresh(machine, run):
     positions = np.int64(run.y.shape[0]) - n - states - 2
     c, stages, rate = run.numbers, run.stages, run.rate
     share, share_x = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M]), (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
-    for k in range(n):
-        stages[A, k] += share * (rate[positions + k] - stages[VDOT, k])
-        stages[VDOT, k] = rate[positions + k]
-    for k in range(states):
-        stages[W, k] += share_x * (rate[positions + n + k] - stages[XDOT, k])
-        stages[XDOT, k] = rate[positions + n + k]
-    for k in range(residual.row.shape[0]):
-        newton.lam[k] = record.constraints.lam[residual.row[k]]
+    if newton.level[0] < 3:
+        for k in range(n):
+            stages[A, k] += share * (rate[positions + k] - stages[VDOT, k])
+            stages[VDOT, k] = rate[positions + k]
+        for k in range(states):
+            stages[W, k] += share_x * (rate[positions + n + k] - stages[XDOT, k])
+            stages[XDOT, k] = rate[positions + n + k]
+    if newton.level[0] < 3 or record.saddle.dense.shape[0] > 0:
+        for k in range(residual.row.shape[0]):
+            newton.lam[k] = record.constraints.lam[residual.row[k]]
 
 
 @leaf

@@ -6,7 +6,8 @@ With index 3 the multipliers close the positions. With index 2 they close the ve
 (M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985). With
 index 1 they close the accelerations, with the feedback of velocities and positions. Penalties leave what is closed open by λ/α, in
 units of accelerations, and with them the matrix has -1/α at the multipliers: where these are iterated nothing is left open, so that
-each iteration is one of the augmented Lagrangian.
+each iteration is one of the augmented Lagrangian. So are those of a redundant machine, whose rows are all met in least squares
+(`nivel.analysis.assembly.penalties.soft_rows`).
 
 In independent coordinates (index 0) all constraints are closed whenever the residual is evaluated, and a change is one along them:
 δC̈ = 0 in the same matrix. It has positions and velocities move with the accelerations, also those that are dependent, which differ
@@ -105,7 +106,8 @@ def write_defect(machine, cq, cv):
             b[first + k] = -value[first + 2 * rows + k] if level == 1 else 0.0
     if level != 0 and record.control.iterations[0] <= 1:
         for k in range(newton.compliance.shape[0]):
-            b[first + k] += newton.compliance[k] * residual.lam[k]
+            # redundant rows have compliance in the matrix alone
+            b[first + k] += record.saddle.shift[k] * residual.lam[k]
 
 
 @leaf
@@ -201,11 +203,26 @@ def is_kept(newton, cq, cv, cx):
 
 
 @leaf
+def hold_repeated_rows(record):
+    """Independent coordinates: the rows of the partition have no compliance, and multipliers of rows that repeat them vanish."""
+    newton, row, rank = record.newton, record.partition.row, np.int64(record.control.rank[0])
+    first = newton.state.shape[0] + record.residual.vdot.shape[0]
+    for k in range(min(row.shape[0], newton.compliance.shape[0])):
+        if k >= rank:
+            record.residual.lam[row[k]] = 0.0
+            for p in range(newton.row_start[first + row[k]], newton.row_start[first + row[k] + 1]):
+                newton.value[p] = 0.0
+        newton.value[newton.diagonal[row[k]]] = 0.0 if k < rank else 1.0
+
+
+@leaf
 def renew(machine, t, cq, cv, cx):
     """The factors of the matrix at the iterate. Returns a status."""
     record = record_at(machine)
     newton = record.newton
     status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
+    if status == OK and newton.level[0] == 0:
+        hold_repeated_rows(record)
     if status == OK:
         status = factorise(machine)
     newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE

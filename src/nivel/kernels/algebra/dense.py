@@ -3,7 +3,9 @@
 S = P [L1; L2] [L1ᵀ L2ᵀ] Pᵀ with r columns. The basic solution of S x = b sets the last n - r unknowns (in pivot order) to zero;
 subtracting its part in the null space, spanned by the columns of [-L1⁻ᵀ L2ᵀ; 1], leaves the one of least length. The rank r
 comes from the analysis of the assembled machine, so no tolerance decides it anew at every step. Rows are scaled to a unit
-diagonal first: "least length" then weighs λ_k² by S_kk and does not depend on units.
+diagonal first: "least length" then weighs λ_k² by S_kk and does not depend on units. Pivots are the rows that move most, in units of their
+scales: in relative coordinates a row may lose its mobility where others keep theirs (a Bennett linkage in line), and by it the others would
+be left open.
 """
 
 from __future__ import annotations
@@ -14,15 +16,15 @@ from nivel.kernels.algebra.analytic import real
 from nivel.native.function import leaf
 
 DEPENDENT = 1e-13
-# squares of round-off against the most mobile row
-IMMOBILE = 1e-24
+# S_kk of a row against the most mobile one, in units of their scales, below which it counts as this share: what is left is round-off
+IMMOBILE = 1e-10
 
 
 @leaf
 def gather(saddle, row_scale):
     """Copy S from its sparse form to the full symmetric matrix `dense`, in elimination order, scaled to a unit diagonal.
 
-    Rows that nothing can move (those out of the plane of a tree that moves in a plane) have a diagonal of round-off, and become zero.
+    Rows that nothing can move (those out of the plane of a tree that moves in a plane) have a diagonal of round-off, and nearly vanish.
     """
     K, scale = saddle.dense, saddle.Dinv
     K[:, :] = 0.0
@@ -33,8 +35,9 @@ def gather(saddle, row_scale):
     for k in range(saddle.order.shape[0]):
         last = saddle.S_start[k + 1]
         unit = row_scale[saddle.row[saddle.order[k]]]
-        alive = real(saddle.S[last - 1]) > IMMOBILE * largest * unit * unit
-        scale[k] = 1.0 / np.sqrt(saddle.S[last - 1]) if alive else 0.0 * saddle.S[last - 1]
+        least = IMMOBILE * (largest if largest > 0.0 else 1.0) * unit * unit
+        mobile = saddle.S[last - 1] if real(saddle.S[last - 1]) > least else least + 0.0 * saddle.S[last - 1]
+        scale[k] = 1.0 / np.sqrt(mobile)
         for p in range(saddle.S_start[k], last):
             i = saddle.S_row[p]
             value = saddle.S[p] * scale[k] * scale[i]
@@ -43,17 +46,26 @@ def gather(saddle, row_scale):
 
 
 @leaf
-def factorise_pivoted(saddle, rank):
+def mobility_left(saddle, row_scale, i):
+    """What is left of S_kk of row i of the pivots, in units of its scale."""
+    k = saddle.pivot[i]
+    unit = real(saddle.Dinv[k]) * row_scale[saddle.row[saddle.order[k]]]
+    return real(saddle.dense[i, i]) / (unit * unit)
+
+
+@leaf
+def factorise_pivoted(saddle, row_scale, rank):
     """Factor of `dense` in its lower triangle. Returns -1, or k where fewer than `rank` rows are independent."""
     K, pivot = saddle.dense, saddle.pivot
     n = K.shape[0]
     for k in range(n):
         pivot[k] = k
     for k in range(rank):
-        best = k
+        best, largest = k, mobility_left(saddle, row_scale, k)
         for i in range(k + 1, n):
-            if real(K[i, i]) > real(K[best, best]):
-                best = i
+            mobile = mobility_left(saddle, row_scale, i)
+            if mobile > largest:
+                best, largest = i, mobile
         if not real(K[best, best]) > DEPENDENT:
             return np.int64(pivot[best])
         if best != k:

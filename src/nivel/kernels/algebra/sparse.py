@@ -3,13 +3,11 @@
 The up-looking method (Davis 2005, "Algorithm 849", §2): row k of L solves a triangular system with the rows above it; its pattern
 is known, so there is no search and no allocation.
 
-Rows that repeat others in every position (`least` infinite) are left out: their rows and columns of L are zero, and so is 1/D, so the
+Rows that repeat others (`least` negative) are left out: their rows and columns of L are zero, and so is 1/D, so the
 solution has zeros there and satisfies the other rows.
 """
 
 from __future__ import annotations
-
-import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.native.function import stage
@@ -26,7 +24,7 @@ def factorise(saddle, dependent, whole):
     """
     L, Dinv, y = saddle.L, saddle.Dinv, saddle.y
     for k in range(saddle.order.shape[0]):
-        if saddle.least[k] == np.inf and not whole:
+        if saddle.least[k] < 0.0 and not whole:
             for e in range(saddle.P_start[k], saddle.P_start[k + 1]):
                 L[saddle.P_entry[e]] = 0.0
             Dinv[k] = 0.0

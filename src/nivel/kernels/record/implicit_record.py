@@ -33,7 +33,7 @@ class StepResidual(NamedTuple):
 class Residual(NamedTuple):
     """The equations of motion as a residual; see `nivel.kernels.residual.residual`. Without numbers for explicit methods."""
 
-    row: U1  # (H,) row of the constraints that each row here is: no redundant one is
+    row: U1  # (H,) row of the constraints that each row here is: redundant ones have compliance
     stiction: U1  # (K - H,) friction of each effort behind them
     part: U2  # (·, 4) row here, part of C_q, marker, body
     # what it is to be evaluated for
@@ -175,6 +175,6 @@ class Newton(NamedTuple):
     # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction; 1: accelerations are; 0: of
     # independent coordinates all that depends on them is found from the constraints
     level: U1
-    compliance: F1  # (K,) 1/α of penalty methods; empty for multipliers
+    compliance: F1  # (K,) 1/α of penalty methods and of redundant machines; empty for multipliers
     diagonal: U1  # (K,) places of their -1/α in `value`
     shifted: Shifted

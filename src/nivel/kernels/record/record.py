@@ -290,7 +290,7 @@ class Saddle(NamedTuple):
     P_column: U1
     P_entry: U1  # ... and where each entry stands in column order
     shift: F1  # (K,) added to the diagonal of S: 1/α of penalty methods, else 0
-    least: F1  # (K,) pivot below which a row moves nothing, in elimination order; inf: the row repeats others and is left out
+    least: F1  # (K,) pivot below which a row moves nothing, in elimination order; negative: the row repeats others and is left out
     # work
     W: F2  # (N, width)
     G: F3  # (B, width, width) what the formulation needs of each body's mass matrix
@@ -411,7 +411,8 @@ class Control(NamedTuple):
     iterations: U1
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
     feedback: F2  # (K, 2) 2α and β² of each row, as multiples of those in `stabilise`
-    # (1,) the augmented Lagrangian ends where what its last change does, squared, is below this share of what all forces do
+    # (2,) the augmented Lagrangian ends where what its last change does, squared, is below this share of what all forces do; of a
+    # redundant machine the largest that the smallest pivot of S has been since its rows were chosen, as a share of its diagonal
     settled: F1
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: W1  # (2,) work of external forces and dissipation per second

@@ -92,8 +92,9 @@ def find_missed(machine, work, share):
 
 
 @leaf
-def load_missed(newton, residual, work):
+def load_missed(record, work):
     """newton.b := minus the slopes of what is missed."""
+    newton, residual = record.newton, record.residual
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     newton.b[:] = 0.0
     for k in range(n):
@@ -104,7 +105,7 @@ def load_missed(newton, residual, work):
     for k in range(min(residual.lam.shape[0], residual.y.shape[0])):
         missed = work[MISSED_LAM, k]
         if k < newton.compliance.shape[0]:
-            missed -= newton.compliance[k] * work[FOUND_LAM, k]
+            missed -= record.saddle.shift[k] * work[FOUND_LAM, k]
         newton.b[n + states + k] = real(missed) - missed
 
 
@@ -128,7 +129,7 @@ def settle_solution(machine, t, r, x, s, ahead, scale, work):
     bring_back(residual, work)
     if status != OK:
         return status
-    load_missed(newton, residual, work)
+    load_missed(record, work)
     solve(machine)
     b = newton.b
     for k in range(n + states):

@@ -58,7 +58,7 @@ def product(saddle, lam):
 
 @leaf
 def shift_rows(record):
-    """1/α of all rows; those that nothing can move, whose S_kk is round-off, keep no multiplier."""
+    """1/α of all rows; those that nothing can move count as `nivel.kernels.algebra.dense` has them."""
     saddle, scale = record.saddle, record.constraints.scale
     largest = 0.0
     for k in range(saddle.order.shape[0]):
@@ -67,8 +67,7 @@ def shift_rows(record):
     for k in range(saddle.order.shape[0]):
         row, mobile = saddle.order[k], saddle.S[saddle.S_start[k + 1] - 1]
         unit = scale[saddle.row[row]]
-        alive = mobile > IMMOBILE * largest * unit * unit
-        saddle.shift[row] = SHARE * mobile if alive else largest * unit * unit
+        saddle.shift[row] = SHARE * max(mobile, IMMOBILE * (largest if largest > 0.0 else 1.0) * unit * unit)
 
 
 @leaf

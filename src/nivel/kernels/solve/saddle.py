@@ -18,8 +18,9 @@ from nivel.native.function import leaf, stage
 # places of control.rank: how many rows are independent; how many of a redundant machine are left out of the factor; whether the last
 # factor is the pivoted one
 RANK, LEFT_OUT, PIVOTED = 0, 1, 2
-# With pivots below this share of their diagonal, rows that are independent elsewhere are as good as dependent: others may be better.
-POOR = 1e-7
+# Rows of a redundant machine are chosen anew where the smallest pivot, as a share of the most mobile row, has fallen to this share of the
+# largest that it has been since the choice. What kept rows are open by is then up to ten times as much in those left out.
+WORSE = 1e-2
 CONTRADICTORY = 1e-3
 # The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do, unless
 # somebody wants another one.
@@ -36,8 +37,8 @@ MOST_UNSETTLED = 200
 def factorise_rows(machine, width):
     """Assemble and factorise S from W (blocks of `width` columns). Returns a status; on failure control.failure is the row.
 
-    Of a redundant machine the rows that repeat others everywhere are left out. Where they are not known, or those that stay come near to
-    depending on each other, rows are chosen by pivots.
+    Of a redundant machine rows that repeat others are left out. Where those that stay come near to depending on each other, although
+    others do not (a Bennett linkage in line), and where nothing is known of them, rows are chosen by pivots.
     """
     record = record_at(machine)
     saddle = record.saddle
@@ -55,10 +56,13 @@ def factorise_rows(machine, width):
     rank, redundant = record.control.rank, saddle.dense.shape[0] > 0
     failed = 0
     if rank[LEFT_OUT] > 0 or not redundant:
-        failed = factorise(saddle, POOR if redundant else DEPENDENT, False)
-    rank[PIVOTED] = 1 if redundant and (failed >= 0 or rank[LEFT_OUT] == 0) else 0
+        failed = factorise(saddle, DEPENDENT, False)
+    chosen = redundant and rank[LEFT_OUT] > 0
+    rank[PIVOTED] = 1 if redundant and (not chosen or failed >= 0 or have_worsened(record)) else 0
     if rank[PIVOTED] == 1:
         failed = factorise_by_pivots(record)
+        if chosen and failed < 0:
+            choose_rows(record)
     if failed >= 0:
         record.control.failure[0] = saddle.row[saddle.order[failed]]
         return SINGULAR
@@ -66,10 +70,39 @@ def factorise_rows(machine, width):
 
 
 @leaf
+def have_worsened(record):
+    """Whether the rows that stay in the factor of S just made are much nearer to depending on each other than they once were."""
+    saddle, best, scale = record.saddle, record.control.settled, record.constraints.scale
+    smallest, largest = np.inf, 0.0
+    for k in range(saddle.order.shape[0]):
+        unit = scale[saddle.row[saddle.order[k]]]
+        largest = max(largest, real(saddle.S[saddle.S_start[k + 1] - 1]) / (unit * unit))
+        if saddle.least[k] > 0.0:
+            smallest = min(smallest, 1.0 / (real(saddle.Dinv[k]) * unit * unit))
+    if largest == 0.0:
+        return False
+    if smallest < WORSE * best[1] * largest:
+        return True
+    best[1] = max(best[1], smallest / largest)
+    return False
+
+
+@leaf
+def choose_rows(record):
+    """Let the rows of the pivoted factor stay from now on, and leave the others out."""
+    saddle, rank = record.saddle, np.int64(record.control.rank[RANK])
+    for k in range(saddle.pivot.shape[0]):
+        bound = np.abs(saddle.least[saddle.pivot[k]])
+        saddle.least[saddle.pivot[k]] = bound if k < rank else -bound
+    record.control.settled[1] = 0.0
+
+
+@leaf
 def factorise_by_pivots(record):
     """The pivoted factor of S, of all rows. Returns -1, or a place in the order of elimination where too few rows are independent."""
-    gather(record.saddle, record.constraints.scale)
-    return factorise_pivoted(record.saddle, np.int64(record.control.rank[RANK]))
+    saddle, scale = record.saddle, record.constraints.scale
+    gather(saddle, scale)
+    return factorise_pivoted(saddle, scale, np.int64(record.control.rank[RANK]))
 
 
 @stage

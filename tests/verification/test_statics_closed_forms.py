@@ -488,3 +488,6 @@ def test_follower_load_bends_a_chain_as_the_shooting_method_says(coordinates):
     turns = result.array("joint_coordinate")[-1]
     np.testing.assert_allclose(turns, angles[::-1], atol=1e-9)
     np.testing.assert_allclose(A.as_matrix()[:2, 0], [np.cos(total), np.sin(total)], atol=1e-9)
+    stability = next(item for item in result.trust.items if item.text.startswith("Stability"))
+    assert stability.verdict == "amber"  # no stiffness tells of flutter
+    assert "flutter" in stability.text

@@ -35,7 +35,12 @@ OWN: tuple[Entry, ...] = (
         "largest unbalanced force, over the largest load of the state; or rest of the rate of a state",
     ),
     ("residual_round_off", ("time",), "1", "what round-off of the positions makes of the stiffest forces, likewise"),
-    ("unstable_directions", ("time",), "1", "directions of negative stiffness; 0: the equilibrium is stable"),
+    (
+        "unstable_directions",
+        ("time",),
+        "1",
+        "directions of negative stiffness; 0: stable where all loads have a potential",
+    ),
     ("iterations", ("time",), "1", "iterations of Newton's method"),
 )
 VIBRATION: tuple[Entry, ...] = (

@@ -33,13 +33,14 @@ class Residual:
 @dataclass(frozen=True)
 class Stability:
     """States of all that are unstable, in how many directions at most, and the time [s] of the first. known : False where it depends on
-    sampled blocks."""
+    sampled blocks. conservative : all loads have a potential."""
 
     known: bool
     unstable: int = 0
     states: int = 0
     directions: int = 0
     time: float = 0.0
+    conservative: bool = True
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ def look_at_stability(subject: Equilibria) -> Stability:
         return Stability(False)
     unstable = np.flatnonzero(counts > 0)
     first = float(time[unstable[0]]) if len(unstable) else 0.0
-    return Stability(True, len(unstable), len(counts), int(counts.max()), first)
+    return Stability(True, len(unstable), len(counts), int(counts.max()), first, not subject.without_potential)
 
 
 def say_stability(found: Stability) -> Item:
@@ -84,6 +85,12 @@ def say_stability(found: Stability) -> Item:
         text = (
             "Stability: not determined, because it depends on sampled blocks; a run from this state shows whether the machine "
             "stays there (amber)"
+        )
+        return Item("stability", "amber", text)
+    if not found.unstable and not found.conservative:
+        text = (
+            "Stability: no state has a direction of negative stiffness, but loads without a potential can make it flutter, which is not "
+            "examined; `nivel linearise` shows it (amber)"
         )
         return Item("stability", "amber", text)
     if not found.unstable:

@@ -190,7 +190,7 @@ def with_integrator(prepared: Prepared, methods: Methods, y: Array) -> Prepared:
     """A machine in motion, in the state y, for another integrator of the same equations. What it remembers stays: records have their
     arrays in common."""
     motion, integrator = prepared.motion, methods.integrator
-    equipped = with_residual(motion, y, methods.coordinates, _wanted(motion, methods), methods.path)
+    equipped = with_residual(motion, y, methods.coordinates, _wanted(motion, y, methods), methods.path)
     return replace(prepared, motion=equipped, integrator=integrator, methods=methods, corners=())
 
 

@@ -22,8 +22,8 @@ from nivel.analysis.failures.divergence import GROWN, UNBOUND
 from nivel.analysis.failures.fastest import fastest_beyond, held_step
 from nivel.analysis.failures.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
 from nivel.analysis.failures.outcome import Stop, failure
-from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.failures.status import Status
+from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared, with_integrator

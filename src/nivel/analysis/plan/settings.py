@@ -157,8 +157,7 @@ def with_usual_frames(machine: M) -> M:
     simulation = machine.record.simulation
     if simulation.output_interval is None or simulation.output_interval * FRAMES <= simulation.duration:
         return machine
-    record = machine.record.with_simulation(simulation.replace(output_interval=None))
-    return type(machine).from_record(record, machine.origin)
+    return machine.with_settings({"output_interval": None})
 
 
 def waiting_time(name: str, value: float | str) -> float:

@@ -1,5 +1,9 @@
 """STEP: masses and moments of solids are exact, and so are their places."""
 
+import os
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -7,7 +11,10 @@ from click.testing import CliRunner
 import nivel
 from needing import needs
 from nivel.cli import main
+from nivel.errors import ModelError
 from nivel.files import parse_machine
+from nivel.files.apart import apart
+from nivel.files.step_file import step_solids
 from nivel.machine.bodies.surface import enclosed, surface_arrays
 
 gmsh = needs("gmsh")
@@ -79,3 +86,29 @@ def test_a_file_that_is_no_step_is_refused(tmp_path):
     path.write_text("hello", encoding="utf-8")
     with pytest.raises(nivel.ModelError, match=r"is no STEP file that can be read|has no solids"):
         nivel.import_model(path)
+
+
+def test_what_crashes_a_library_is_a_sentence():
+    """Where its process ends by a signal, or takes too long; the next call has a new one."""
+    with pytest.raises(ModelError, match=r"a\.step cannot be read: the library for it crashed \(SIGABRT\)"):
+        apart(os.abort, failed="a.step cannot be read")
+    with pytest.raises(ModelError, match=r"a\.step cannot be read: this took longer than 0\.2 s"):
+        apart(time.sleep, 60.0, failed="a.step cannot be read", longest=0.2)
+
+
+@pytest.mark.full
+def test_no_damaged_file_ends_the_program(tmp_path):
+    """Of such files one in three ends a process that reads it."""
+    random, said = np.random.default_rng(1), []
+    whole = (Path(__file__).parents[2] / "examples" / "robots" / "lift.step").read_bytes()
+    for number in range(30):
+        content = bytearray(whole)
+        for place in random.integers(len(content) - 60, size=random.choice((1, 3, 10, 40))):
+            del content[place : place + random.integers(60)]
+        file = tmp_path / f"{number}.step"
+        file.write_bytes(content)
+        try:
+            step_solids(str(file))
+        except ModelError as refused:
+            said.append(str(refused))
+    assert any("the library for it crashed (SIGSEGV)" in each for each in said)

@@ -316,3 +316,20 @@ def test_a_body_of_a_kilometre_is_remarked_on():
     (remark,) = [each for each in remarks(MachineRecord(name="m", bodies=(body,))) if each.place == "bodies.cube.shape"]
     assert "is 1000 m long and has a mass of 1e+12 kg" in remark.message
     assert remark.message.endswith("with `unit: 1 mm` of its file, make 1 m and 1000 kg")
+
+
+def test_advice_leaves_joints_as_they_are_whose_coordinates_are_used(tmp_path):
+    """The closer turns the spindle, and the door rubs and stops at its hinges: neither may become another joint. The advice is followed."""
+    code, said = command("check", HERE / "door-advice.yaml", folder=tmp_path)
+    if code == 0:
+        code, said = command("run", HERE / "door-advice.yaml", "--no-report", "--no-verify", folder=tmp_path)
+    assert "or make elbow spherical and bracket cylindrical" in said
+    text = (HERE / "door-advice.yaml").read_text(encoding="utf-8")
+    for name, before, after in (("elbow", "revolute, ", "spherical, "), ("bracket", "revolute, ", "cylindrical, ")):
+        start = text.index(f"  {name}: ")
+        text = text[:start] + text[start:].replace(before, after, 1)
+    line = text[text.index("  elbow: ") :].split("\n", 1)[0]
+    text = text.replace(line, line.replace(", axis: [0, 0, 1]", ""))
+    (tmp_path / "door.yaml").write_text(text.replace("duration: 10 s", "duration: 0.01 s"), encoding="utf-8")
+    code, said = command("run", "door.yaml", "--no-report", "--no-verify", folder=tmp_path)
+    assert code == 0, said

@@ -8,6 +8,7 @@ are looked at by themselves.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator, Sequence
 from itertools import chain, combinations, islice
 from typing import Final, NamedTuple
@@ -60,12 +61,21 @@ def _chosen(machine: MachineRecord, motion: MotionEquations, N: Array, names: Co
     """The changes of some elements. N (rows, surplus) : multipliers without effect, of rows as they are."""
     surplus = N.shape[1]
     changes = list(_changes(machine, motion, N, names))
-    usual = [change for change in changes if not change.freer.startswith("point")]
-    found = _fewest(usual, surplus) or _fewest(changes, surplus)
+    used, found = _used(machine), ()
+    for suited in ([each for each in changes if each.joint not in used], changes):
+        usual = [change for change in suited if not change.freer.startswith("point")]
+        found = found or _fewest(usual, surplus) or _fewest(suited, surplus)
     every = (*changes, *_left_out(machine, motion, N, names))
     for most in range(1, MOST + 1):
         found = found or _fewest(every, surplus, most)
     return found
+
+
+def _used(machine: MachineRecord) -> set[str]:
+    """Joints whose coordinates something else names, or whose start is given: a freer joint would lose these."""
+    others = set(type(machine).model_fields) - {"bodies", "joints", "markers", "simulation"}
+    words = set(re.findall(r"[\w-]+", machine.model_dump_json(include=others)))
+    return {each.name for each in machine.joints if each.name in words or each.start is not None}
 
 
 def _groups(motion: MotionEquations, N: Array, repeated: Sequence[str]) -> list[set[str]]:

@@ -89,6 +89,17 @@ def test_sdf_before_1_7_names_joints_as_links_and_gives_links_their_inertia(tmp_
     assert (data["bodies"]["crank"]["mass"], data["bodies"]["crank"]["inertia"]) == (1, [1, 1, 1])
 
 
+def test_what_is_left_out_and_acts_is_in_the_light_of_every_run(tmp_path):
+    """Collision geometry acts where bodies touch; a look does not."""
+    outside = '<collision name="c"><geometry/></collision><sensor name="s"/>'
+    text = FOUR_BAR.replace('<link name="crank">', f'<link name="crank">{outside}')
+    losses = read_model(written(tmp_path, text)).data["left_out"]
+    assert losses == ["collision geometry; a contact is a force of type `contact`: crank (line 2)"]
+    assert "left_out" not in read_model(written(tmp_path, FOUR_BAR)).data
+    trust = nivel.import_model(written(tmp_path, text)).simulate(duration=0.01, verify=False).trust
+    assert [(item.name, item.verdict) for item in trust.items if item.row == losses[0]] == [("losses", "amber")]
+
+
 def test_the_machine_file_has_the_list_in_its_comments_and_is_that_of_the_example(tmp_path):
     out = tmp_path / "arm.yaml"
     done = CliRunner().invoke(main, ["import", str(ARM), "--out", str(out)])

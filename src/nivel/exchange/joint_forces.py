@@ -85,7 +85,7 @@ def _function_coupling(each: Connection, mechanism: Mechanism, names: Names) -> 
     assert each.follows is not None
     other = next(joint for joint in mechanism.connections if joint.name == each.follows[0])
     if not other.coordinate or not each.coordinate:
-        mechanism.notes.leave("joints that follow a joint without a coordinate", each.name, each.line)
+        mechanism.notes.leave("joints that follow a joint without a coordinate", each.name, each.line, acts=True)
         return None
     way = f"({coordinate_of(other, names)} - {number(other.placed)!r})" if other.placed else coordinate_of(other, names)
     first, *rest = each.follows[1]

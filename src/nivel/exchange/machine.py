@@ -92,6 +92,8 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     if any(LIGHT in each for each in mechanism.notes.changed):
         settings["coordinates"] = "relative"
     data |= {"simulation": settings} if settings else {}
+    if losses := mechanism.notes.losses():
+        data["left_out"] = losses
     return Translation(file, mechanism.format, data, mechanism.notes, drawing.made)
 
 

@@ -227,7 +227,7 @@ class _Reader:
             given = (m.dof_armature[v], m.dof_damping[v], m.jnt_stiffness[j], m.dof_frictionloss[v], m.jnt_limited[j])
             for value, what in zip(given, ("armature", "damping", "stiffness", "friction", "limits"), strict=True):
                 if value:
-                    notes.leave(f"{what} of ball joints", name)
+                    notes.leave(f"{what} of ball joints", name, acts=True)
             return joint
         joint.axes = (self.d.xaxis[j].copy(),)
         joint.placed = float(m.qpos0[q])
@@ -243,7 +243,7 @@ class _Reader:
         curved = [getattr(m, key, None) for key in ("jnt_stiffnesspoly", "dof_dampingpoly")]
         for poly, k in zip(curved, (j, v), strict=True):
             if poly is not None and np.any(poly[k]):
-                notes.leave("parts of springs and dampers that are not linear", name)
+                notes.leave("parts of springs and dampers that are not linear", name, acts=True)
         return joint
 
     def _look(self, g: int, name: str) -> Look | None:
@@ -290,12 +290,12 @@ class _Reader:
             self.joints.get(int(m.actuator_trnid[a, 0])) if int(m.actuator_trntype[a]) in JOINT_TRANSMISSIONS else None
         )
         if joint is None or not joint.coordinate:
-            notes.leave("actuators on other elements than hinges and slides", name)
+            notes.leave("actuators on other elements than hinges and slides", name, acts=True)
             return
         # force = gain · control + b0 + b1 · length + b2 · speed, with the length gear · coordinate
         gain_type, bias_type = int(m.actuator_gaintype[a]), int(m.actuator_biastype[a])
         if int(m.actuator_dyntype[a]) != 0 or gain_type != 0 or bias_type > 1:
-            notes.leave("actuators with a state, muscles and gains that are not fixed", name)
+            notes.leave("actuators with a state, muscles and gains that are not fixed", name, acts=True)
             return
         bias = m.actuator_biasprm[a][:3] if bias_type == 1 else np.zeros(3)
         gear = float(m.actuator_gear[a, 0])
@@ -325,10 +325,10 @@ def _leave(m: Any, mechanism: Mechanism) -> None:
         (m.npair, "pairs of contact"),
     ):
         if count:
-            notes.leave(f"{what} ({count})")
+            notes.leave(f"{what} ({count})", acts=what not in ("sensors", "keyframes", "excluded contacts"))
     if np.any((m.geom_contype > 0) | (m.geom_conaffinity > 0)):
-        notes.leave("contacts of geoms; a contact is a force of type `contact`")
+        notes.leave("contacts of geoms; a contact is a force of type `contact`", acts=True)
     if m.opt.density or m.opt.viscosity:
-        notes.leave("forces of the fluid around the bodies (density, viscosity)")
+        notes.leave("forces of the fluid around the bodies (density, viscosity)", acts=True)
     if np.any(m.body_mocapid >= 0):
         notes.change("mocap bodies stand on the ground")

@@ -30,7 +30,7 @@ def read_equalities(
         elif kind == "joint":
             _follow(m, e, name, mechanism, joints)
         else:
-            mechanism.notes.leave(f"equalities of type {kind}", name)
+            mechanism.notes.leave(f"equalities of type {kind}", name, acts=True)
 
 
 def _attach(mj: Any, m: Any, e: int, kind: str, name: str, mechanism: Mechanism, body: Callable[[int], str]) -> None:
@@ -50,7 +50,7 @@ def _attach(mj: Any, m: Any, e: int, kind: str, name: str, mechanism: Mechanism,
     gap = float(np.linalg.norm(first.origin - second.origin))
     turn = float(np.abs(first.axes - second.axes).max()) if kind == "weld" else 0.0
     if max(gap, turn) > CLOSED:
-        mechanism.notes.leave(f"equalities that are open where the bodies are placed, by {gap:.3g} m", name)
+        mechanism.notes.leave(f"equalities that are open where the bodies are placed, by {gap:.3g} m", name, acts=True)
         return
     mechanism.notes.change(EXACT, name)
     joint = Connection(name, "spherical" if kind == "connect" else "fixed", (links[0], links[1]), first.origin)
@@ -69,11 +69,11 @@ def _follow(m: Any, e: int, name: str, mechanism: Mechanism, joints: dict[int, C
     """q₁ - q₁₀ = a₀ + a₁ (q₂ - q₂₀) + …, with the coordinates of qpos0."""
     joint, other = joints.get(int(m.eq_obj1id[e])), joints.get(int(m.eq_obj2id[e]))
     if joint is None or other is None:
-        mechanism.notes.leave("equalities that hold one joint", name)
+        mechanism.notes.leave("equalities that hold one joint", name, acts=True)
         return
     a = m.eq_data[e][:5]
     if joint.mimic is not None or joint.follows is not None:
-        mechanism.notes.leave("the second equality of a joint", name)
+        mechanism.notes.leave("the second equality of a joint", name, acts=True)
         return
     mechanism.notes.change(EXACT, name)
     if np.any(a[2:]):

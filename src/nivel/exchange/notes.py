@@ -14,14 +14,20 @@ class Notes:
 
     changed: dict[str, dict[str, int]] = field(default_factory=dict)
     left_out: dict[str, dict[str, int]] = field(default_factory=dict)
+    acting: set[str] = field(default_factory=set)
 
     def change(self, sentence: str, name: str = "", line: int = 0) -> None:
         """Something has another form in the machine."""
         self.changed.setdefault(sentence, {}).setdefault(name, line)
 
-    def leave(self, sentence: str, name: str = "", line: int = 0) -> None:
-        """Something is not in the machine."""
+    def leave(self, sentence: str, name: str = "", line: int = 0, *, acts: bool = False) -> None:
+        """Something is not in the machine. acts : it has a part in the motion, so that the machine moves otherwise than the model."""
+        self.acting |= {sentence} if acts else set()
         self.left_out.setdefault(sentence, {}).setdefault(name, line)
+
+    def losses(self) -> list[str]:
+        """What is not in the machine and has a part in the motion."""
+        return [f"{sentence}{_about(names)}" for sentence, names in self.left_out.items() if sentence in self.acting]
 
     def lines(self) -> list[str]:
         """All notes under their headings."""

@@ -197,7 +197,7 @@ def _link(element: Element, poses: Poses, document: Document, notes: Notes) -> L
             link.looks.append(look)
     for child in element.children:
         if child.tag == "collision":
-            notes.leave("collision geometry; a contact is a force of type `contact`", name, child.line)
+            notes.leave("collision geometry; a contact is a force of type `contact`", name, child.line, acts=True)
         elif child.tag in ("sensor", "light", "velocity_decay", "audio_source", "projector", "particle_emitter"):
             notes.leave(f"elements <{child.tag}> of links", name, child.line)
     return link

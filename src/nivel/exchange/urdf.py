@@ -116,7 +116,7 @@ def _link(element: Element, document: Document, colours: dict[str, str], notes: 
         if look is not None:
             link.looks.append(look)
     for collision in element.all("collision"):
-        notes.leave("collision geometry; a contact is a force of type `contact`", link.name, collision.line)
+        notes.leave("collision geometry; a contact is a force of type `contact`", link.name, collision.line, acts=True)
     return link
 
 

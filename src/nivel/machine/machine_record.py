@@ -33,7 +33,7 @@ from nivel.machine.core.placement import placement
 from nivel.machine.core.record import entry, restated
 from nivel.machine.core.usual import GRAVITY, SIZE
 from nivel.machine.forces import Force
-from nivel.machine.given import Field, ManyRecords, OneRecord, Usual
+from nivel.machine.given import Field, ManyNames, ManyRecords, OneRecord, Usual
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
@@ -94,6 +94,9 @@ class MachineRecord(Checked):
 
     name: Title
     description: str = ""
+    left_out: Annotated[ManyNames[str], BeforeValidator(listed)] = Field(
+        default=(), description="what a translation of another program's model left out; every trust report names it"
+    )
     surroundings: Annotated[ManyRecords[Shape], BeforeValidator(_solids)] = Field(
         default=(), description="solids that are drawn on the ground, at global places; nothing touches them"
     )

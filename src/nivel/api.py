@@ -399,7 +399,7 @@ class Machine(Model):
 
         outputs : names of the result, at the end of the run, ``"crank.angle"``; or ``"crank.angle at 0.5 s"``, ``"max(crank.angle)"``,
         `min`, `rms`, `mean`, `integral`; ``"time(lift)"``, when an event came. parameters : paths of numbers, as of `sweep`,
-        ``"bodies.rod.mass"``. check : compare a direction of all parameters with differences of four runs; settings : as of `simulate`.
+        ``"bodies.rod.mass"``. check : compare each with differences of six runs; settings : as of `simulate`.
 
         The dataset has the outputs, and their slopes as ``"d(crank.angle)/d(bodies.rod.mass)"``, with `units`, `estimated_error` and
         `verdict`: green, amber where the differences do not confirm a slope, red where they contradict it. Its attributes have the worst

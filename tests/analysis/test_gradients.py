@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.gradients.check import check
+from nivel.analysis.gradients.check import Slope, check
 from nivel.analysis.gradients.gradient import Varied
 from nivel.analysis.gradients.outputs import outputs_of, value_of
 from nivel.analysis.gradients.parameters import parameters_of
@@ -192,30 +192,51 @@ def test_a_slope_that_steps_cut_is_told(tmp_path):
     assert found["d(block.position.x)/d(parameters.stiffness)"].attrs["verdict"] == "red"
 
 
-def test_a_wrong_gradient_is_red_and_a_right_one_is_green():
-    parameters = tuple(_Parameter(value) for value in (2.0, 3.0))
+def _checked(slopes, at, values, far=0.01, step_error=0.0):
+    """What the check says of slopes along parameters of a function of these."""
 
-    def run(values):
-        return [np.array(values[0] ** 2 * values[1])]
+    def moved(k, share):
+        point = np.array(values)
+        point[k] *= 1.0 + share
+        return [np.array(at(point))]
 
-    assert check([np.array([12.0, 4.0])], parameters, run, None)[0].light == "green"
-    assert check([np.array([12.0, 4.0 * (1 + 1e-3)])], parameters, run, None)[0].light == "amber"
-    assert check([np.array([12.0, 0.0])], parameters, run, None)[0].light == "red"
-    assert check([np.array([12.0, np.nan])], parameters, run, None)[0].light != "green"
+    by_scale = np.array(slopes) * values
+    (found,) = check([Slope(by_scale, np.full(len(values), step_error), 1.0)], moved, None, [far] * len(values))
+    return found.lights
+
+
+def test_a_wrong_slope_is_red_and_a_right_one_beside_it_is_green():
+    def product(x):
+        return x[0] ** 2 * x[1]
+
+    assert _checked([12.0, 4.0], product, [2.0, 3.0]) == ("green", "green")
+    assert _checked([12.0, 4.0 * (1 + 1e-3)], product, [2.0, 3.0]) == ("green", "amber")
+    assert _checked([12.0, 0.0], product, [2.0, 3.0]) == ("green", "red")
+    assert _checked([12.0, np.nan], product, [2.0, 3.0]) == ("green", "amber")
+    assert _checked([12.0, 4.0], product, [2.0, 3.0], step_error=0.5) == ("amber", "amber")
+
+
+def test_what_shows_over_a_long_way_only_is_not_green():
+    # goes up in steps of 1e-3: over a short way its slope is that of what the steps leave out
+    def stairs(x):
+        return x[0] + 1e-3 * np.floor((x[0] + 4e-4) / 1e-3)
+
+    assert _checked([1.0], stairs, [1.0], far=0.01) == ("amber",)
+    assert _checked([1.0], stairs, [1.0], far=1e-4) == ("green",)
+
+
+def test_bends_over_a_long_way_are_no_contradiction():
+    # a vibration after 30 periods: over a change of 1 % its phase moves by 2 rad
+    assert _checked([200.0 * np.cos(200.0)], lambda x: np.sin(200.0 * x[0]), [1.0], far=0.01) == ("green",)
 
 
 def test_round_off_of_an_output_is_no_contradiction():
     random = np.random.default_rng(1)
 
-    def run(values):
-        return [np.array(3.75 * (1.0 + 1e-14 * random.standard_normal()))]
+    def constant(_):
+        return 3.75 * (1.0 + 1e-14 * random.standard_normal())
 
-    assert check([np.array([1e-14, 0.0])], [_Parameter(2.0), _Parameter(3.0)], run, None)[0].light == "green"
-
-
-class _Parameter:
-    def __init__(self, value):
-        self.value, self.scale = value, abs(value)
+    assert _checked([1e-14, 0.0], constant, [2.0, 3.0]) == ("green", "green")
 
 
 def test_a_machine_without_integrator_has_the_one_of_its_run(tmp_path):

@@ -5,24 +5,28 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, cast
+from functools import partial
+from math import ceil
+from typing import Any
 
 import numpy as np
 import xarray
 
-from nivel.analysis.gradients.check import LIGHTS, Checked, check
+from nivel.analysis.gradients.check import STEPS, Checked, Slope, check, worst
 from nivel.analysis.gradients.outputs import Array, Output, Reduced, outputs_of
 from nivel.analysis.gradients.parameters import Parameter, parameters_of
 from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
 from nivel.analysis.plan.choice import FOR_STIFF
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run, plan_run
+from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
 from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.second_run import FINER, TENTH, refine
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.model import Model
@@ -41,7 +45,7 @@ UNFOLLOWED = {
 # blocks of control whose code is not that of nivel
 FOREIGN = {"fmu": "FMUs", "c": "C functions"}
 HEADLINES = {
-    "green": "slopes agree with differences of runs along a direction of all parameters",
+    "green": "slopes agree with differences of runs, over which each parameter moves by several sizes, and with those of finer steps",
     "amber": "differences of runs do not confirm all slopes: see the `verdict` of each",
     "red": "differences of runs contradict slopes: see the `verdict` of each; something cuts them, as a contact or a branch may",
     "not checked": "slopes were not compared with differences of runs",
@@ -53,6 +57,9 @@ class Varied:
 
     Where the machine names no integrator, all of them have the one that its own run has. as_asked : frames are those that were asked for;
     else numbers are made from no fewer than usual.
+
+    Steps of fixed size end at switches, contacts,
+    stops and samples, as chosen ones do: what happens inside a step moves with the parameters.
     """
 
     def __init__(
@@ -68,6 +75,7 @@ class Varied:
         if not as_asked:
             plan = replace(plan, settings=plan.settings.with_usual_frames)
         self._machine, self.plan, self.prepared, self._source = machine, plan, prepared, source
+        self.mean_step = plan.settings.step
 
     @property
     def settings(self) -> RunSettings:
@@ -85,7 +93,8 @@ class Varied:
 
     def beside(self, parameter: Parameter, value: float) -> Loop:
         """The loop at the start of a run with another value of a parameter."""
-        return start_loop(prepare(self._plan_with({parameter.path: value}).methods), self.settings)
+        prepared = prepare(self._plan_with({parameter.path: value}).methods)
+        return start_loop(prepared, self.settings, at_switches=True)
 
     def run(self, values: Mapping[str, float]) -> Result:
         """The run with other values of parameters; none: the machine as it is. Raises SolveError where it fails."""
@@ -93,32 +102,41 @@ class Varied:
         prepared = prepare(plan.methods) if values else self.prepared
         sink = Memory(self.settings.frames + 1)
         sink.begin(self._header(plan, prepared))
-        finished = march(prepared, self.settings, [sink], shared=False)  # as their slopes are
+        loop = start_loop(prepared, self.settings, at_switches=True)
+        finished = march(prepared, self.settings, [sink], loop=loop, shared=False)  # as their slopes are
+        if not values:
+            self.mean_step = self.settings.duration / max(finished.timing["steps"], 1)
         result = sink.close({"outcome": finished.outcome, "events": to_json(finished.events)})
         if finished.failure is not None:
             message, advice, at = finished.failure
             raise SolveError(message, time=at, advice=advice, result=result)
         return result
 
-    def moved(self, parameters: Sequence[Parameter], point: Array) -> Result:
-        """The run with all parameters away from their values by as much as `point` is. What the file computes from one of them follows it,
-        also where it is itself one of them."""
-        given: dict[str, float] = {}
-        names = [f"parameters.{name}" for name in self._machine.parameters]
-        changes = {each.path: float(value - each.value) for each, value in zip(parameters, point, strict=True)}
-        for path in (name for name in names if name in changes):
-            given[path] = _number_at(self._machine.with_values(given), path) + changes[path]
-        followed = self._machine.with_values(given)
-        others = (path for path in changes if path not in given)
-        return self.run(given | {path: _number_at(followed, path) + changes[path] for path in others})
+    @property
+    def refined(self) -> tuple[RunSettings, float]:
+        """Settings of finer steps, with the same frames; and the length of such a step, or its tolerance, as a share of the usual one."""
+        settings = self.settings
+        if settings.tolerance is not None:
+            return refine(settings).settings, TENTH
+        # where something is sampled, steps end at its times
+        fine = 2 * settings.every if self._sampled else ceil(FINER * settings.every)
+        share = settings.every / fine
+        step = share * settings.step
+        steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
+        return replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step), share
+
+    @property
+    def blurred(self) -> float:
+        """[s] within this time a run does not tell when something has happened: a step, or the longest time between two samples."""
+        return max([self.settings.step if self.settings.steps else self.mean_step, *self._sampled])
+
+    @property
+    def _sampled(self) -> list[float]:
+        return [time for _, time in sampled_times(self.plan.machine)]
 
     def _plan_with(self, values: Mapping[str, float]) -> Plan:
         other = self._machine.with_values(dict(values))
         return plan_run(other.record, self._given)
-
-
-def _number_at(machine: Model, path: str) -> float:
-    return float(cast("float", machine[path]))
 
 
 def _settled(plan: Plan, prepared: Prepared, listener: Listener | None) -> Plan:
@@ -154,18 +172,54 @@ def gradient(
     plain = varied.run({})
     asked = outputs_of(outputs, plain, curves=curves)
     _refuse_events(asked, varied.prepared)
+    slopes, verdicts = checked_slopes(varied, parameters, asked, plain, listener, checked=checked)
+    return _dataset(slopes, plain, asked, [slopes.evaluate(output) for output in asked], verdicts)
+
+
+def checked_slopes(
+    varied: Varied,
+    parameters: Sequence[Parameter],
+    outputs: Sequence[Output],
+    plain: Result,
+    listener: Listener,
+    *,
+    checked: bool,
+) -> tuple[Slopes, Sequence[Checked | None]]:
+    """Slopes of runs, and how far those of these outputs can be trusted. plain : the run without slopes."""
     listener.say("running on dual numbers")
-    slopes = find_slopes(varied.prepared, varied.settings, varied.header, parameters, varied.beside, listener)
-    found = [slopes.evaluate(output) for output in asked]
-    verdicts: Sequence[Checked | None] = [None] * len(asked)
-    if checked:
-        listener.say("comparing with differences of runs")
+    refined, share = varied.refined
+    find = partial(find_slopes, varied.prepared, varied.settings, varied.header, parameters, varied.beside, listener)
+    if not checked:
+        return find()[0], [None] * len(outputs)
+    slopes, finer = find(refined)
+    listener.say("comparing with differences of runs")
+    scale = np.array([each.scale for each in parameters])
+    compared = [_compared(output, plain, slopes, finer, scale, share) for output in outputs]
 
-        def values_at(point: Array) -> list[Array]:
-            return values_of(asked, varied.moved(parameters, point))
+    def moved(k: int, change: float) -> list[Array] | None:
+        parameter = parameters[k]
+        try:
+            return values_of(outputs, varied.run({parameter.path: parameter.value + change * parameter.scale}))
+        except (ModelError, SolveError):
+            return None
 
-        verdicts = check([each.slope for each in found], parameters, values_at, varied.settings.tolerance)
-    return _dataset(slopes, plain, asked, found, verdicts)
+    with np.errstate(divide="ignore"):
+        far = (STEPS * varied.blurred / slopes.time_shifts()).tolist()
+    return slopes, check(compared, moved, varied.settings.tolerance, far)
+
+
+def _compared(output: Output, plain: Result, slopes: Slopes, finer: Slopes | None, scale: Array, share: float) -> Slope:
+    """Slopes of an output for changes of the parameters by their scales, with the errors of steps. Those fall with the step at least, so
+    that the ones with finer steps are apart from them by 1 - share of the error at least."""
+    found = slopes.evaluate(output).slope
+    by_scale = scale.reshape(-1, *[1] * (found.ndim - 1))
+    other = np.full_like(found, np.nan) if finer is None else finer.evaluate(output).slope
+    if other.shape != found.shape:  # of curves that end at an event
+        other = np.full_like(found, np.nan)
+    extent = plain.time[-1] - plain.time[0] if output.is_event else np.ptp(plain.array(output.name), axis=0).max()
+    if output.by_time:
+        extent *= plain.time[-1] - plain.time[0]
+    return Slope(by_scale * found, by_scale * np.abs(other - found) / (1.0 - share), float(extent))
 
 
 def refuse(plan: Plan) -> None:
@@ -200,37 +254,45 @@ def _dataset(
     verdicts: Sequence[Checked | None],
 ) -> xarray.Dataset:
     data: dict[str, Any] = {}
-    lights: dict[str, str] = {}
+    outputs_lights: dict[str, str] = {}
     for output, (value, slope, doubt), verdict in zip(outputs, found, verdicts, strict=True):
-        units = output.units(plain)
-        lights[output.label] = _light(verdict, slope, doubt)
+        units, lights = output.units(plain), _lights(verdict, slope, doubt)
+        outputs_lights[output.label] = worst(lights)
         data[output.label] = _like(output, plain, value, {"units": units, "long_name": output.label})
-        errors = verdict.errors() + doubt if verdict is not None else np.full_like(slope, np.nan)
+        errors = np.full_like(slope, np.nan)
+        if verdict is not None:
+            scale = np.array([each.scale for each in slopes.parameters]).reshape(-1, *[1] * (slope.ndim - 1))
+            errors = doubt + verdict.errors / scale
         for k, parameter in enumerate(slopes.parameters):
             name = f"d({output.label})/d({parameter.path})"
-            worst = float(np.max(errors[k])) if np.size(errors[k]) else 0.0
+            largest = float(np.max(errors[k])) if np.size(errors[k]) else 0.0
             attributes = {
                 "units": per(units, parameter.units),
                 "long_name": f"derivative of {output.label} with respect to {parameter.path}",
                 "output": output.label,
                 "parameter": parameter.path,
                 "parameter_value": parameter.value,
-                "estimated_error": worst,
-                "verdict": lights[output.label],
+                "estimated_error": largest,
+                "verdict": lights[k],
             }
             data[name] = _like(output, plain, slope[k], attributes)
-    known = [each for each in lights.values() if each in LIGHTS]
-    light = max(known, key=LIGHTS.index) if known else "not checked"
-    attributes = {"machine": plain.name, "verdict": light, "headline": HEADLINES[light], "verdicts": json.dumps(lights)}
+    light = worst([*outputs_lights.values()])
+    attributes = {"machine": plain.name, "verdict": light, "headline": HEADLINES[light]}
+    attributes["verdicts"] = json.dumps(outputs_lights)
     return xarray.Dataset(data, attrs=attributes)
 
 
-def _light(verdict: Checked | None, slope: Array, doubt: Array) -> str:
-    """That of the differences; amber at most where frames leave more open than `TOLD` of the largest slope along a parameter."""
+def _lights(verdict: Checked | None, slope: Array, doubt: Array) -> tuple[str, ...]:
+    """Those of the differences; amber at most where frames leave more open than `TOLD` of the largest slope along a parameter."""
     if verdict is None:
-        return "not checked"
-    size = np.max(np.abs(slope), axis=tuple(range(1, slope.ndim)), keepdims=True, initial=0.0)
-    return "amber" if verdict.light == "green" and bool((doubt > TOLD * size).any()) else verdict.light
+        return ("not checked",) * len(slope)
+    open_ones = (
+        bool((own > TOLD * np.max(np.abs(of), initial=0.0)).any()) for of, own in zip(slope, doubt, strict=True)
+    )
+    return tuple(
+        "amber" if light == "green" and is_open else light
+        for light, is_open in zip(verdict.lights, open_ones, strict=True)
+    )
 
 
 def _like(output: Output, plain: Result, value: Array, attributes: dict[str, Any]) -> xarray.DataArray:

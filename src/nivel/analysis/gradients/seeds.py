@@ -30,35 +30,39 @@ SMOOTH, ROUND_OFF = 1e-2, 1e-6
 OVERWRITTEN = ("saddle", "tree", "newton", "residual", "frames", "control")
 
 
-def seed(
-    whole: WholeLoop, loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Parameter, float], Loop]
-) -> None:
-    """Give the numbers of both records their slopes along LANES parameters at most, for a change of each by its scale.
+# slopes of all arrays of both records of a loop, that of the machine and that of the run
+Seeds = list[list[Array]]
+
+
+def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Parameter, float], Loop]) -> list[Seeds]:
+    """Slopes of the numbers of both records along each parameter, for a change by its scale.
 
     beside(parameter, value) : the loop of the machine with another value, built in the same way. Raises ModelError with every parameter
     with which the machine changes otherwise than in numbers.
     """
-    faults = []
-    records = (loop.machine.record, whole.machine), (loop.history.record, whole.run)
-    for lane, parameter in enumerate(parameters):
+    faults, out = [], []
+    for parameter in parameters:
         try:
-            slopes = _slopes_beside([own for own, _ in records], parameter, beside)
+            out.append(_slopes_beside(_records(loop), parameter, beside))
         except ModelError as error:
             faults += [
                 Fault("", 0, 0, parameter.path, f"there is no gradient: {each.message}") for each in error.faults
             ]
-            continue
-        for (_, twin), of_record in zip(records, slopes, strict=True):
+    if faults:
+        raise ModelError(faults)
+    return out
+
+
+def seed(whole: WholeLoop, seeds: Sequence[Seeds]) -> None:
+    """Give the numbers of both records their slopes, a lane for each of LANES seeds at most."""
+    for lane, slopes in enumerate(seeds):
+        for twin, of_record in zip((whole.machine, whole.run), slopes, strict=True):
             for (_, dual), slope in zip(leaves(twin), of_record, strict=True):
                 if dual.dtype == DUAL:
                     dual["slopes"][..., lane] = slope
-    if faults:
-        raise ModelError(faults)
 
 
-def _slopes_beside(
-    records: Sequence[Any], parameter: Parameter, beside: Callable[[Parameter, float], Loop]
-) -> list[list[Array]]:
+def _slopes_beside(records: Sequence[Any], parameter: Parameter, beside: Callable[[Parameter, float], Loop]) -> Seeds:
     """Slopes of all arrays of both records for a change of the parameter by its scale."""
     try:
         near, far = (_differences(records, parameter, beside, factor * WIDE) for factor in (1.0, 2.0))
@@ -71,7 +75,7 @@ def _slopes_beside(
 
 def _differences(
     records: Sequence[Any], parameter: Parameter, beside: Callable[[Parameter, float], Loop], aside: float
-) -> list[list[Array]]:
+) -> Seeds:
     """Central differences of all arrays of both records over steps of this share. Raises ModelError where more than numbers changes."""
     low, high = (beside(parameter, parameter.value + sign * aside * parameter.scale) for sign in (-1.0, 1.0))
     return [

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from nivel.analysis.gradients.check import check
-from nivel.analysis.gradients.gradient import HEADLINES, Varied, refuse
+from nivel.analysis.gradients.check import worst
+from nivel.analysis.gradients.gradient import HEADLINES, Varied, checked_slopes, refuse
 from nivel.analysis.gradients.outputs import Array, outputs_of
 from nivel.analysis.gradients.parameters import Parameter, parameters_of
-from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
+from nivel.analysis.gradients.slopes import Slopes
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
@@ -48,31 +48,23 @@ def with_sensitivities(
     Raises ModelError where a parameter has no gradient, SolveError where the run on dual numbers fails.
     """
     listener = listener or Listener()
-    listener.say("running on dual numbers")
     varied, parameters = Varied(machine, plan, source, listener), parameters_of(machine, paths)
-    slopes = find_slopes(varied.prepared, varied.settings, varied.header, parameters, varied.beside, listener)
+    asked = outputs_of([name for name in CHECKED if name in result.variables], result)
+    slopes, verdicts = checked_slopes(varied, parameters, asked, result, listener, checked=checked)
     if slopes.result.time.shape != result.time.shape:
-        raise ModelError("the run was interrupted: there are sensitivities of whole runs only")
-    light = _verdict(varied, slopes, result, parameters, listener) if checked else "not checked"
+        raise ModelError(
+            "the run was interrupted, or ends by another frame where its steps end at switches: there are sensitivities of whole runs only"
+        )
     layout = varied.header.layout
-    told = {each.path: {"value": each.value, "units": each.units, "verdict": light} for each in parameters}
-    attributes = {**result.attributes, "sensitivities": json.dumps(told), "sensitivities_headline": HEADLINES[light]}
+    lights = [worst([each.lights[k] for each in verdicts if each is not None]) for k in range(len(parameters))]
+    told = {
+        each.path: {"value": each.value, "units": each.units, "verdict": light}
+        for each, light in zip(parameters, lights, strict=True)
+    }
+    headline = HEADLINES[worst(lights)]
+    attributes = {**result.attributes, "sensitivities": json.dumps(told), "sensitivities_headline": headline}
     frames = [_frames_of(result, layout), *(_scaled(slopes, k) for k in range(len(parameters)))]
     return Result(MemoryContents(Header(_with_slopes(layout, parameters), attributes), np.hstack(frames), attributes))
-
-
-def _verdict(
-    varied: Varied, slopes: Slopes, result: Result, parameters: Sequence[Parameter], listener: Listener
-) -> str:
-    listener.say("comparing with differences of runs")
-    asked = outputs_of([name for name in CHECKED if name in result.variables], result)
-    found = [slopes.evaluate(output).slope for output in asked]
-
-    def values_at(point: Array) -> list[Array]:
-        return values_of(asked, varied.moved(parameters, point))
-
-    lights = [each.light for each in check(found, parameters, values_at, varied.settings.tolerance)]
-    return next((light for light in ("red", "amber") if light in lights), "green")
 
 
 def _frames_of(result: Result, layout: FrameLayout) -> Array:

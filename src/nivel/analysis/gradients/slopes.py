@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.gradients.outputs import Array, Moving, Output, Reduce, Reduced, value_of
 from nivel.analysis.gradients.parameters import Parameter
-from nivel.analysis.gradients.seeds import seed
+from nivel.analysis.gradients.seeds import Seeds, seed, seeds_of
 from nivel.analysis.gradients.whole_loop import WholeLoop, whole_entries
 from nivel.analysis.plan.compilation import build
 from nivel.analysis.plan.settings import RunSettings
@@ -55,6 +56,18 @@ class Slopes:
         slopes, doubts = (np.array([each[n] for each in found]) / scale for n in (1, 2))
         return Reduced(found[0].value, slopes, doubts)
 
+    def time_shifts(self) -> Array:
+        """(parameters,) [s] by how much a change of each by its scale moves the motion in time: the median of all columns of the frames, of
+        their slopes over their rates, in the mean of the run."""
+        frames, out = self._passes[0].frames[..., 0], []
+        h = np.diff(frames[:, 0])
+        rates = _root_mean_square(np.diff(frames[:, 1:], axis=0)[h > 0.0] / h[h > 0.0, None])
+        for k in range(len(self.parameters)):
+            slopes = _root_mean_square(self.lanes(k)[:, 1:])
+            moves = (slopes > 0.0) & (rates > 0.0)
+            out.append(float(np.median(slopes[moves] / rates[moves])) if moves.any() else 0.0)
+        return np.array(out)
+
     def lanes(self, k: int) -> Array:
         """Slopes (n, width) of all columns of the frames along parameter k, for a change by its scale."""
         return self._passes[k // LANES].frames[..., 1 + k % LANES]
@@ -94,6 +107,10 @@ def _with_doubt(reduce: Reduce, moving: Moving) -> Reduced:
     return found._replace(doubt=np.maximum(found.doubt, DOUBT * np.abs(found.slope - reduce(moving.thinned).slope)))
 
 
+def _root_mean_square(columns: Array) -> Array:
+    return np.sqrt(np.mean(np.nan_to_num(columns) ** 2, axis=0))
+
+
 def find_slopes(
     prepared: Prepared,
     settings: RunSettings,
@@ -101,19 +118,31 @@ def find_slopes(
     parameters: Sequence[Parameter],
     beside: Callable[[Parameter, float], Loop],
     listener: Listener,
-) -> Slopes:
-    """The run on dual numbers. beside : see `nivel.analysis.gradients.seeds.seed`.
+    finer: RunSettings | None = None,
+) -> tuple[Slopes, Slopes | None]:
+    """The run on dual numbers, and the same with finer steps where that can be done. beside : see `nivel.analysis.gradients.seeds`.
 
     Raises ModelError where a parameter has no gradient, SolveError where the run fails.
     """
-    build(whole_entries(start_loop(prepared, settings)), listener)
-    passes = []
+    build(whole_entries(start_loop(prepared, settings, at_switches=True)), listener)
+    passes: list[Lanes] = []
+    finer_passes: list[Lanes] = []
     for first in range(0, len(parameters), LANES):
-        loop = start_loop(prepared, settings)
-        whole = WholeLoop(loop)
-        seed(whole, loop, parameters[first : first + LANES], beside)
-        passes.append(run_whole(whole))
-    return Slopes(header, parameters, passes, prepared.motion.system.events)
+        loop = start_loop(prepared, settings, at_switches=True)
+        seeds = seeds_of(loop, parameters[first : first + LANES], beside)
+        passes.append(_run_seeded(loop, seeds))
+        if finer is not None:
+            with suppress(SolveError):
+                finer_passes.append(_run_seeded(start_loop(prepared, finer, at_switches=True), seeds))
+    events = prepared.motion.system.events
+    slopes = Slopes(header, parameters, passes, events)
+    return slopes, Slopes(header, parameters, finer_passes, events) if len(finer_passes) == len(passes) else None
+
+
+def _run_seeded(loop: Loop, seeds: Sequence[Seeds]) -> Lanes:
+    whole = WholeLoop(loop)
+    seed(whole, seeds)
+    return run_whole(whole)
 
 
 def run_whole(whole: WholeLoop) -> Lanes:

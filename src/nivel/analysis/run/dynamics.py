@@ -205,13 +205,13 @@ def march(
     return finished
 
 
-def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
-    """The compiled loop at the start of a run of `prepared`."""
+def start_loop(prepared: Prepared, settings: RunSettings, *, at_switches: bool = False) -> Loop:
+    """The compiled loop at the start of a run of `prepared`. at_switches : see `nivel.analysis.run.history.start_history`."""
     stabilisation = STABILISATIONS[settings.stabilisation]
     _feed_back(prepared.motion.system, settings, stabilisation)
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
-    run = start_history(prepared, settings, facts, _kept_ends(prepared, settings))
+    run = start_history(prepared, settings, facts, _kept_ends(prepared, settings), at_switches)
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
     step = facts.step
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.implicit import constraint_index
+from nivel.analysis.curves.corners import corners
 from nivel.analysis.failures.lockup import can_be_asked
 from nivel.analysis.plan.refusals import WHOLE
 from nivel.analysis.plan.settings import RunSettings
@@ -76,13 +77,17 @@ STICK, STICK_TOLERANCE, LATE, SLACK = 1e-5, 1e-8, 1.0 / 20.0, 1e-6
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
 TORN = 0.1
+# The tolerance of steps of fixed size that end at switches: what a switch may do to the state unseen, as a share of its scales.
+AT_SWITCHES = 1e-9
 # Scale of what nothing depends on.
 UNSEEN = 1e30
 
 
-def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts, ends: int = 0) -> Run:
+def start_history(
+    prepared: Prepared, settings: RunSettings, facts: IntegratorFacts, ends: int = 0, at_switches: bool = False
+) -> Run:
     """History of a run at its start: energies referred to the assembled state, joint angles followed from it, nothing remembered. ends : of
-    so many steps it is kept when they ended."""
+    so many steps it is kept when they ended. at_switches : steps of fixed size end where chosen ones do."""
     system, y = prepared.motion.system, prepared.start.copy()
     width, count = system.layout.width, _counters(settings, facts)
     rows = max(2, min(4096, BUFFER_BYTES // (8 * width)))
@@ -95,10 +100,16 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     system.hold_sliders(y)
     _begin_states(prepared, y)
     _refer_energies(prepared, y)
-    values = _watch(system, chosen=settings.steps == 0)
+    at_switches = at_switches and settings.steps > 0
+    values = _watch(system, chosen=settings.steps == 0 or at_switches)
     count[SWITCHED] = values > len(system.record.watched.event)
+    clock, ending = _clock(prepared, settings), prepared.corners
+    if at_switches:
+        clock[TOLERANCE] = AT_SWITCHES
+        if prepared.machine is not None and not facts.knows_corners:
+            ending = corners(prepared.machine, with_values=True)
     return Run(
-        clock=_clock(prepared, settings),
+        clock=clock,
         counter=count,
         y=y,
         rate=np.zeros_like(y),
@@ -118,7 +129,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         frames=np.zeros((rows, width)),
         event_values=np.zeros((VALUE_ROWS, values)),
         samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
-        corners=np.array(prepared.corners, dtype=float),
+        corners=np.array(ending, dtype=float),
         pace=_pace(prepared, settings),
         events=np.zeros((EVENT_ROWS if len(system.record.watched.event) else 0, 3)),
         ends=np.zeros(ends),

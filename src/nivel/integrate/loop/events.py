@@ -30,6 +30,7 @@ from nivel.integrate.loop.run import (
     WHEN,
     run_at,
 )
+from nivel.integrate.loop.samples import ends_at_switches
 from nivel.integrate.loop.surfaces import find_contacts
 from nivel.integrate.loop.switches import first_switch, has_switches, note_slopes, pass_unseen
 from nivel.kernels.core.status import BUFFER_FULL, OK
@@ -52,7 +53,7 @@ def begin_events(machine, history):
 
 @leaf
 def first_stop(watched, when, fixed):
-    """Number of the first event that ends the run, or the step, or -1. Fixed steps are ended by the end of the run alone."""
+    """Number of the first event that ends the run, or the step, or -1. Steps that are `fixed` are ended by the end of the run alone."""
     first = -1
     for k in range(watched.event.shape[0]):
         stop = watched.event[k, STOP]
@@ -89,7 +90,7 @@ def find_events(evaluate, correct, machine, history):
         status = find_crossings(evaluate, correct, machine, history, 0, events, end)
     if status == OK and events > 0:
         status = find_passes(evaluate, correct, machine, history, end)
-    stop = first_stop(watched, values[WHEN], counter[ALL_STEPS] > 0)
+    stop = first_stop(watched, values[WHEN], counter[ALL_STEPS] > 0 and not ends_at_switches(run))
     if status == OK and stop >= 0:
         end = values[WHEN, stop]
         status = end_at(evaluate, correct, machine, history, end)

@@ -37,7 +37,16 @@ from nivel.integrate.loop.run import (
     call_step,
     run_at,
 )
-from nivel.integrate.loop.samples import find_bound, take_samples, time_of
+from nivel.integrate.loop.samples import (
+    completes,
+    ends_at_switches,
+    find_bound,
+    fit_part,
+    is_past,
+    is_within,
+    take_samples,
+    time_of,
+)
 from nivel.integrate.loop.step_control import fastest_turn
 from nivel.integrate.loop.surfaces import allow_ahead, keep_ways
 from nivel.integrate.loop.switches import change_sides, has_switches, note_sides
@@ -70,12 +79,6 @@ def at_end(run):
     if counter[ALL_STEPS] > 0:
         return counter[DONE_STEPS] == counter[ALL_STEPS]
     return run.clock[TIME] >= run.clock[END]
-
-
-@leaf
-def is_past(t, other):
-    """Whether the time t is the other one, except for round-off, or later: a frame at the time of a sample shows the state after it."""
-    return t >= other - NEAR * np.abs(other)
 
 
 @leaf
@@ -198,7 +201,7 @@ def accept_state(evaluate, machine, history, due):
         status = take_samples(evaluate, machine, history)
         if status == OK and not finite(run.rate):
             status = NOT_FINITE
-    if status == OK and counter[DONE_STEPS] == 0 and run.event_values.shape[1] > 0:
+    if status == OK and counter[DONE_STEPS] == 0 and run.event_values.shape[1] > 0 and not is_within(run):
         status = begin_events(machine, history)
     if status != OK:
         return status
@@ -269,17 +272,24 @@ def take_step(evaluate, correct, step, machine, history):
     find_bound(machine, run)
     if not fixed:
         allow_ahead(machine, run)
+    reached = fit_part(run) if ends_at_switches(run) else clock[REACHED]
+    part = is_within(run) or not completes(run, reached)
     counter[DENSE] = 0
     speed = fastest_turn(machine)
     status = call_step(step, evaluate, machine, history)
     if fixed:
         clock[STEP] = h
     counter[EVALUATED] = 0
+    if fixed:
+        clock[REACHED] = reached
     clock[LENGTH] = clock[REACHED] - clock[TIME]
     if status == OK:
         status = correct_reached(correct, machine, history)
     if status == OK and not finite(run.y):
         status = NOT_FINITE
+    if part:
+        # what comes before a part says nothing of steps of another size
+        counter[RESTART] = 1
     if status == OK:
         note_step(machine, run, speed)
     if status == OK and run.event_values.shape[1] > 0:
@@ -307,8 +317,9 @@ def advance(evaluate, correct, step, machine, history):
             if status != OK:
                 return status
             counter[INSIDE] = 0
+            done = completes(run, clock[REACHED]) or counter[STOPPED] > 0
             clock[TIME] = clock[REACHED]
-            counter[DONE_STEPS] += 1
+            counter[DONE_STEPS] += int(done)
             if run.ends.shape[0] > 0:
                 run.ends[counter[DONE_STEPS] % np.int64(run.ends.shape[0])] = clock[TIME]
         due = is_due(run)

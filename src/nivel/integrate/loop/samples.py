@@ -12,14 +12,18 @@ from nivel.integrate.loop.run import (
     CORNER,
     DONE_STEPS,
     END,
+    REACHED,
     RESTART,
     START,
+    STEP,
     STEP_TICKS,
     TICK_RATE,
     TIME,
+    TOLERANCE,
     run_at,
 )
 from nivel.integrate.loop.switches import change_sides, has_switches, release_sides, restore_sides
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import NEAR
 from nivel.kernels.record.hook import call_hook
@@ -33,6 +37,52 @@ def time_of(run, n):
     if n == run.counter[ALL_STEPS]:
         return run.clock[END]
     return run.clock[START] + n * run.clock[STEP_TICKS] / run.clock[TICK_RATE]
+
+
+@leaf
+def is_past(t, other):
+    """Whether the time t is the other one, except for round-off, or later: a frame at the time of a sample shows the state after it."""
+    return t >= other - NEAR * np.abs(other)
+
+
+@leaf
+def ends_at_switches(run):
+    """Whether steps of fixed size are done in parts between contacts, stops, switches and samples, as in runs for gradients. These have a
+    tolerance: what a switch may do to the state unseen."""
+    return run.counter[ALL_STEPS] > 0 and run.clock[TOLERANCE] > 0.0
+
+
+@leaf
+def is_within(run):
+    """Whether the accepted state is one inside a step of fixed size."""
+    return ends_at_switches(run) and run.clock[TIME] > time_of(run, run.counter[DONE_STEPS])
+
+
+@leaf
+def completes(run, t):
+    """Whether a step of fixed size is over at the time t, which is that of the state reached."""
+    return not ends_at_switches(run) or is_past(t, time_of(run, run.counter[DONE_STEPS] + 1))
+
+
+@leaf
+def fit_part(run):
+    """clock[REACHED] and clock[STEP] := those of the next part of a step of fixed size, which ends at clock[BOUND] at the latest. A bound
+    that is the end of the step moves it, with the parameters that it depends on.
+
+    Functions that have a corner there still are what they were before it: the part ends before the time that this returns.
+    """
+    clock = run.clock
+    if not is_past(clock[BOUND], clock[REACHED]):
+        clock[REACHED] = clock[BOUND]
+    elif is_past(clock[REACHED], clock[BOUND]):
+        clock[REACHED] += clock[BOUND] - real(clock[BOUND])
+    left, reached, k = clock[REACHED] - clock[TIME], clock[REACHED], run.counter[CORNER]
+    whole = completes(run, reached) and not is_within(run)
+    clock[STEP] = clock[STEP] + (left - real(left)) if whole else left
+    if k < run.corners.shape[0] and is_past(reached, run.corners[k]):
+        early = 2.0 * NEAR * np.abs(real(reached))
+        clock[REACHED], clock[STEP] = reached - early, clock[STEP] - early
+    return reached
 
 
 @leaf
@@ -101,7 +151,7 @@ def take_samples(evaluate, machine, history):
     if status != OK or not changed:
         return status
     status = change_sides(evaluate, machine, history)
-    if run.counter[DONE_STEPS] > 0:
+    if run.counter[DONE_STEPS] > 0 or is_within(run):
         run.counter[RESTART] = 1
         if status == OK and run.event_values.shape[1] > 0:
             status = read_values(machine, history, BEFORE, run.clock[TIME])

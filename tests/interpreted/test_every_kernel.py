@@ -75,6 +75,7 @@ BY_ADDRESS += ["c_function.call"]
 # what only slopes of whole runs need, which are compiled: tests/analysis/test_gradients.py
 OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction", "balance", "variable_corrector")]
 OF_SLOPES += ["lanes.steepest", "direct.are_steep", "independent.is_steep", "crossing.root", "shifted_along.add_slopes"]
+OF_SLOPES += ["samples.fit_part"]
 OF_SLOPES += ["residual_newton.steepness_of_change", "residual_newton.end_correction"]
 OF_SLOPES += ["radau_stages.settle_slopes", "radau_stages.settle_coupled", "radau_stages.change_slopes_of_pair"]
 OF_SLOPES += [

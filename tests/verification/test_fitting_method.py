@@ -228,6 +228,18 @@ def test_check_tells_the_method_of_the_run():
     assert "method: dopri5, because no method is named; where it is stiff, radau goes on" in str(found)
 
 
+def test_a_law_that_jumps_to_and_fro_comes_to_its_end_by_fixed_steps():
+    """Dry friction as sign(v) shrinks every chosen step once the block rests; fixed steps pass it, and the light tells what they leave.
+
+    From 1 m/s against 1 N the block of 2 kg rests after v² m/(2 F) = 1 m.
+    """
+    rub = {"type": "force", "body": "block", "vector": ["-if(rail.displacement_rate > 0, 1, -1)", 0, 0]}
+    result = simulate({**block(rub, start_rates={"displacement": 1.0}), "simulation": {"duration": 3.0}})
+    assert (result.outcome, result.settings["integrator"]) == ("done", "rk4")
+    assert result.array("rail.displacement")[-1] == pytest.approx(1.0, abs=2e-3)
+    assert result.trust.verdict != "green" or result.trust.accuracy_estimate < 2e-3
+
+
 def test_what_is_named_is_written():
     """A file that names the integrator or the tolerance that is the default of the record says so when it is written."""
     sections = block(STIFF) | {"simulation": {"integrator": "rk4", "tolerance": 1e-6}}

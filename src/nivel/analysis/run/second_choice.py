@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import ceil
 from time import perf_counter
+from typing import Final
 
 from nivel.analysis.failures.status import Status
 from nivel.analysis.plan.choice import FOR_STIFF, USUAL_TOLERANCE
@@ -36,6 +37,8 @@ OF_STEPS = frozenset(
 OF_NOTHING = frozenset({"verified", "unexamined", "outcome"})
 # A failure of steps, which another method may not have.
 STATUSES = (Status.STEP_TOO_SMALL, Status.NOT_FINITE, Status.NOT_CONVERGED, Status.CRAWLS, Status.OUT_OF_REACH)
+OF_FIXED_STEPS: Final = "rk4"
+FAILED: Final = "no method is named, and steps that follow the motion come to no end"
 # Other choices may take so many times as long as the first one did.
 LONGER = 3.0
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.
@@ -135,13 +138,17 @@ def _started(plan: Plan, options: Options) -> Attempt | None:
 
 
 def _instead_of_failed(first: Attempt, options: Options) -> Attempt:
-    """The run with the last choice, where the first one failed for its steps and that one comes to its end."""
+    """The run with another choice, where the first one failed for its steps and that one comes to its end: radau, else fixed steps, which
+    pass a law that jumps to and fro and shrinks every chosen step."""
     plan = first.plan
-    if plan.settings.integrator == FOR_STIFF or first.finished.status not in STATUSES:
+    if first.finished.status not in STATUSES:
         return first
-    last = other_run(plan, FOR_STIFF)
-    choice = None if last is None else _started(last, options)
-    return first if choice is None or choice.finished.outcome == "failed" else choice
+    for name in (FOR_STIFF, OF_FIXED_STEPS):
+        other = None if plan.settings.integrator == name else other_run(plan, name)
+        choice = None if other is None else _started(replace(other, reason=FAILED), options)
+        if choice is not None and choice.finished.outcome != "failed":
+            return choice
+    return first
 
 
 def in_words(plan: Plan) -> str:

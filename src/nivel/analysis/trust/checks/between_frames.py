@@ -22,10 +22,13 @@ from nivel.results.trust import Item, amount, number
 HIDDEN = 0.05
 # of its range in the frames: a motion that goes otherwise between them is another one than they show
 OTHERWISE = 1e-2
+# of the largest range of a variable: less is no motion
+STILL = 1e-9
 # frames that are looked at, at most
 MOST = 20_000
 LOADS = ("force.", "driver.", "sensor.", "hydraulics.")
-MOTIONS = ("position", "joint_coordinate", "modal_coordinate")
+# of modes only the sum is a place: fast ones of small amplitude swing between all frames
+MOTIONS = ("position", "joint_coordinate")
 NOT_SHOWN = (".sticks", ".count", "_local")
 
 
@@ -123,7 +126,9 @@ def _energy(subject: Actuated) -> float:
 def _of_variable(result: Any, variable: str, off: NDArray[np.float64], positions: bool) -> Iterator[Otherwise]:
     """The worst number of a variable."""
     values = result.array(variable).reshape(len(result.time), -1)
-    share = off / np.maximum(np.ptp(values, axis=0), 1e-300)
+    ranges = np.ptp(values, axis=0)
+    # a column that hardly moves beside the others of its variable moves by their round-off
+    share = off / np.maximum(ranges, max(STILL * float(ranges.max(initial=0.0)), 1e-300))
     k = int(np.argmax(share))
     dims = result.variables[variable].dims[1:]
     place = np.unravel_index(k, shape_of(result.variables[variable], result.coordinates)) if dims else ()

@@ -105,7 +105,7 @@ class Probes:
     def _round_off(self) -> Array:
         """(width,) that of numbers beside the largest in the same units, and what the machine would do in the time of the run."""
         system, sizes = self.motion.system, np.maximum(np.abs(self.low), np.abs(self.high))
-        size, mass, time = system.size, float(system.record.bodies.mass.sum()), max(float(self.high[0]), 1e-300)
+        size, mass, time = system.size, float(system.record.bodies.mass.sum()), max(float(self.high[0]), 1e-100)
         largest = {
             "m": size,
             "m/s": size / time,

@@ -303,6 +303,7 @@ def test_all_faults_of_a_file_come_at_once_in_the_order_of_the_file():
 
 def test_all_that_does_not_go_together_in_the_settings_comes_at_once():
     settings = """simulation:
+  integrator: rk4
   duration: 1e-13
   output_interval: 1e-5
   baumgarte: {alpha: 1, beta: 1}

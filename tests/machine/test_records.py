@@ -265,7 +265,7 @@ def force_record(component):
         ({"duration": 0}, "greater than zero"),
         ({"step": "-1 ms"}, "greater than zero"),
         ({"step": 2}, "longer than `duration`"),
-        ({"output_interval": 1e-4}, "shorter than `step`"),
+        ({"integrator": "rk4", "step": 1e-3, "output_interval": 1e-4}, "shorter than `step`"),
         ({"integrator": "rk5"}, "did you mean `rk4`"),
         ({"formulation": "newton"}, "did you mean `newton-euler`"),
         ({"stabilisation": "baumgart"}, "did you mean `baumgarte`"),

@@ -47,7 +47,7 @@ def test_a_node_of_a_milligram_is_where_its_springs_balance():
     result = simulate(
         three_springs({"point_mass": True, "mass": 1e-6}, [0.0, 0.0, 0.0]), start="equilibrium", duration=0.1
     )
-    assert result.settings["integrator"] == "radau"
+    assert result.settings["went_on"]["integrator"] == "radau"
     node = result.array("node.position")[-1]
     height = result.array("weight.position")[-1, 1]
     p, pull = balanced(height)

@@ -255,8 +255,11 @@ def _stiffening(
     if not reduction.stiffening:
         return {}
     if body.model.elements is None:
-        why = next((note for note in body.model.notes if note.startswith("stress")), "there are no elements")
-        message = f"geometric stiffness needs the stress of elements: {why}"
+        why = next(
+            (note for note in body.model.notes if note.startswith("stress")),
+            "matrices of other programs do not have them",
+        )
+        message = f"geometric stiffness needs the elements and their stress: {why}"
         raise ModelError(located.fault(("reduction", "stiffening"), message))
     say("computing geometric stiffness", 0.93)
     rows = {each.name: _rows(body.model, each.node) for each in attachments}

@@ -199,9 +199,10 @@ class SimulationSettings(Checked):
         messages = []
         if self.duration < SHORTEST:
             messages.append(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
-        if fixed and self.step > self.duration:
+        is_given = "step" in self.model_fields_set
+        if (fixed or (is_open and is_given)) and self.step > self.duration:
             messages.append(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
-        wanted = self.output_interval if fixed and "step" in self.model_fields_set else None
+        wanted = self.output_interval if fixed and is_given else None
         if wanted is not None and wanted < self.step * (1 - 1e-9):
             interval = f"{self.output_interval:g} s"
             messages.append(

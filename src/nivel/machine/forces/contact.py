@@ -23,7 +23,7 @@ from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Record
 from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
 from nivel.machine.forces.height_field import HeightField
-from nivel.machine.given import Field, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
+from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import Whole, listed
@@ -31,7 +31,8 @@ from nivel.machine.units.quantity import Whole, listed
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
 ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at the nearest points
-FrictionModel = Literal["stiction", "coulomb"]
+FrictionWord = Literal["stiction", "coulomb"]
+FrictionModel = Given[FrictionWord, FrictionWord, FrictionWord]
 FRICTION_MODELS: Final = (
     "stiction sticks; with coulomb friction goes as tanh(sliding speed / friction_transition_speed), so bodies creep; "
     "default coulomb where a friction_transition_speed is given, else stiction"
@@ -39,7 +40,7 @@ FRICTION_MODELS: Final = (
 SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
 
 
-def friction_model_of(contact: Any) -> FrictionModel:
+def friction_model_of(contact: Any) -> FrictionWord:
     """The `friction_model` of a `contact` or of `contacts`: as given; else coulomb where its transition speed is given, as in files that
     were written before contacts could stick, and stiction where none is.
     """

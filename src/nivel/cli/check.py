@@ -9,7 +9,6 @@ import click
 
 from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
 from nivel.errors import SolveError
-from nivel.files.target import write_file
 
 
 @click.command(short_help="Check and assemble a machine, and describe it.")
@@ -44,6 +43,7 @@ def command(
     """
     from nivel.analysis.progress.listener import Listener
     from nivel.api import load
+    from nivel.files.target import write_file
 
     loaded = load(machine, overrides, allow_code=allow_code)
     facts = loaded.check(listener=Listener(lambda text, _total: click.echo(text, err=True)))

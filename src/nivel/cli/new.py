@@ -11,7 +11,6 @@ import click
 
 from nivel.cli.options import force_option
 from nivel.errors import ModelError
-from nivel.files.target import write_file
 
 TEMPLATE: Final = Path(__file__).with_name("new_machine.yaml")
 SUFFIX: Final = ".yaml"
@@ -68,6 +67,8 @@ def _schema_text() -> str:
 
 
 def _write(target: Path, text: str, force: bool) -> None:
+    from nivel.files.target import write_file
+
     if target.exists() and not force:
         raise ModelError(f"{target} exists already; use --force to overwrite it, or another name")
     write_file(target, "file", text)

@@ -92,6 +92,7 @@ class Probes:
             kept = min(kept, int(np.searchsorted(self._frames[:, 0], self._waiting[0][0])) - NEAR // 2)
         self._frames = self._frames[max(kept, 0) :].copy()
 
+    @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is no warning
     def close(self) -> dict[str, list[float]]:
         """By variable what its numbers were apart from their curves, beyond what is little beside their range, and round-off."""
         self._compare(1)
@@ -137,6 +138,7 @@ class Probes:
             near = self._frames[max(0, place[group][0] - NEAR // 2) : place[group][-1] + NEAR // 2]
             self._hold(near, probes[group])
 
+    @np.errstate(over="ignore", invalid="ignore")
     def _hold(self, near: Array, probes: Array) -> None:
         """Compare some (k, width). What is between the four frames next to one is no more than a jump."""
         time, place = probes[:, 0], np.searchsorted(near[:, 0], probes[:, 0])

@@ -13,8 +13,8 @@ SHORT = 34  # characters of choices that are listed
 UNIT = re.compile(r"\bin ([^|()]+?)(?= \||\)|$)")
 CHOICE = re.compile(r"^(?:'[\w-]+'(?: \| )?)+$")
 TOP = """<p class="key"><b>format</b> <u>1</u> · name · description · gravity <i>m/s²</i> · parameters · functions · include · assemblies ·
-surroundings: [solids], left_out: [texts]. A number can have a unit and arithmetic: <code>2*length + 5 cm</code>. <b>Bold</b>: must be given.
-<em>ends</em>: markers, or bodies and points. Joint coordinates (→) are read as <code>hinge.angle</code>, their rates as
+surroundings: [solids], left_out: [texts]. A number can have a unit and arithmetic: <code>2*length + 5 cm</code>. <b>Bold</b>: must be
+given. <em>ends</em>: markers, or bodies and points. Joint coordinates (→) are read as <code>hinge.angle</code>, their rates as
 <code>hinge.angle_rate</code>.</p>"""
 
 

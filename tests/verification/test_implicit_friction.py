@@ -153,7 +153,7 @@ def test_two_frictions_hold_one_motion_together(integrator, coordinates):
     """Loads of 20 and 40 N: the block holds until P = μ (20 + 40) N, then m v = (t - t0)²/2 dP/dt."""
     sections = pulled("10*time", {"normal_load": 20.0})
     sections["forces"]["second"] = {**sections["forces"]["rub"], "normal_load": 40.0}
-    settings = {"integrator": integrator, "coordinates": coordinates, "step": 1e-3, "tolerance": 1e-7}
+    settings = {"integrator": integrator, "coordinates": coordinates, "step": 1e-3, "tolerance": 1e-8}
     if integrator not in ("radau", "bdf"):
         del settings["tolerance"]
     r = simulate(sections, duration=3.0, **settings)

@@ -95,8 +95,8 @@ def test_search_takes_less_than_the_run(monkeypatch):
 
 def test_result_of_two_frames_is_not_examined():
     result = verified(parallelogram(2.0), duration=0.2, output_interval=0.2)
-    (line,) = [item for item in result.trust.items if item.name == "unexamined"]
-    assert "singular positions" in line.text
+    lines = [item for item in result.trust.items if item.name == "unexamined"]
+    (line,) = [item for item in lines if "singular positions" in item.text]
     assert line.verdict == "green"
 
 

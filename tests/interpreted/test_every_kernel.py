@@ -71,7 +71,7 @@ FOR_TESTS = ["tangent_entries.solve_shifted"]
 BY_ADDRESS = [f"joints.{name}" for name in ("call_motion", "carry_child", "joint_at")]
 # so are functions of FMUs and C: tests/fmu runs what calls them
 BY_ADDRESS += [f"fmu.{name}" for name in ("failed", "go_on", "initialise", "take_step", "transfer")]
-BY_ADDRESS += ["c_function.call"]
+BY_ADDRESS += [f"c_function.{name}" for name in ("call", "give_environment_back", "keep_environment")]
 # what only slopes of whole runs need, which are compiled: tests/analysis/test_gradients.py
 OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction", "balance", "variable_corrector")]
 OF_SLOPES += ["lanes.steepest", "direct.are_steep", "independent.is_steep", "crossing.root", "shifted_along.add_slopes"]
@@ -385,6 +385,38 @@ def test_contacts_of_all_shapes(monkeypatch):
     floor = {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]}
     sections = {"bodies": bodies, "markers": {"floor": floor}, "forces": {**forces, "heap": heap}}
     short(machine(sections).record, steps=2, step=1e-5)
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "dopri5", "radau"])
+def test_ways_over_hills(integrator):
+    """A ball that flies towards a ridge, beside one that rolls up to it: chosen steps end there, fixed ones note what they pass."""
+    ball = {"mass": 0.5, "inertia": [1e-3, 1e-3, 1e-3], "shape": {"type": "sphere", "radius": 0.05}}
+    hills = {"size": [20, 2], "function": "1 - 10*x^2", "points": [41, 3]}
+    point = {"type": "contact", "plane": "floor", "stiffness": 1e5, "exponent": 1, "restitution": 1, "heights": hills}
+    bodies = {
+        "flies": {**ball, "position": [-1, 0, 0.5], "velocity": [20, 0, 0]},
+        "climbs": {**ball, "position": [-0.6, 0.5, -2.5], "velocity": [1, 0, -2]},
+    }
+    sections = {
+        "bodies": bodies,
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]}},
+        "forces": {name: {**point, "body": name} for name in bodies},
+    }
+    fixed = {"step": 0.1} if integrator == EXPLICIT else {"step": 1e-3}
+    short(machine(sections).record, integrator, duration=0.1, output_interval=0.1, **fixed)
+
+
+def test_steps_that_stability_bounds():
+    """A run that names no method goes on with an implicit one where it is stiff."""
+    spring = {"type": "joint-spring-damper", "coordinate": "rail", "stiffness": 1e8, "damping": 1e5}
+    rail = {"type": "translational", "bodies": ["ground", "block"], "point": [0, 0, 0], "axis": [1, 0, 0]}
+    sections = {
+        "bodies": {"block": {"mass": 2, "inertia": [1, 1, 1]}},
+        "joints": {"rail": {**rail, "start_rates": {"displacement": 1.0}}},
+        "forces": {"spring": spring},
+    }
+    result = machine({**sections, "simulation": {"duration": 0.02}}).simulate(verify=False)
+    assert result.settings["went_on"]["integrator"] == "radau"
 
 
 # --- bodies that bend, beams, rails ---

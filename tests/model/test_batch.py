@@ -25,6 +25,8 @@ PLAIN = {
 
 def machine_of(file, **given):
     machine = nivel.load(EXAMPLES / file)
+    if file == "vehicles/suspension.yaml":  # chosen steps are looked at for narrow bumps, one by one
+        given = {"integrator": "rk4", **given}
     return machine.with_settings({"duration": 0.2, "start": "as-given", **given})
 
 

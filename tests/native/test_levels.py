@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-import nivel
 from example_files import EXAMPLES
 from nivel.cli import main
 from nivel.native import processor, shipped, store
 from nivel.native.processor import LEVELS, VARIABLE
+from nivel.native.workers import CompilationError
 
 X = np.random.default_rng(3).uniform(0.5, 1.0, (50, 3))
 CODE = f"""
@@ -53,8 +53,8 @@ def test_another_level_is_refused_in_words(asked, level, said):
     done = CliRunner().invoke(main, ["check", str(EXAMPLES / "mechanisms" / "slider-crank.yaml")])
     assert done.exit_code == 2
     assert f"{VARIABLE} is `{level}`; {said}: write one of " in " ".join(done.output.split())
-    with pytest.raises(nivel.ModelError, match=f"{VARIABLE} is `{level}`; {said}"):
-        nivel.load(EXAMPLES / "mechanisms" / "slider-crank.yaml").simulate(duration=0.01)
+    with pytest.raises(CompilationError, match=f"{VARIABLE} is `{level}`; {said}"):
+        store.compiler()  # asked for wherever an entry is loaded or compiled
 
 
 def test_each_level_has_its_place_in_the_cache(asked):

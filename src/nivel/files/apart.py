@@ -70,6 +70,7 @@ def _taken(module: str) -> subprocess.Popen[bytes]:
         while waiting:
             if (process := waiting.pop()).poll() is None:
                 return process
+            _end(process)
     words = python("nivel.files.apart")
     return subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
 

@@ -217,8 +217,8 @@ class Machine(Model):
         inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
         beside this one, with finer steps on other times, tells how exact every number is, as with `nivel run`; without it the result says
-        that it is not verified. verify_limit [s] : the second run goes on for so long after the first at most, by default as long again
-        as that took, and at least 10 s. sensitivities : numbers of the machine by path, as of `gradient`; the result then has curves
+        that it is not verified. verify_limit [s] : the second run goes on for so long after the first at most, by default for
+        three times the work of the first. sensitivities : numbers of the machine by path, as of `gradient`; the result then has curves
         ``"d(crank.angle)/d(bodies.rod.mass)"`` of everything, and its file is written when they are found.
         A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).

@@ -1,8 +1,11 @@
 """The method of a machine that names none: chosen steps, an implicit method from where they become stiff, and a second choice."""
 
+from itertools import count
+
 import numpy as np
 import pytest
 
+from nivel.analysis.run import second_run
 from nivel.errors import ModelError
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
@@ -128,7 +131,7 @@ def test_a_contact_ends_steps_and_is_stepped_over():
     assert height == pytest.approx(0.25 * 0.15, rel=2e-2)  # restitution by a damper holds to some percent
 
 
-def test_a_beam_has_the_method_of_vibrations():
+def cantilever():
     beam = {
         "from": [0, 0, 0],
         "to": [1, 0, 0],
@@ -137,11 +140,17 @@ def test_a_beam_has_the_method_of_vibrations():
         "section": {"type": "circle", "radius": 0.01},
     }
     steel = {"youngs_modulus": 2e11, "poisson_ratio": 0.3, "density": 7850}
-    sections = {
-        "beams": {"rod": {**beam, "material": steel}},
-        "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "rod.start"], "point": [0, 0, 0]}},
-    }
-    found = machine(sections).check()
+    return machine(
+        {
+            "gravity": [0, 0, -G],
+            "beams": {"rod": {**beam, "material": steel}},
+            "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "rod.start"], "point": [0, 0, 0]}},
+        }
+    )
+
+
+def test_a_beam_has_the_method_of_vibrations():
+    found = cantilever().check()
     assert (found.settings.integrator, found.reason) == ("generalised-alpha", "beams have rates beyond all steps")
 
 
@@ -238,6 +247,28 @@ def test_a_law_that_jumps_to_and_fro_comes_to_its_end_by_fixed_steps():
     assert (result.outcome, result.settings["integrator"]) == ("done", "rk4")
     assert result.array("rail.displacement")[-1] == pytest.approx(1.0, abs=2e-3)
     assert result.trust.verdict != "green" or result.trust.accuracy_estimate < 2e-3
+
+
+def test_a_busy_computer_changes_no_choice(monkeypatch):
+    """Second runs and second choices are bounded by work: an hour between any two looks at the clock is nothing to them."""
+    hours = count()
+    monkeypatch.setattr(second_run.clock_of_python, "perf_counter", lambda: 3600.0 * next(hours))
+    r = cantilever().simulate(duration=0.02, verify=True)
+    assert r.settings["step"] < 1e-3
+    assert r.trust.verified
+    assert all("given up" not in item.text for item in r.trust.items)
+
+
+def test_a_second_run_ends_where_its_work_is_spent(monkeypatch):
+    """A tenth of the tolerance takes 10^(1/5) times the steps; it is given up though it ends before that is seen."""
+    monkeypatch.setattr(second_run, "LEAST_WORK", 0.0)
+    spring = machine(block({**STIFF, "stiffness": 2e4, "damping": 0.0}, start={"displacement": 1e-3}))
+    assert spring.simulate(duration=1.0, verify=True).trust.verified
+    monkeypatch.setattr(second_run, "MOST_TIMES", 1.0)
+    r = spring.simulate(duration=1.0, verify=True)
+    line = next(item for item in r.trust.items if item.name == "verified")
+    assert line.verdict != "green"
+    assert "the work for verification was spent" in line.text
 
 
 def test_what_is_named_is_written():

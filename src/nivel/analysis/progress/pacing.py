@@ -6,12 +6,11 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from time import perf_counter
 from typing import Protocol
 
 import numpy as np
 
-from nivel.integrate.loop.run import ALLOWED, HORIZON, PARTS, TAKEN, TIME, Run
+from nivel.integrate.loop.run import ALLOWED, EVALUATIONS, FACTORISATIONS, HORIZON, PARTS, TAKEN, TIME, Run
 from nivel.system.system import Array
 
 # A step of the second run is at most this share of the longest one that the first made at that time: of each part of the duration another
@@ -19,6 +18,13 @@ from nivel.system.system import Array
 SHORTEST, SPREAD, IRREGULAR = 0.5, 0.4, (math.sqrt(5.0) - 1.0) / 2.0
 # [s] a waiting run looks this often whether it is to end
 PATIENCE = 0.05
+# evaluations of the rates that take as long as one factorisation with its derivatives, of machines of all sizes about
+FACTORISATION = 10
+
+
+def work(run: Run) -> int:
+    """Work of a run so far, in evaluations of the rates: the same on every computer, busy or not."""
+    return int(run.counter[EVALUATIONS]) + FACTORISATION * int(run.counter[FACTORISATIONS])
 
 
 class Pacing(Protocol):
@@ -35,23 +41,24 @@ class Pacing(Protocol):
 
 @dataclass
 class Leader:
-    """Tells how far a run is and how long its steps were. begun : set when its first step is about to begin. deadline : of
-    `time.perf_counter` [s], when it ends."""
+    """Tells how far a run is, how long its steps were and what `work` it did. begun : set when its first step is about to begin.
+    most : work after which it ends."""
 
     changed: threading.Condition = field(default_factory=threading.Condition)
     begun: threading.Event = field(default_factory=threading.Event)
     taken: Array = field(default_factory=lambda: np.zeros(PARTS))
     time: float = 0.0
     over: bool = False
-    deadline: float = math.inf
+    work: int = 0
+    most: float = math.inf
 
     def before(self, run: Run) -> bool:
         self.begun.set()
-        return perf_counter() < self.deadline
+        return self.work <= self.most
 
     def after(self, run: Run) -> None:
         with self.changed:
-            self.taken, self.time = run.pace[TAKEN].copy(), float(run.clock[TIME])
+            self.taken, self.time, self.work = run.pace[TAKEN].copy(), float(run.clock[TIME]), work(run)
             self.changed.notify_all()
 
     def end(self) -> None:
@@ -68,13 +75,14 @@ class Follower:
     whether the run is to stop.
 
     duration [s] : of both. stop : whether the run is to end. allowed : (PARTS,) [s] what its own settings allow, of the run
-    where None.
+    where None. work : done so far.
     """
 
     leader: Leader | None
     duration: float
     stop: Callable[[], bool]
     allowed: Array | None = None
+    work: int = 0
 
     def before(self, run: Run) -> bool:
         allowed = self.allowed = run.pace[ALLOWED].copy() if self.allowed is None else self.allowed
@@ -83,7 +91,7 @@ class Follower:
         return not self.stop()
 
     def after(self, run: Run) -> None:
-        """Nothing to tell."""
+        self.work = work(run)
 
     def _wait(self, leader: Leader, run: Run, allowed: Array) -> bool:
         """Wait until the leader has left the part in which this run is; whether it has."""

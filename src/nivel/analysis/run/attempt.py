@@ -28,14 +28,14 @@ from nivel.system.system import Array
 
 @dataclass(frozen=True)
 class Options:
-    """source : text of the machine's file. verify, limit [s] : of the second run. listener : hears what is done. deadline : of
-    `time.perf_counter` [s], when the run ends as if it was interrupted."""
+    """source : text of the machine's file. verify, limit [s] : of the second run. listener : hears what is done. most : work
+    (`nivel.analysis.progress.pacing`) beyond which the run ends as if it was interrupted."""
 
     source: str
     verify: bool
     limit: float | None
     listener: Listener
-    deadline: float = inf
+    most: float = inf
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,10 @@ def attempt(plan: Plan, sink: Memory | Store, options: Options, prepared: Prepar
         sink.begin(header_of(plan, prepared, options.source))
         listener.say("running", settings.duration)
         leader = Leader() if second is None else second.leader
-        leader.deadline = options.deadline
+        leader.most = options.most
         finished = march(prepared, settings, [sink], progress=listener.progress, pacing=leader, listener=listener)
+        if finished.work > options.most:  # in the last chunk of steps
+            finished.outcome = "interrupted"
         verified = None
         if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
             verified = second.wait(listener)

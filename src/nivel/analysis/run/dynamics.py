@@ -30,7 +30,7 @@ from nivel.analysis.preparation.preparation import Prepared, with_integrator
 from nivel.analysis.preparation.shared_loads import sharing
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener, Progress
-from nivel.analysis.progress.pacing import Pacing
+from nivel.analysis.progress.pacing import Pacing, work
 from nivel.analysis.run.history import go_on_with, start_history
 from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions
 from nivel.analysis.run.probes import Probes
@@ -98,7 +98,7 @@ class RunOutcome:
     run that failed in the last state that was accepted. status : of the compiled loop.
     ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses : of `NarrowFeatures`.
     went_on : the integrator that went on where the run became stiff, and from when [s].
-    between_frames : of `Probes`.
+    between_frames : of `Probes`. work : of `nivel.analysis.progress.pacing`.
     """
 
     outcome: str
@@ -114,6 +114,7 @@ class RunOutcome:
     impulses: dict[str, float] = field(default_factory=dict)
     went_on: tuple[str, float] | None = None
     between_frames: dict[str, list[float]] = field(default_factory=dict)
+    work: int = 0
 
 
 class Loop(NamedTuple):
@@ -193,7 +194,7 @@ def march(
     if probes is not None:
         finished.between_frames = probes.close()
     failed = finished.outcome == "failed"
-    finished.pace, finished.status = run.pace, int(status)
+    finished.pace, finished.status, finished.work = run.pace, int(status), work(run)
     finished.last = float(run.clock[ACCEPTED if failed else TIME]), (run.previous if failed else run.y).copy()
     if narrow is not None:
         finished.ends, finished.impulses = narrow.ends, narrow.impulses

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import ceil
-from time import perf_counter
 from typing import Final
 
 from nivel.analysis.failures.status import Status
@@ -19,7 +18,7 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.run.attempt import Attempt, Options, attempt
 from nivel.analysis.run.preparation import prepare
-from nivel.analysis.run.second_run import LEAST_LIMIT, TENTH, SecondRun
+from nivel.analysis.run.second_run import TENTH, SecondRun, most_work
 from nivel.analysis.trust.report import assess
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
@@ -39,8 +38,6 @@ OF_NOTHING = frozenset({"verified", "unexamined", "outcome"})
 STATUSES = (Status.STEP_TOO_SMALL, Status.NOT_FINITE, Status.NOT_CONVERGED, Status.CRAWLS, Status.OUT_OF_REACH)
 OF_FIXED_STEPS: Final = "rk4"
 FAILED: Final = "no method is named, and steps that follow the motion come to no end"
-# Other choices may take so many times as long as the first one did.
-LONGER = 3.0
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.
 MOST_PARTS, MARGIN = 16, 1.5
 
@@ -61,7 +58,7 @@ class Try:
 def second_choice(first: Attempt, options: Options, *, judge: bool) -> tuple[Attempt, Trust | None]:
     """The best choice and its trust report, where it is judged already.
 
-    The second choices end where they take LONGER than the first one did, or longer than the second run may. judge : there is a report.
+    Other choices end where they do more work than the second run may. judge : there is a report.
     """
     finished = first.finished
     if not first.plan.is_open or finished.asked_to_stop or finished.outcome == "interrupted":
@@ -72,10 +69,8 @@ def second_choice(first: Attempt, options: Options, *, judge: bool) -> tuple[Att
     if trust is None:
         return first, None
     best, tries = (first, trust), [_tried(first, trust)]
-    spent = float(finished.timing["wall_seconds"]) if finished.timing else 0.0
-    limit = max(LEAST_LIMIT, LONGER * spent)
-    within = replace(options, limit=limit, deadline=perf_counter() + limit)
-    choices = _choices(first, trust, within)
+    most = most_work(finished.work, len(first.prepared.start))
+    choices = _choices(first, trust, replace(options, most=most))
     while _open_lines(best[1]) and (choice := next(choices, None)) is not None:
         if choice.finished.outcome != "done" or choice.verified is None:
             tries.append(Try(in_words(choice.plan), {}, _why_not(choice)))
@@ -115,7 +110,7 @@ def _finer(first: Attempt, plan: Plan, options: Options) -> Attempt | None:
         return None
     third = SecondRun(plan, options.limit)
     try:
-        third.leader.taken = second.finished.pace[TAKEN].copy()
+        third.leader.taken, third.leader.work = second.finished.pace[TAKEN].copy(), second.finished.work
         verified = third.wait(options.listener)
     finally:
         third.cancel()
@@ -164,7 +159,7 @@ def in_words(plan: Plan) -> str:
 
 def _why_not(choice: Attempt) -> str:
     failure = choice.finished.failure
-    return "failed" if failure is not None else "was given up, as it took too long"
+    return "failed" if failure is not None else "was given up, as it took too much work"
 
 
 def _open_lines(trust: Trust) -> list[str]:

@@ -40,8 +40,9 @@ LONGER = (3, 5)
 FINEST = 5
 # of the tolerance, where steps are chosen
 TENTH = 0.1
-# A second run may go on after the first one for as long as that took, and at least for so long [s].
-LEAST_LIMIT = 10.0
+# A second run may do so many times the work of the first one, and at least so many evaluations: LEAST_WORK by the number of states,
+# which are seconds.
+MOST_TIMES, LEAST_WORK, FEW_STATES = 3.0, 2e7, 10
 # [s] between two looks at a run that is waited for
 LOOK = 0.02
 
@@ -165,11 +166,16 @@ def steps_between(samples: int) -> int:
     return next((few for few in parts if few >= LEAST_STEPS), parts[-1])
 
 
+def most_work(first: float, states: int) -> float:
+    """Work that a second run, or another choice, may do beside a first one that did so much, of a machine with so many states."""
+    return max(MOST_TIMES * first, LEAST_WORK / max(states, FEW_STATES))
+
+
 class SecondRun:
     """A second run of a plan in a thread; it waits for the first one to begin.
 
-    limit [s] : how long it may go on after the first; None: as long as that took, and at least LEAST_LIMIT. beside : another second run,
-    with finer steps; this one then makes the same steps as the first, of a plan that is another. prepared : the machine of the plan, not
+    limit [s] : how long it may go on after the first; None: up to `most_work`. beside : another second run, with finer steps; this one
+    then makes the same steps as the first, of a plan that is another. prepared : the machine of the plan, not
     yet run, for this run alone; None: it is prepared in the thread.
     """
 
@@ -193,7 +199,7 @@ class SecondRun:
         self._fault: Exception | None = None
         self._stopped = threading.Event()
         self._reached = 0.0
-        self._begin = clock_of_python.perf_counter()
+        self._follower: Follower | None = None
         self._thread = threading.Thread(target=self._run, name="second run", daemon=True)
         self._thread.start()
 
@@ -215,8 +221,8 @@ class SecondRun:
         prepared = self._prepared = self._prepared or prepare(self._plan.methods)
         self._sink.begin(Header(prepared.motion.system.layout, {}))
         chosen = settings.steps == 0 and self._follows
-        follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)
-        return march(prepared, settings, [self._sink], progress=self._reach, pacing=follower)
+        self._follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)
+        return march(prepared, settings, [self._sink], progress=self._reach, pacing=self._follower)
 
     def _reach(self, time: float) -> None:
         self._reached = time
@@ -230,10 +236,8 @@ class SecondRun:
     def wait(self, listener: Listener) -> Verified | None:
         """What it found, when it is over, its time is spent or Ctrl-C came. None where it has no frame."""
         self.leader.end()
-        spent = clock_of_python.perf_counter() - self._begin
-        limit = max(LEAST_LIMIT, spent) if self._limit is None else self._limit
         listener.say(f"verifying with {self.refinement.words}", self.refinement.settings.duration)
-        ended = self._watch(limit, listener.progress)
+        ended = self._watch(listener.progress)
         self._stopped.set()
         self._thread.join()
         if self._fault is not None:
@@ -246,12 +250,20 @@ class SecondRun:
         result = self._sink.result()
         if not len(result.time):
             return None
-        ended = "" if finished.outcome == "done" else ended
+        if finished.outcome == "done":
+            ended = self._spent()
         assert self._prepared is not None
         until, frames = float(result.time[-1]), self._sink.frames
         return Verified(result, self.refinement, until, ended, finished, self._prepared, frames)
 
-    def _watch(self, limit: float, progress: Callable[[float], None] | None) -> str:
+    def _spent(self) -> str:
+        """Why it is given up where its work is: the same on every computer, also where it came to its end before that was seen."""
+        if self._limit is not None or self._follower is None or self._prepared is None:
+            return ""
+        most = most_work(self.leader.work, len(self._prepared.start))
+        return f"the work for verification was spent ({most:.3g} evaluations)" if self._follower.work > most else ""
+
+    def _watch(self, progress: Callable[[float], None] | None) -> str:
         """Wait for the thread; why it has to end before its time, where it has to."""
         begin = clock_of_python.perf_counter()
         with interruptible() as interrupted:
@@ -261,6 +273,8 @@ class SecondRun:
                     progress(self._reached)
                 if interrupted():
                     return "verification was interrupted"
-                if clock_of_python.perf_counter() - begin > limit:
-                    return f"the time for verification was spent ({limit:.3g} s after the run)"
+                if self._limit is not None and clock_of_python.perf_counter() - begin > self._limit:
+                    return f"the time for verification was spent ({self._limit:.3g} s after the run)"
+                if ended := self._spent():
+                    return ended
         return ""

@@ -45,7 +45,7 @@ def simulate(
 
     compile_seconds : what was spent on compiling before, for the result's timing.
     verify : a second run goes beside this one, with finer steps on other times, and its distance tells how exact this one is; it goes on
-    after it for `verify_limit` [s] at most, by default as long again as it took.
+    after it for `verify_limit` [s] at most, by default for three times the work of the first.
     judge : a trust report is made; without one the result is that of a run of which nobody knows how exact it is.
     A machine that names no integrator has a second choice where the first one fails, or its trust report is not green for what other steps
     can cure: `nivel.analysis.run.second_choice`.

@@ -7,15 +7,7 @@ from typing import get_args
 import pytest
 
 from checking import check
-from nivel.cli.failures import fault_line
-from nivel.errors import ModelError
-from nivel.files import parse_machine
-from nivel.files.mass_file import KEY as MASS_PROPERTIES
-from nivel.files.outline import FILE_WORDS, TOP_WORDS
-from nivel.files.rotors import KEY as ROTOR_INERTIA
-from nivel.files.writer import write_machine
-from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine import (
+from nivel import (
     AssemblySettings,
     Belt,
     Body,
@@ -24,15 +16,21 @@ from nivel.machine import (
     FunctionCoupling,
     Gear,
     Joint,
-    JointType,
     LinearCoupling,
     MachineRecord,
     Marker,
-    Material,
     Rack,
     Sensor,
     SimulationSettings,
 )
+from nivel.cli.failures import fault_line
+from nivel.errors import ModelError
+from nivel.files import parse_machine
+from nivel.files.mass_file import KEY as MASS_PROPERTIES
+from nivel.files.outline import FILE_WORDS, TOP_WORDS
+from nivel.files.rotors import KEY as ROTOR_INERTIA
+from nivel.files.writer import write_machine
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.beams import section as sections
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import GeneralSection
@@ -40,7 +38,8 @@ from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.core.orientation import SEQUENCES, Orientation
 from nivel.machine.core.record import field_words
-from nivel.machine.forces import FORCES, HeightField
+from nivel.machine.forces import FORCES, HeightField, Material
+from nivel.machine.joints.joint import JointType
 from nivel.machine.laws.python_law import KEYS as LAW_KEYS
 from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
 from nivel.machine.settings.run import Baumgarte

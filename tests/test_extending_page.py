@@ -19,8 +19,8 @@ from scipy.special import ellipj
 
 import nivel
 from lanes import tail
+from nivel import MachineRecord
 from nivel.looks.circuit.drawing import circuit_diagram
-from nivel.machine import MachineRecord
 from nivel.machine.forces import FORCES as WORDS
 from nivel.machine.hydraulics import COMPONENT_OF, Volume
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_WORDS
@@ -110,7 +110,7 @@ def test_the_force_with_a_state_moves_as_its_equations_say(cart, integrator, coo
 def test_its_units_are_checked_and_its_state_is_shown(cart):
     assert "state.maxwell.stretch" in str(cart.simulate(duration=0.01).dataset.data_vars)
     with pytest.raises(nivel.ModelError, match="stiffness"):
-        nivel.machine.MachineRecord(name="m", forces=[{"name": "f", "type": "maxwell", "stiffness": "5 kg"}])
+        nivel.MachineRecord(name="m", forces=[{"name": "f", "type": "maxwell", "stiffness": "5 kg"}])
 
 
 def test_a_word_is_taken_once(cart):

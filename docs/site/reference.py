@@ -38,7 +38,7 @@ def key_page() -> str:
 
 def sections() -> dict[str, list[type]]:
     """The records of every section of a machine file."""
-    from nivel.machine import MachineRecord
+    from nivel import MachineRecord
     from nivel.machine.control import BLOCKS
     from nivel.machine.forces import FORCES
     from nivel.machine.hydraulics import COMPONENTS
@@ -84,7 +84,7 @@ def kind_of(record: Any) -> str:
 
 def _records(annotation: Any) -> Iterator[type]:
     """The record classes in a type."""
-    from nivel.machine import Record
+    from nivel.machine.core.record import Record
 
     if isinstance(annotation, type) and issubclass(annotation, Record):
         yield annotation

@@ -7,7 +7,7 @@ is good for is a beam between rigid bodies where forces act everywhere along it.
 file with `model: segments` is such a row of bars without any program.
 """
 
-from nivel.machine import Body, Bushing, MachineRecord, Marker, Sensor, SimulationSettings
+from nivel import Body, Bushing, MachineRecord, Marker, Sensor, SimulationSettings
 
 SPAN, WIDTH, HEIGHT = 2.0, 0.02, 0.03  # [m] along x, y, z
 YOUNGS_MODULUS, SHEAR_MODULUS, DENSITY = 210e9, 80.8e9, 7850.0  # [Pa, Pa, kg/m³]

@@ -26,50 +26,50 @@ if TYPE_CHECKING:
     from nivel.errors import ModelError as ModelError
     from nivel.errors import NivelError as NivelError
     from nivel.errors import SolveError as SolveError
-    from nivel.machine import AssemblySettings as AssemblySettings
-    from nivel.machine import Baumgarte as Baumgarte
-    from nivel.machine import Beam as Beam
-    from nivel.machine import Belt as Belt
-    from nivel.machine import BeltDrive as BeltDrive
-    from nivel.machine import Block as Block
-    from nivel.machine import Body as Body
-    from nivel.machine import Brake as Brake
-    from nivel.machine import Bushing as Bushing
-    from nivel.machine import Clutch as Clutch
-    from nivel.machine import Contact as Contact
-    from nivel.machine import Driver as Driver
-    from nivel.machine import Event as Event
-    from nivel.machine import Expression as Expression
-    from nivel.machine import Freewheel as Freewheel
-    from nivel.machine import Friction as Friction
-    from nivel.machine import FunctionCoupling as FunctionCoupling
-    from nivel.machine import Gear as Gear
-    from nivel.machine import Input as Input
-    from nivel.machine import Joint as Joint
-    from nivel.machine import JointSpringDamper as JointSpringDamper
-    from nivel.machine import LinearCoupling as LinearCoupling
-    from nivel.machine import MachineRecord as MachineRecord
-    from nivel.machine import Marker as Marker
-    from nivel.machine import Motor as Motor
-    from nivel.machine import PairForce as PairForce
-    from nivel.machine import PointForce as PointForce
-    from nivel.machine import PythonLaw as PythonLaw
-    from nivel.machine import Rack as Rack
-    from nivel.machine import Rope as Rope
-    from nivel.machine import Sensor as Sensor
-    from nivel.machine import Servo as Servo
-    from nivel.machine import Shaft as Shaft
-    from nivel.machine import SimulationSettings as SimulationSettings
-    from nivel.machine import SpringDamper as SpringDamper
-    from nivel.machine import SpringNode as SpringNode
-    from nivel.machine import SpringSeries as SpringSeries
-    from nivel.machine import State as State
-    from nivel.machine import Stop as Stop
-    from nivel.machine import Table as Table
-    from nivel.machine import ThreeAxisSpring as ThreeAxisSpring
-    from nivel.machine import Torque as Torque
-    from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
-    from nivel.machine import TransmissionLoss as TransmissionLoss
+    from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
+    from nivel.machine.beams.beam import Beam as Beam
+    from nivel.machine.bodies.body import Body as Body
+    from nivel.machine.control import Block as Block
+    from nivel.machine.core.marker import Marker as Marker
+    from nivel.machine.forces import BeltDrive as BeltDrive
+    from nivel.machine.forces import Brake as Brake
+    from nivel.machine.forces import Bushing as Bushing
+    from nivel.machine.forces import Clutch as Clutch
+    from nivel.machine.forces import Contact as Contact
+    from nivel.machine.forces import Freewheel as Freewheel
+    from nivel.machine.forces import Friction as Friction
+    from nivel.machine.forces import JointSpringDamper as JointSpringDamper
+    from nivel.machine.forces import Motor as Motor
+    from nivel.machine.forces import PairForce as PairForce
+    from nivel.machine.forces import PointForce as PointForce
+    from nivel.machine.forces import Rope as Rope
+    from nivel.machine.forces import Servo as Servo
+    from nivel.machine.forces import Shaft as Shaft
+    from nivel.machine.forces import SpringDamper as SpringDamper
+    from nivel.machine.forces import SpringNode as SpringNode
+    from nivel.machine.forces import SpringSeries as SpringSeries
+    from nivel.machine.forces import Stop as Stop
+    from nivel.machine.forces import ThreeAxisSpring as ThreeAxisSpring
+    from nivel.machine.forces import Torque as Torque
+    from nivel.machine.forces import TorsionalSpringDamper as TorsionalSpringDamper
+    from nivel.machine.forces import TransmissionLoss as TransmissionLoss
+    from nivel.machine.joints.coupling import Belt as Belt
+    from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
+    from nivel.machine.joints.coupling import Gear as Gear
+    from nivel.machine.joints.coupling import LinearCoupling as LinearCoupling
+    from nivel.machine.joints.coupling import Rack as Rack
+    from nivel.machine.joints.driver import Driver as Driver
+    from nivel.machine.joints.joint import Joint as Joint
+    from nivel.machine.laws.time_function import Expression as Expression
+    from nivel.machine.laws.time_function import PythonLaw as PythonLaw
+    from nivel.machine.laws.time_function import Table as Table
+    from nivel.machine.machine_record import MachineRecord as MachineRecord
+    from nivel.machine.settings.run import Baumgarte as Baumgarte
+    from nivel.machine.settings.run import SimulationSettings as SimulationSettings
+    from nivel.machine.signals.event import Event as Event
+    from nivel.machine.signals.input import Input as Input
+    from nivel.machine.signals.sensor import Sensor as Sensor
+    from nivel.machine.signals.state import State as State
     from nivel.results.comparison.comparison import Comparison as Comparison
     from nivel.results.result import Result as Result
     from nivel.studies import load_study as load_study
@@ -83,50 +83,50 @@ _HOME = {
     "ModelError": "nivel.errors",
     "NivelError": "nivel.errors",
     "SolveError": "nivel.errors",
-    "AssemblySettings": "nivel.machine",
-    "Baumgarte": "nivel.machine",
-    "Beam": "nivel.machine",
-    "Belt": "nivel.machine",
-    "Block": "nivel.machine",
-    "Body": "nivel.machine",
-    "Bushing": "nivel.machine",
-    "Contact": "nivel.machine",
-    "Driver": "nivel.machine",
-    "Event": "nivel.machine",
-    "Expression": "nivel.machine",
-    "BeltDrive": "nivel.machine",
-    "Brake": "nivel.machine",
-    "Clutch": "nivel.machine",
-    "Freewheel": "nivel.machine",
-    "Shaft": "nivel.machine",
-    "TransmissionLoss": "nivel.machine",
-    "Friction": "nivel.machine",
-    "FunctionCoupling": "nivel.machine",
-    "Gear": "nivel.machine",
-    "Input": "nivel.machine",
-    "Joint": "nivel.machine",
-    "JointSpringDamper": "nivel.machine",
-    "LinearCoupling": "nivel.machine",
-    "MachineRecord": "nivel.machine",
-    "Marker": "nivel.machine",
-    "Motor": "nivel.machine",
-    "PairForce": "nivel.machine",
-    "PointForce": "nivel.machine",
-    "PythonLaw": "nivel.machine",
-    "Rack": "nivel.machine",
-    "Rope": "nivel.machine",
-    "Sensor": "nivel.machine",
-    "Servo": "nivel.machine",
-    "SimulationSettings": "nivel.machine",
-    "SpringDamper": "nivel.machine",
-    "SpringNode": "nivel.machine",
-    "SpringSeries": "nivel.machine",
-    "State": "nivel.machine",
-    "Stop": "nivel.machine",
-    "Table": "nivel.machine",
-    "Torque": "nivel.machine",
-    "ThreeAxisSpring": "nivel.machine",
-    "TorsionalSpringDamper": "nivel.machine",
+    "AssemblySettings": "nivel.machine.assembly_settings",
+    "Baumgarte": "nivel.machine.settings.run",
+    "Beam": "nivel.machine.beams.beam",
+    "Belt": "nivel.machine.joints.coupling",
+    "Block": "nivel.machine.control",
+    "Body": "nivel.machine.bodies.body",
+    "Bushing": "nivel.machine.forces",
+    "Contact": "nivel.machine.forces",
+    "Driver": "nivel.machine.joints.driver",
+    "Event": "nivel.machine.signals.event",
+    "Expression": "nivel.machine.laws.time_function",
+    "BeltDrive": "nivel.machine.forces",
+    "Brake": "nivel.machine.forces",
+    "Clutch": "nivel.machine.forces",
+    "Freewheel": "nivel.machine.forces",
+    "Shaft": "nivel.machine.forces",
+    "TransmissionLoss": "nivel.machine.forces",
+    "Friction": "nivel.machine.forces",
+    "FunctionCoupling": "nivel.machine.joints.coupling",
+    "Gear": "nivel.machine.joints.coupling",
+    "Input": "nivel.machine.signals.input",
+    "Joint": "nivel.machine.joints.joint",
+    "JointSpringDamper": "nivel.machine.forces",
+    "LinearCoupling": "nivel.machine.joints.coupling",
+    "MachineRecord": "nivel.machine.machine_record",
+    "Marker": "nivel.machine.core.marker",
+    "Motor": "nivel.machine.forces",
+    "PairForce": "nivel.machine.forces",
+    "PointForce": "nivel.machine.forces",
+    "PythonLaw": "nivel.machine.laws.time_function",
+    "Rack": "nivel.machine.joints.coupling",
+    "Rope": "nivel.machine.forces",
+    "Sensor": "nivel.machine.signals.sensor",
+    "Servo": "nivel.machine.forces",
+    "SimulationSettings": "nivel.machine.settings.run",
+    "SpringDamper": "nivel.machine.forces",
+    "SpringNode": "nivel.machine.forces",
+    "SpringSeries": "nivel.machine.forces",
+    "State": "nivel.machine.signals.state",
+    "Stop": "nivel.machine.forces",
+    "Table": "nivel.machine.laws.time_function",
+    "Torque": "nivel.machine.forces",
+    "ThreeAxisSpring": "nivel.machine.forces",
+    "TorsionalSpringDamper": "nivel.machine.forces",
     "Comparison": "nivel.results.comparison.comparison",
     "Result": "nivel.results.result",
     "load_study": "nivel.studies",

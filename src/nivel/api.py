@@ -27,27 +27,25 @@ from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
 from nivel.files.values import outside_paths
-from nivel.machine import (
-    AssemblySettings,
-    Beam,
-    Block,
-    Body,
-    Coupling,
-    Driver,
-    Event,
-    Force,
-    Input,
-    Joint,
-    MachineRecord,
-    Marker,
-    Sensor,
-    SimulationSettings,
-    State,
-    Table,
-)
+from nivel.machine.assembly_settings import AssemblySettings
+from nivel.machine.beams.beam import Beam
+from nivel.machine.bodies.body import Body
+from nivel.machine.control import Block
+from nivel.machine.core.marker import Marker
+from nivel.machine.forces import Force
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
+from nivel.machine.joints.coupling import Coupling
+from nivel.machine.joints.driver import Driver
+from nivel.machine.joints.joint import Joint
+from nivel.machine.laws.time_function import Table
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.compare import COMMON, Axes
+from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.settings.sweep import SweepSettings
+from nivel.machine.signals.event import Event
+from nivel.machine.signals.input import Input
+from nivel.machine.signals.sensor import Sensor
+from nivel.machine.signals.state import State
 from nivel.model import Model
 from nivel.settings import (
     CompareSettingsDict,

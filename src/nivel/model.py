@@ -18,29 +18,26 @@ from nivel.files.sources import Sources
 from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
-from nivel.machine import (
-    AssemblySettings,
-    Beam,
-    Body,
-    Coupling,
-    Driver,
-    Event,
-    Force,
-    Input,
-    Joint,
-    MachineRecord,
-    Marker,
-    Record,
-    Sensor,
-    SimulationSettings,
-    State,
-)
+from nivel.machine.assembly_settings import AssemblySettings
+from nivel.machine.beams.beam import Beam
+from nivel.machine.bodies.body import Body
 from nivel.machine.changes import changed
 from nivel.machine.control import ControlBlock
+from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Record, entry
+from nivel.machine.forces import Force
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
+from nivel.machine.joints.coupling import Coupling
+from nivel.machine.joints.driver import Driver
+from nivel.machine.joints.joint import Joint
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.plausible import remarks
+from nivel.machine.settings.run import SimulationSettings
+from nivel.machine.signals.event import Event
+from nivel.machine.signals.input import Input
+from nivel.machine.signals.sensor import Sensor
+from nivel.machine.signals.state import State
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import AssemblySettings, Body, Joint, MachineRecord, Marker
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import ModelError
-from nivel.machine import AssemblySettings, Body, Joint, MachineRecord, Marker
 from nivel.system.joints.composition import Combination
 from nivel.system.joints.joints import JOINTS
 

@@ -9,10 +9,10 @@ from click.testing import CliRunner
 
 import machines
 from checking import check
+from nivel import Beam
 from nivel.analysis.plan.beam_facts import beam_facts
 from nivel.cli import main
 from nivel.files import parse_machine
-from nivel.machine import Beam
 
 MACHINE = """\
 format: 1

@@ -5,11 +5,11 @@ import pytest
 
 import machines
 from checking import check
+from nivel import Body, MachineRecord, SimulationSettings
 from nivel.analysis.plan.choice import _absolute_cost, _relative_cost, choose_coordinates
 from nivel.analysis.plan.settings import complete
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.machine import Body, MachineRecord, SimulationSettings
 from nivel.system.joints.joints import JOINTS
 
 
@@ -43,7 +43,7 @@ def test_redundancy_is_said_with_names():
 
 
 def test_velocities_that_do_not_fit_are_corrected_and_said():
-    from nivel.machine import Joint
+    from nivel import Joint
 
     machine = MachineRecord(
         name="m",

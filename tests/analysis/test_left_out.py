@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from nivel import Body, Joint, MachineRecord, SimulationSettings
 from nivel.analysis.assembly.redundancy import dependent_rows
 from nivel.analysis.preparation import preparation
 from nivel.kernels.solve.saddle import LEFT_OUT, PIVOTED, RANK
-from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 from preparing import prepare
 from running import run
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
-from nivel.machine import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from preparing import prepare
 from running import run

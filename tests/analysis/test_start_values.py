@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import AssemblySettings, Body, Driver, Joint, MachineRecord, Marker
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import ModelError
-from nivel.machine import AssemblySettings, Body, Driver, Joint, MachineRecord, Marker
 from nivel.machine.laws.time_function import Expression
 from running import run
 

@@ -3,8 +3,8 @@
 import pytest
 
 import machines
+from nivel import Friction
 from nivel.analysis.assembly.unknowns import unknown_name
-from nivel.machine import Friction
 from preparing import prepare
 from running import run
 

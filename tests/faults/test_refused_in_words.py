@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from nivel import Body
 from nivel.cli import main
 from nivel.errors import ModelError, SolveError
-from nivel.machine import Body
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS

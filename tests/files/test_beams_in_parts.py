@@ -5,8 +5,7 @@ import pytest
 
 from nivel.errors import ModelError
 from nivel.files import read_machine
-from nivel.machine import rotation_matrix
-from nivel.machine.core.orientation import Orientation
+from nivel.machine.core.orientation import Orientation, rotation_matrix
 
 PART = """\
 format: 1

@@ -3,9 +3,9 @@
 import pytest
 from base_machine import write_files
 
+from nivel import PythonLaw
 from nivel.errors import ModelError
 from nivel.files import locate, parse_machine, read_machine, write_machine
-from nivel.machine import PythonLaw
 
 BALL = "{mass: 1, shape: {type: sphere, radius: size}}"
 

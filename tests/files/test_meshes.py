@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_mesh, write_machine
 from nivel.files.mesh_file import NotReadError, parse
-from nivel.machine import mass_properties
+from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.surface import enclosed, surface_arrays
 from solid_meshes import box_mesh
 

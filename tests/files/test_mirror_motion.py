@@ -7,7 +7,7 @@ from nivel.api import Machine
 from nivel.files import parse_machine
 from nivel.files.placed import placed
 from nivel.files.placement import Placement
-from nivel.machine import Orientation
+from nivel.machine.core.orientation import Orientation
 from nivel.machine.uses.references import SECTIONS
 
 TURNED = Orientation(euler=(0.3, 0.7, -1.0), sequence="zxz")
@@ -139,8 +139,8 @@ def machine_of(name):
 
 
 def height(machine):
-    from nivel.machine import placement
     from nivel.machine.core.orientation import matrix_from_euler_parameters
+    from nivel.machine.core.placement import placement
 
     position, parameters = placement(machine.bodies[0])
     return float((position + matrix_from_euler_parameters(parameters) @ machine.markers[0].position)[2])

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from lanes import FULL as ALL_EXAMPLES
 from lanes import parts
+from nivel import MachineRecord
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_machine
 from nivel.files.outline import NAMED
 from nivel.files.tree import read_tree
-from nivel.machine import MachineRecord
 
 SCRAPS = [
     *"[]{}:,#&*!|>'\"%@`-?~\t\n\\ ",

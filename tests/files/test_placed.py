@@ -3,25 +3,16 @@
 import numpy as np
 import pytest
 
+from nivel import Body, Joint, Marker, PointForce
 from nivel.files import parse_machine
 from nivel.files.placed import placed
 from nivel.files.placement import Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError
-from nivel.machine import (
-    GROUND,
-    Body,
-    Joint,
-    Marker,
-    Orientation,
-    PointForce,
-    frame_from_axes,
-    initial_velocity,
-    marker_frame,
-    mass_properties,
-    placement,
-)
-from nivel.machine.core.orientation import matrix_from_euler_parameters, rotation_matrix
+from nivel.machine.bodies.inertia import mass_properties
+from nivel.machine.core.orientation import Orientation, matrix_from_euler_parameters, rotation_matrix
+from nivel.machine.core.placement import frame_from_axes, initial_velocity, marker_frame, placement
+from nivel.machine.core.record import GROUND
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.uses.references import SECTIONS
 

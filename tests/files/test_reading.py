@@ -7,10 +7,11 @@ import pytest
 import yaml
 from base_machine import BASE
 
+from nivel import Expression, Table
 from nivel.errors import ModelError
 from nivel.files import locate, nodes, parse_machine, read_machine
 from nivel.files.tree import read_tree, read_value
-from nivel.machine import Expression, Table, placement
+from nivel.machine.core.placement import placement
 
 MACHINE = parse_machine(BASE)
 BODIES = {body.name: body for body in MACHINE.bodies}

@@ -2,9 +2,10 @@
 
 import pytest
 
+from nivel import Beam, Body, Joint, MachineRecord, Sensor, SimulationSettings
 from nivel.files import schema
 from nivel.files.outline import FILE_WORDS
-from nivel.machine import Beam, Body, Box, Joint, MachineRecord, Sensor, SimulationSettings
+from nivel.machine.bodies.shape import Box
 from nivel.machine.core.record import field_words
 from nivel.machine.forces import FORCES
 from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack

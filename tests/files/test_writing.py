@@ -6,8 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from example_files import RIGID
+from nivel import Body, Expression, Joint, MachineRecord, Marker, PointForce, Table
 from nivel.files import parse_machine, read_machine, write_machine
-from nivel.machine import Body, Expression, Joint, MachineRecord, Marker, Orientation, PointForce, Sphere, Table, Tube
+from nivel.machine.bodies.shape import Sphere, Tube
+from nivel.machine.core.orientation import Orientation
 
 
 def test_a_machine_comes_back_equal_and_its_text_too():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from nivel.machine import Beam, Body, Bushing, Friction, Joint, MachineRecord, Marker, PointForce
+from nivel import Beam, Body, Bushing, Friction, Joint, MachineRecord, Marker, PointForce
 from running import reference_run, run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 

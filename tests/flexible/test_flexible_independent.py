@@ -6,10 +6,10 @@ from importlib import import_module
 import numpy as np
 import pytest
 
+from nivel import Friction, SimulationSettings
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
 from nivel.kernels.core.status import OK
-from nivel.machine import Friction, SimulationSettings
 from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare
 from running import reference_run, run

@@ -5,11 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from models import bar, reduced
-from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
-from nivel.errors import ModelError
-from nivel.flexible.body import reference
-from nivel.flexible.body.body_file import write_body
-from nivel.machine import (
+from nivel import (
     Body,
     Driver,
     Friction,
@@ -21,6 +17,10 @@ from nivel.machine import (
     SimulationSettings,
     SpringDamper,
 )
+from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
+from nivel.errors import ModelError
+from nivel.flexible.body import reference
+from nivel.flexible.body.body_file import write_body
 from nivel.system.flexible import bending_bodies
 from preparing import prepare
 from running import reference_run, run

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import simulating
+from nivel import PointForce, SimulationSettings
 from nivel.analysis.assembly.implicit import evaluate_residual
 from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.plan.plan import plan_run
@@ -17,7 +18,6 @@ from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import read_body
-from nivel.machine import PointForce, SimulationSettings
 from nivel.machine.settings.statics import StaticsSettings
 from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare

@@ -5,12 +5,12 @@ import pytest
 from scipy.linalg import block_diag
 
 from models import bar, reduced
+from nivel import Body, Friction, Joint, MachineRecord
 from nivel.analysis.assembly.effective_mass import mobility
 from nivel.analysis.assembly.modal_rows import modal_rows
 from nivel.errors import ModelError
 from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import write_body
-from nivel.machine import Body, Friction, Joint, MachineRecord
 from preparing import prepare
 from running import run
 

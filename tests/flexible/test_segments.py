@@ -6,9 +6,9 @@ from scipy.spatial.transform import Rotation
 
 from beams import flying, general
 from checking import check
+from nivel import Beam
 from nivel.analysis.plan.beam_facts import beam_facts
 from nivel.errors import ModelError
-from nivel.machine import Beam
 from nivel.system.beams.elements import skew
 from nivel.system.beams.segments import segments_of
 from preparing import prepare

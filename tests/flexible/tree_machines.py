@@ -3,8 +3,8 @@
 from math import radians, sin
 
 from models import STEEL, reduced
+from nivel import Body, Driver, Joint, MachineRecord, Marker, PointForce, Sensor, SpringDamper
 from nivel.flexible.body.body_file import write_body
-from nivel.machine import Body, Driver, Joint, MachineRecord, Marker, PointForce, Sensor, SpringDamper
 
 GRAVITY = (0.3, -9.81, 0.5)
 LENGTH = 1.0

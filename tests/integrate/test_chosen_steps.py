@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from nivel.errors import ModelError
-from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 
 CHOOSING = pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau"])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.machine import Body, Joint, MachineRecord, PointForce, SimulationSettings
+from nivel import Body, Joint, MachineRecord, PointForce, SimulationSettings
 from running import run
 
 

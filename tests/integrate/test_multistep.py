@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import Body, Joint, MachineRecord, SpringDamper
 from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.history import start_history
 from nivel.integrate.catalogue import INTEGRATORS
@@ -11,7 +12,6 @@ from nivel.integrate.loop.run import RESTART, STEP
 from nivel.integrate.loop.workspace import SHARE
 from nivel.integrate.multistep.multistep import remember
 from nivel.kernels.core.block import Handle
-from nivel.machine import Body, Joint, MachineRecord, SpringDamper
 from preparing import prepare
 from references import stick_slip
 from running import run

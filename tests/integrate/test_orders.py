@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 import machines
 from lanes import FULL, tail
+from nivel import Body, MachineRecord
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine import Body, MachineRecord
 from references import heavy_top as heavy_top_reference
 from references import slider_crank as slider_crank_reference
 from references.solution import Solution

@@ -4,13 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from nivel import Body, MachineRecord
 from nivel.analysis.assembly.equations import equations
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop import run as names
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import EVALUATE
-from nivel.machine import Body, MachineRecord
 from nivel.native.entry import entry
 
 

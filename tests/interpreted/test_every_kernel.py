@@ -28,6 +28,7 @@ import test_statics_closed_forms
 import test_thermal_accumulator
 import tree_machines
 from circuits import circuit
+from nivel import PointForce, Table
 from nivel.analysis.assembly import circuit_start
 from nivel.analysis.assembly.implicit import find_tangent
 from nivel.analysis.preparation import preparation
@@ -38,7 +39,6 @@ from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family
 from nivel.kernels.core.status import BUDGET_SPENT, DONE, OK
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in
-from nivel.machine import PointForce, Table
 from nivel.motion.catalogue import FLEXIBLE, PATHS
 from running import run
 from simulating import hinge, machine, solid

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 import cart
+from nivel import Input
 from nivel.analysis.progress.listener import Listener
 from nivel.cli.budget import command
 from nivel.files.reader import parse_machine
@@ -14,7 +15,6 @@ from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LO
 from nivel.live.budget import Cost, Held, costs, ends, swept
 from nivel.live.shared import Sizes, bytes_of, live_in
 from nivel.live.timing import PERCENTS, Timing, in_a_sentence, timing_of
-from nivel.machine import Input
 
 
 def test_percentiles_are_those_of_the_durations_within_a_bin():

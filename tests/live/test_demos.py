@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 import nivel
+from nivel import Table
 from nivel.demos.catalogue import DEMOS, FOLDER, demo_file
 from nivel.live.preparation import live_plan
 from nivel.live.recording import Recording, Take
 from nivel.live.replay import replay
-from nivel.machine import Table, mass_properties
+from nivel.machine.bodies.inertia import mass_properties
 
 HYDRAULIC = {
     "loader-crane": {

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 import cart
 from cart import DAMPING, FORCE, MASS, machine, operate, running, until
+from nivel import PythonLaw
 from nivel.api import Machine
 from nivel.cli.live import introduction
 from nivel.cli.replay import command
@@ -22,7 +23,6 @@ from nivel.live.opening import session_of
 from nivel.live.preparation import live_plan, pace_of
 from nivel.live.recording import Recording, Take, read_recording, write_recording
 from nivel.live.replay import machine_of, replay, rerun
-from nivel.machine import PythonLaw
 
 
 @pytest.fixture(scope="module")

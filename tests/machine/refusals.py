@@ -2,8 +2,9 @@
 
 import pytest
 
+from nivel import Body, Marker
 from nivel.errors import ModelError
-from nivel.machine import Body, Marker, Sphere
+from nivel.machine.bodies.shape import Sphere
 
 BALL = {"mass": 1, "shape": Sphere(radius=0.1)}
 CRANK, ROD = Body(name="crank", **BALL), Body(name="rod", **BALL)

@@ -5,7 +5,8 @@ from functools import partial
 from everything import EVERYTHING
 
 from lanes import parts
-from nivel.machine import MachineRecord, Record
+from nivel import MachineRecord
+from nivel.machine.core.record import Record
 from wrong_values import WRONG, told_or_done
 
 PARTS = 12  # of the wrong values, one for all tests

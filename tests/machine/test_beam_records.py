@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from refusals import refused
 
-from nivel.machine import Beam
+from nivel import Beam
 from nivel.machine.beams.beam import _divided
 
 STEEL = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850.0}

@@ -3,7 +3,8 @@
 import pytest
 from refusals import BEAD, CRANK, MARKERS, ROD, faults, refused
 
-from nivel.machine import Body, Box, MachineRecord, Marker, Sphere
+from nivel import Body, MachineRecord, Marker
+from nivel.machine.bodies.shape import Box, Sphere
 
 SPHERE = Sphere(radius=0.1)
 

@@ -2,11 +2,11 @@
 
 import pytest
 
+from nivel import Expression
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.writer import write_machine
-from nivel.machine import Expression
 
 START = """format: 1
 gravity: [0, -9.81, 0]

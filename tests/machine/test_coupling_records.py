@@ -3,7 +3,7 @@
 import pytest
 from refusals import refused
 
-from nivel.machine import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
+from nivel import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 
 AB = {"joints": ("a", "b.angle")}
 CAM = {"coordinate": "a.angle"}

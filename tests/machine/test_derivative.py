@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from nivel.machine import Expression
+from nivel import Expression
 from nivel.machine.units.arithmetic import bind, evaluate, fold, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.grammar import parse

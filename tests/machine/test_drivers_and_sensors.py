@@ -3,7 +3,7 @@
 import pytest
 from refusals import refused
 
-from nivel.machine import Driver, Event, Expression, Sensor, Table
+from nivel import Driver, Event, Expression, Sensor, Table
 
 TURNS = "def turn(t):\n    return t, 1.0, 0.0\n"
 

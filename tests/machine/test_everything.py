@@ -7,13 +7,14 @@ import pytest
 from everything import EVERYTHING
 
 from lanes import parts
+from nivel import MachineRecord
 from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
-from nivel.machine import JOINT_COORDINATES, MachineRecord
 from nivel.machine.control import BLOCKS, CBlock, FmuBlock
 from nivel.machine.core.index import SECTIONS
 from nivel.machine.forces import FORCES
 from nivel.machine.hydraulics import COMPONENTS
+from nivel.machine.joints.joint import JOINT_COORDINATES
 
 MACHINE = MachineRecord(**EVERYTHING)
 PARTS = 16

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from refusals import refused
 
-from nivel.errors import ModelError
-from nivel.machine import (
+from nivel import (
     Bushing,
     Contact,
     Expression,
     Friction,
-    GlobalPoint,
     JointSpringDamper,
     Marker,
     Motor,
@@ -19,8 +17,9 @@ from nivel.machine import (
     Stop,
     TorsionalSpringDamper,
 )
+from nivel.errors import ModelError
 from nivel.machine.beams.section import Material as BeamMaterial
-from nivel.machine.forces import FORCES, Material
+from nivel.machine.forces import FORCES, GlobalPoint, Material
 
 LINE = {"markers": ("tip", "eye")}
 POINTS = {"bodies": ("rod", "crank"), "points": ((0, 0, 0), (1, 0, 0))}

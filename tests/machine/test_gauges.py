@@ -2,9 +2,9 @@
 
 import pytest
 
+from nivel import Input, Sensor
 from nivel.errors import ModelError
 from nivel.live.source import control, gauge
-from nivel.machine import Input, Sensor
 from nivel.words.wording import label_of
 
 PRESSURE = {"name": "lift-cylinder", "value": "time", "units": "bar"}

@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from nivel import Body
 from nivel.errors import ModelError
-from nivel.machine import Body, Box, Cylinder, Sphere, Tube, mass_properties
-from nivel.machine.bodies.inertia import impossible, point_mass_inertia
+from nivel.machine.bodies.inertia import impossible, mass_properties, point_mass_inertia
+from nivel.machine.bodies.shape import Box, Cylinder, Sphere, Tube
 from nivel.machine.bodies.solids import volume
 
 lengths = st.floats(0.01, 10)

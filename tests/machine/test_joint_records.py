@@ -5,8 +5,8 @@ from typing import get_args
 import pytest
 from refusals import refused
 
-from nivel.machine import JOINT_COORDINATES, Joint, JointType
-from nivel.machine.joints.joint import JOINT_WORDS, CoordinateRates, CoordinateValues
+from nivel import Joint
+from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS, CoordinateRates, CoordinateValues, JointType
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 
 PAIR = {"bodies": ("crank", "rod")}

@@ -3,9 +3,8 @@
 import pytest
 from refusals import BALL, CRANK, MARKERS, ROD, faults, refused
 
-from nivel.machine import (
+from nivel import (
     Body,
-    Box,
     Driver,
     Expression,
     Joint,
@@ -15,12 +14,10 @@ from nivel.machine import (
     Sensor,
     SpringDamper,
     Table,
-    Tube,
-    find_symbol,
-    resolve,
 )
-from nivel.machine.laws.symbols import UnknownSymbolError
-from nivel.machine.uses.coordinate_reference import UnknownCoordinateError
+from nivel.machine.bodies.shape import Box, Tube
+from nivel.machine.laws.symbols import UnknownSymbolError, find_symbol
+from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 
 JOINTS = (
     {"name": "hinge", "type": "revolute", "markers": ("base", "eye")},

@@ -7,8 +7,14 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from nivel.errors import ModelError
-from nivel.machine import Orientation, euler_parameters, rotation_matrix
-from nivel.machine.core.orientation import SEQUENCES, euler_parameters_from_matrix, matrix_from_euler_parameters
+from nivel.machine.core.orientation import (
+    SEQUENCES,
+    Orientation,
+    euler_parameters,
+    euler_parameters_from_matrix,
+    matrix_from_euler_parameters,
+    rotation_matrix,
+)
 
 angles = st.tuples(*[st.floats(-10, 10)] * 3)
 ROUND_OFF = 1e-13

@@ -5,21 +5,19 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from nivel import Body, Marker
 from nivel.errors import ModelError
-from nivel.machine import (
-    Body,
-    Box,
-    Marker,
-    Orientation,
-    Sphere,
+from nivel.machine.bodies.shape import Box, Sphere
+from nivel.machine.core.orientation import Orientation, matrix_from_euler_parameters, rotation_matrix
+from nivel.machine.core.placement import (
+    VERTICAL,
+    frame_between,
     frame_from_axes,
     initial_velocity,
     marker_frame,
+    most_perpendicular,
     placement,
-    rotation_matrix,
 )
-from nivel.machine.core.orientation import matrix_from_euler_parameters
-from nivel.machine.core.placement import VERTICAL, frame_between, most_perpendicular
 
 vectors = st.tuples(*[st.floats(-10, 10)] * 3).map(np.array).filter(lambda v: np.linalg.norm(v) > 1e-2)
 

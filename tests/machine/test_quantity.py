@@ -95,7 +95,7 @@ def test_parameters_carry_their_dimension():
 
 def test_ordinary_units_do_not_load_pint():
     code = (
-        "import sys; from nivel.machine import Body; Body(name='a', mass='2 kg', inertia=('1 kg*m^2',)*3, position=('1 cm', 0, 0));"
+        "import sys; from nivel import Body; Body(name='a', mass='2 kg', inertia=('1 kg*m^2',)*3, position=('1 cm', 0, 0));"
         "sys.exit(any(m in sys.modules for m in ('pint', 'yaml', 'numba', 'xarray', 'scipy', 'matplotlib')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
@@ -117,7 +117,7 @@ def test_a_unit_without_multiplication_is_refused():
 
 
 def test_newton_metres_may_be_written_together():
-    from nivel.machine import Torque
+    from nivel import Torque
 
     torque = Torque(name="t", body="b", vector=("10 Nm", "2 kNm", "3 N m"))
     assert torque.vector == (10.0, 2000.0, 3.0)

@@ -5,22 +5,9 @@ import pickle
 import numpy as np
 import pytest
 
+from nivel import Body, Expression, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Table, Torque
 from nivel.errors import ModelError
-from nivel.machine import (
-    Body,
-    Box,
-    Cylinder,
-    Expression,
-    Joint,
-    MachineRecord,
-    Marker,
-    PointForce,
-    SimulationSettings,
-    Sphere,
-    Table,
-    Torque,
-    Tube,
-)
+from nivel.machine.bodies.shape import Box, Cylinder, Sphere, Tube
 from nivel.machine.settings.statics import StaticsSettings
 
 BALL = {"mass": 1, "shape": Sphere(radius=0.1)}

@@ -5,22 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nivel import Body, MachineRecord
 from nivel.errors import ModelError
-from nivel.machine import (
-    Body,
-    Box,
-    Capsule,
-    Cylinder,
-    Extrusion,
-    MachineRecord,
-    Mesh,
-    Orientation,
-    Sphere,
-    mass_properties,
-)
+from nivel.machine.bodies.inertia import mass_properties
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import centroid, squared_gyration, volume
 from nivel.machine.bodies.surface import enclosed, surface_arrays, surface_text, why_open
-from nivel.machine.core.orientation import rotation_matrix
+from nivel.machine.core.orientation import Orientation, rotation_matrix
 from solid_meshes import ball_mesh, box_mesh
 
 sizes = st.floats(0.05, 3.0)

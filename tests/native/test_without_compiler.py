@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from nivel import PythonLaw
 from nivel.errors import ModelError
-from nivel.machine import PythonLaw
 from nivel.native import workers
 from nivel.system.laws.laws import law_address
 

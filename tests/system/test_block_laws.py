@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from nivel import PythonLaw
 from nivel.files import parse_machine
 from nivel.kernels.record import program
-from nivel.machine import PythonLaw
 from nivel.machine.control import BLOCKS, CBlock, FmuBlock, UserBlock
 from nivel.machine.control.laws import beyond, bounded_rate, limited
 from nivel.machine.control.order import parts_of

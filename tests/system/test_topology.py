@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
-from nivel.machine import MachineRecord
+from nivel import MachineRecord
 from nivel.system.elimination.topology import FREE, Edge, carries, spanning_tree
 from nivel.system.joints.joints import JOINTS
 from nivel.system.states.relative import tree_of

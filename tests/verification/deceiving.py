@@ -12,7 +12,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import erf
 
-from nivel.machine import (
+from nivel import (
     Body,
     Contact,
     Friction,
@@ -21,9 +21,9 @@ from nivel.machine import (
     MachineRecord,
     PointForce,
     SimulationSettings,
-    Sphere,
     Table,
 )
+from nivel.machine.bodies.shape import Sphere
 
 ALONG_X = {"type": "translational", "bodies": ("ground", "slide"), "point": (0, 0, 0), "axis": (1, 0, 0)}
 ABOUT_Z = {"type": "revolute", "point": (0, 0, 0), "axis": (0, 0, 1)}

@@ -13,8 +13,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
+from nivel import MachineRecord
 from nivel.files import parse_machine
-from nivel.machine import MachineRecord
 
 CART = """
 format: 1

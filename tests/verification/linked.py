@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from machines import GRAVITY, random_body
-from nivel.machine import Joint, MachineRecord, Marker, PointForce
+from nivel import Joint, MachineRecord, Marker, PointForce
 from nivel.system.elimination.topology import carries
 from nivel.system.joints.joints import JOINTS
 from simulating import G, hinge, machine, slide, solid

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
+from nivel import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.system.joints.joints import JOINTS
 from nivel.system.joints.kinds.constraints import generic

@@ -4,15 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from nivel.machine import (
-    Body,
-    Joint,
-    JointSpringDamper,
-    MachineRecord,
-    PointForce,
-    SimulationSettings,
-    SpringDamper,
-)
+from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, SpringDamper
 from nivel.machine.joints.driver import Driver
 from references.solution import Solution
 

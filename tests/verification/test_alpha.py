@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 import machines
 from lanes import tail
+from nivel import Body, Driver, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, Table
 from nivel.errors import ModelError
-from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, Table
 from references import four_bar, heavy_top, slider_crank
 from running import reference_run, run
 

@@ -137,8 +137,8 @@ def test_what_does_not_go_with_exact_tangents_is_refused(settings, words):
 
 
 def test_iteration_is_the_methods_own_where_none_is_chosen():
+    from nivel import SimulationSettings
     from nivel.analysis.plan.settings import complete
-    from nivel.machine import SimulationSettings
 
     for integrator, expected in {"gear": "functional", "am2": "functional", "bdf": "newton", "hht": "newton"}.items():
         corrector = complete(SimulationSettings(integrator=integrator)).corrector

@@ -8,12 +8,12 @@ from scipy.integrate import solve_ivp
 
 import machines
 import nivel
+from nivel import Joint, MachineRecord
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.analysis.assembly.redundancy import analyse
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.machine import Joint, MachineRecord
 
 BOOM = """\
 format: 1

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from nivel import Body, Driver, Joint, MachineRecord, SimulationSettings, Table
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
-from nivel.machine import Body, Driver, Joint, MachineRecord, SimulationSettings, Table
 from running import run
 from simulating import simulate
 from test_drivers import CRANK, crank_pose, crank_rates, scalar_equation, slider_crank

@@ -5,14 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import machines
+from nivel import Body, Bushing, MachineRecord, Marker, SpringDamper
 from nivel.errors import ModelError
-from nivel.machine import (
-    Body,
-    Bushing,
-    MachineRecord,
-    Marker,
-    SpringDamper,
-)
 from running import reference_run, run
 from stiff_machines import elastic_pendulum
 

@@ -7,9 +7,9 @@ import pytest
 from scipy.special import ellipj, ellipk, ellipkinc
 
 import machines
+from nivel import Event
 from nivel.analysis.run import history
 from nivel.errors import SolveError
-from nivel.machine import Event
 from running import run
 from simulating import G, hinge, machine, simulate, slopes, solid, turning_error
 

@@ -75,7 +75,7 @@ def test_accelerations_solve_the_saddle_point_system_about_the_frame_origin(name
 def test_a_free_body_off_its_centre_of_mass_obeys_newton_and_euler(rng):
     """No joint: the centre of mass falls with g, the angular momentum about it stays."""
     body = machines.random_body("stone", rng)
-    from nivel.machine import MachineRecord
+    from nivel import MachineRecord
 
     machine = MachineRecord(name="stone", bodies=(body,), gravity=(0, 0, -9.81))
     for formulation in ("newton-euler", "lagrange"):

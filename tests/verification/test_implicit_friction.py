@@ -6,8 +6,8 @@ import pytest
 import linked
 import machines
 import nivel
+from nivel import Friction, Torque
 from nivel.errors import ModelError
-from nivel.machine import Friction, Torque
 from references import stick_slip
 from running import reference_run, run
 from simulating import G, simulate, slide, solid

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from nivel import Table
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
-from nivel.machine import Table
 from simulating import slide, solid
 
 FORCE, MASS, DAMPING, TAU = 20.0, 2.0, 3.0, 0.1

@@ -6,6 +6,7 @@ from scipy.interpolate import CubicSpline
 
 import machines
 from lanes import FULL
+from nivel import Body, Joint, MachineRecord
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations, moved
 from nivel.analysis.assembly.redundancy import analyse
@@ -15,7 +16,6 @@ from nivel.kernels.bodies.coordinate import measure
 from nivel.kernels.bodies.marker import move_markers, place_markers
 from nivel.kernels.bodies.rigid import place_body
 from nivel.kernels.bodies.rolling import CONTACT, rolling
-from nivel.machine import Body, Joint, MachineRecord
 from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS
 from nivel.system.system import parameter_rates
 from running import run

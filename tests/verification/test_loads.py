@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.machine import Body, Expression, Joint, MachineRecord, PointForce, SimulationSettings, Table, Torque
+from nivel import Body, Expression, Joint, MachineRecord, PointForce, SimulationSettings, Table, Torque
 from running import run
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.machine import Event, PointForce
+from nivel import Event, PointForce
 from running import run
 
 

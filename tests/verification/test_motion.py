@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import machines
-from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
+from nivel import Body, Joint, MachineRecord, SimulationSettings
 from references import four_bar as four_bar_reference
 from references import heavy_top as top_reference
 from references import one_dof

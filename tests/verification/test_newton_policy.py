@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import Body, Joint, MachineRecord, PointForce, SimulationSettings
 from nivel.errors import ModelError
-from nivel.machine import Body, Joint, MachineRecord, PointForce, SimulationSettings
 from running import run
 
 INTEGRATORS = pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha"])

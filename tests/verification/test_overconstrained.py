@@ -13,7 +13,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from lanes import tail
-from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
+from nivel import Body, Joint, MachineRecord, SimulationSettings
 from running import run
 
 SPEED, TURN = 6.0, 2.0 * np.pi

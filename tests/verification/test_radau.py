@@ -10,18 +10,9 @@ from scipy.spatial.transform import Rotation
 import machines
 import nivel
 from lanes import tail
+from nivel import Body, Event, Joint, MachineRecord, Motor, PointForce, SimulationSettings, SpringDamper
 from nivel.errors import ModelError
 from nivel.integrate.radau.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
-from nivel.machine import (
-    Body,
-    Event,
-    Joint,
-    MachineRecord,
-    Motor,
-    PointForce,
-    SimulationSettings,
-    SpringDamper,
-)
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 from running import reference_run, run
 from stiff_machines import double_pendulum

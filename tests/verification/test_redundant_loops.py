@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, SimulationSettings
+from nivel import Body, Joint, JointSpringDamper, MachineRecord, SimulationSettings
 from running import run
 
 METHODS = pytest.mark.parametrize("integrator", ["generalised-alpha", "radau"])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import MachineRecord
 from nivel.errors import ModelError
-from nivel.machine import MachineRecord
 from nivel.machine.settings.run import Baumgarte
 from preparing import prepare
 from references import slider_crank as slider_crank_reference

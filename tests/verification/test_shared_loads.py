@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from nivel import Body, Driver, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.stepping import Simulation
 from nivel.analysis.sweep.patched import PatchedRuns, learn, read_values
 from nivel.api import Machine
-from nivel.machine import Body, Driver, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 
 # N: iterations leave a share of 1e-9

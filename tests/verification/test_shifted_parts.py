@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import machines
+from nivel import Body, Bushing, Friction, Joint, MachineRecord, Marker, SpringDamper
 from nivel.kernels.core.status import OK
-from nivel.machine import Body, Bushing, Friction, Joint, MachineRecord, Marker, SpringDamper
 from preparing import prepare
 from unknowns import ROTATIONS
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, SimulationSettings
+from nivel import Body, Joint, JointSpringDamper, MachineRecord, SimulationSettings
 from running import run
 
 MASS, STIFFNESS, DAMPING = 0.01, 500.0, 1000.0

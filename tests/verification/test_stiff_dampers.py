@@ -4,7 +4,7 @@ it, at the start and beyond a corner of a load; what springs store is not lost f
 import numpy as np
 import pytest
 
-from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, Table
+from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, Table
 from running import run
 
 MASS, DAMPING, STEP = 2.0, 1e6, 1e-3

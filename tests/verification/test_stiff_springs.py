@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lanes import FULL, tail
-from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
+from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 from stiff_machines import (
     double_pendulum,

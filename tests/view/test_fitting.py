@@ -4,8 +4,8 @@ import pytest
 
 import nivel
 from browsing import chromium, drawn, until, watched
+from nivel import Table
 from nivel.demos.catalogue import demo_file
-from nivel.machine import Table
 from nivel.view.export import write_scene
 
 MOMENTS = (0.0, 1.0, 2.0)

@@ -8,8 +8,8 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
+from nivel import Body, Driver, Joint, Motor, PairForce, PointForce, SpringDamper, Torque
 from nivel.errors import ModelError
-from nivel.machine import Body, Driver, Joint, Motor, PairForce, PointForce, SpringDamper, Torque
 from nivel.results import Memory
 from nivel.view import records
 from nivel.view.arrows import Moments

@@ -24,8 +24,9 @@ from nivel.integrate.loop.run import ALL_STEPS, END, EVERY
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.function import CONSTANT
-from nivel.machine import Input, Table
 from nivel.machine.control import UnitBlock
+from nivel.machine.laws.time_function import Table
+from nivel.machine.signals.input import Input
 from nivel.native.entry import Entry
 from nivel.results.frames.csv_table import columns
 from nivel.results.memory import Memory

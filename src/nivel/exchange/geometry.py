@@ -10,7 +10,7 @@ import numpy as np
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.notes import Notes
 from nivel.files.mesh_file import stl_content
-from nivel.machine import Body
+from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.colour import digits_of
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Mesh, Shape, Sphere, Tube
 from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface

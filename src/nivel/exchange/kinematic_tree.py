@@ -15,11 +15,15 @@ from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.notes import Notes
 from nivel.files.rotors import rotors_of
-from nivel.machine import Body, Expression, Friction, Joint, JointSpringDamper, MachineRecord, Marker, Stop
+from nivel.machine.bodies.body import Body
+from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
+from nivel.machine.forces import Friction, JointSpringDamper, Stop
 from nivel.machine.forces.motor import Motor
-from nivel.machine.joints.joint import JOINT_COORDINATES
+from nivel.machine.joints.joint import JOINT_COORDINATES, Joint
+from nivel.machine.laws.time_function import Expression
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.joints.joint_frames import joint_frames
 

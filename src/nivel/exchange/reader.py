@@ -22,8 +22,8 @@ from nivel.files.sources import read_bytes
 from nivel.files.step_file import KINDS as STEP_KINDS
 from nivel.files.writer import write_data
 from nivel.files.xml_source import Document, Element
-from nivel.machine import MachineRecord
 from nivel.machine.bodies.surface import surface_text
+from nivel.machine.machine_record import MachineRecord
 
 Base = Literal["fixed", "free"]
 

@@ -8,9 +8,9 @@ from nivel.exchange.geometry import Geometry, geometries
 from nivel.exchange.kinematic_tree import Branch, KinematicTree, Motion, kinematic_tree
 from nivel.exchange.mechanism import Frame
 from nivel.exchange.xml_writer import Lines, words
-from nivel.machine import MachineRecord
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.record import GROUND
+from nivel.machine.machine_record import MachineRecord
 
 WORLD = "world"
 WAY = 1e4  # [m or rad] the other end of a way that has one end

@@ -14,9 +14,10 @@ from nivel.files.outline import section_of
 from nivel.files.placed import NotRepresentableError, placed
 from nivel.files.placement import Placement
 from nivel.files.tree import Tree
-from nivel.machine import MachineRecord, Orientation, Record
-from nivel.machine.core.record import entry, unknown_word
+from nivel.machine.core.orientation import Orientation
+from nivel.machine.core.record import Record, entry, unknown_word
 from nivel.machine.given import Field, Maybe, OneRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.parameters import resolve
 from nivel.machine.units.quantity import FAULT, Position, fault, shown
 from nivel.machine.units.tree import Parameters

@@ -14,8 +14,9 @@ from nivel.errors import Fault, ModelError
 from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.reader import read_text
 from nivel.files.sources import read_bytes
-from nivel.machine import Input, MachineRecord
 from nivel.machine.laws.table import Table
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.signals.input import Input
 from nivel.machine.units.quantity import ANY, Kind, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from nivel.files.substitution import Linear, NotRepresentableError, same, substituted
-from nivel.machine import GROUND, Expression, PythonLaw, Record, Table
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import GROUND, Record, entry
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 
 # fields that hold names of elements, `JOINT.COORDINATE`, or lists of them; where they hold numbers these stay
 MENTIONS: Final = (

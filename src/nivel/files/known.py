@@ -8,7 +8,8 @@ from typing import Any
 
 from nivel.files.outline import section_of
 from nivel.files.tree import Tree
-from nivel.machine import MachineRecord, Record
+from nivel.machine.core.record import Record
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.references import SECTIONS
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from nivel.errors import Fault
 from nivel.files.reader import locate, stands_in
-from nivel.machine import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings
 
 SETTING = re.compile(
     r"`(\w+)(?:`|: ([^`]*)`)"

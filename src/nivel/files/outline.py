@@ -6,9 +6,9 @@ from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Tree
-from nivel.machine import MachineRecord
 from nivel.machine.core.record import field_words, unknown_word
 from nivel.machine.example_line import element_line
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import shown
 from nivel.machine.uses.references import SECTIONS
 

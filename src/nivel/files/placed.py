@@ -11,23 +11,15 @@ from nivel.files.placed_forces import placed_ends, placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine import (
-    Block,
-    Driver,
-    Event,
-    Expression,
-    FunctionCoupling,
-    LinearCoupling,
-    PythonLaw,
-    Rack,
-    Record,
-    Sensor,
-    State,
-    Table,
-)
-from nivel.machine.core.record import entry
+from nivel.machine.control import Block
+from nivel.machine.core.record import Record, entry
 from nivel.machine.forces import Ends
-from nivel.machine.joints.driver import MOTIONS
+from nivel.machine.joints.coupling import FunctionCoupling, LinearCoupling, Rack
+from nivel.machine.joints.driver import MOTIONS, Driver
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table
+from nivel.machine.signals.event import Event
+from nivel.machine.signals.sensor import Sensor
+from nivel.machine.signals.state import State
 
 
 def placed_component(component: Any, scene: Scene) -> Any:

@@ -9,26 +9,15 @@ import numpy as np
 from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, triple
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError
-from nivel.machine import (
-    Beam,
-    Body,
-    Box,
-    Capsule,
-    Cylinder,
-    Extrusion,
-    Inertia,
-    Joint,
-    Mesh,
-    Shape,
-    Standing,
-    Tube,
-    frame_from_axes,
-    placement,
-)
+from nivel.machine.beams.beam import Beam
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.inertia import Inertia
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Standing, Tube
 from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface, part_corners
 from nivel.machine.bodies.surface import surface_arrays, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
-from nivel.machine.joints.joint import JOINT_WORDS
+from nivel.machine.core.placement import frame_from_axes, placement
+from nivel.machine.joints.joint import JOINT_WORDS, Joint
 
 KEPT = {"arms": AXIAL, "sliding": POLAR_Z, "turning": AXIAL_Z}
 

@@ -10,39 +10,35 @@ import numpy as np
 from nivel.files.placement import AXIAL_Z, POLAR_Z
 from nivel.files.scene import Scene
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
-from nivel.machine import (
+from nivel.machine.core.record import Record
+from nivel.machine.forces import (
+    BeltDrive,
+    Between,
+    Brake,
     Bushing,
     Contact,
-    Expression,
+    DriveLine,
+    Ends,
+    ForceElement,
+    Freewheel,
     Friction,
     JointSpringDamper,
     Motor,
     PairForce,
     PointForce,
-    PythonLaw,
-    Record,
     Rope,
     Servo,
+    Shaft,
     SpringDamper,
     SpringNode,
     SpringSeries,
     Stop,
     ThreeAxisSpring,
-    TimeFunction,
     Torque,
     TorsionalSpringDamper,
-)
-from nivel.machine.forces import (
-    BeltDrive,
-    Between,
-    Brake,
-    DriveLine,
-    Ends,
-    ForceElement,
-    Freewheel,
-    Shaft,
     TransmissionLoss,
 )
+from nivel.machine.laws.time_function import Expression, PythonLaw, TimeFunction
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)

@@ -11,7 +11,7 @@ from nivel.files.overrides import prefix_of
 from nivel.files.scope import read_scope
 from nivel.files.sources import Sources, read_text
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.references import SECTIONS
 
 __all__ = ["FORMAT", "locate", "parse_machine", "read_machine", "read_text"]

@@ -10,22 +10,14 @@ import numpy as np
 
 from nivel.files.placement import AXIAL_Z, Placement, Triple, orientation_of, triple
 from nivel.files.substitution import Linear, same, substituted
-from nivel.machine import (
-    GROUND,
-    Beam,
-    Body,
-    Expression,
-    Joint,
-    Marker,
-    PythonLaw,
-    Record,
-    Table,
-    TimeFunction,
-    marker_frame,
-    placement,
-)
+from nivel.machine.beams.beam import Beam
+from nivel.machine.bodies.body import Body
+from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import matrix_from_euler_parameters
-from nivel.machine.joints.joint import JOINT_WORDS
+from nivel.machine.core.placement import marker_frame, placement
+from nivel.machine.core.record import GROUND, Record
+from nivel.machine.joints.joint import JOINT_WORDS, Joint
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
 

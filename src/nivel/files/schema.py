@@ -10,8 +10,9 @@ from nivel.files.include import Include
 from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FORMAT
 from nivel.files.rotors import KEY as ROTOR_INERTIA
-from nivel.machine import MachineRecord, Record
+from nivel.machine.core.record import Record
 from nivel.machine.laws.time_function import CURVE
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.references import SECTIONS
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"

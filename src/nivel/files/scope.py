@@ -32,9 +32,10 @@ from nivel.files.sources import Sources
 from nivel.files.sticking_heaps import divide_heaps
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.files.unit_blocks import read_unit_blocks
-from nivel.machine import MachineRecord, Record
 from nivel.machine.control.problems import can_be_named
+from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.parameters import resolve
 from nivel.machine.units.plain_factors import with_bodies
 from nivel.machine.units.quantity import FAULT, FunctionFault

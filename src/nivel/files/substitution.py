@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from nivel.machine import Expression, PythonLaw, Table, TimeFunction
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 
 _SIGNAL: Final = re.compile(r"(?<![\w.])[^\W\d]\w*\.[^\W\d]\w*")  # in an expression, where `-` is a minus sign
 

@@ -12,10 +12,10 @@ from nivel.files.origin import OUTSIDE, Origin
 from nivel.files.outline import TOP_WORDS
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
-from nivel.machine import MachineRecord, Record
 from nivel.machine.bodies.inertia import Inertia
-from nivel.machine.core.record import field_words
+from nivel.machine.core.record import Record, field_words
 from nivel.machine.laws.table import Table
+from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.wording import shown, unknown_word
 

@@ -46,7 +46,8 @@ from nivel.live.shared import bytes_of, live_in
 from nivel.live.snapshot import arrays_of, put_back, taken
 from nivel.live.system_clock import clock_addresses
 from nivel.live.timing import Timing, timing_of
-from nivel.machine import Input, MachineRecord
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.signals.input import Input
 from nivel.methods import CHOSEN, known_words
 from nivel.native import library
 

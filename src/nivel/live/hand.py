@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from nivel.machine import Expression, Input, MachineRecord
 from nivel.machine.forces import Hand
+from nivel.machine.laws.time_function import Expression
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.signals.input import Input
 
 PULL, BODY, POINT, TOWARDS = 0, 1, 2, 5  # of its inputs
 COUNT: Final = 8

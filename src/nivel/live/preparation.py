@@ -22,9 +22,10 @@ from nivel.integrate.loop.run import Run
 from nivel.kernels.core.block import Handle
 from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
-from nivel.machine import MachineRecord, Table
 from nivel.machine.changes import changed
 from nivel.machine.control import UnitBlock
+from nivel.machine.laws.time_function import Table
+from nivel.machine.machine_record import MachineRecord
 
 LONGEST: Final = 86400.0  # s of a live run
 LONGEST_TICK: Final = 0.1  # s: beyond it nobody can operate a machine

@@ -30,7 +30,8 @@ from nivel.live.journal import (
     rows_of,
 )
 from nivel.live.preparation import Pace
-from nivel.machine import MachineRecord, Table
+from nivel.machine.laws.time_function import Table
+from nivel.machine.machine_record import MachineRecord
 from nivel.native.store import whole
 
 Array = NDArray[np.float64]

@@ -30,7 +30,7 @@ from nivel.kernels.core.status import DONE as ENDED
 from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store

@@ -25,7 +25,7 @@ from nivel.live.recording import Take, takes_of
 from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of
-from nivel.machine import Input
+from nivel.machine.signals.input import Input
 
 Array = NDArray[np.float64]
 LOOK: Final = 1.0  # s between two looks at how far the run can be trusted

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.live.session import COMMANDS, Session
-from nivel.machine import Input, Sensor
+from nivel.machine.signals.input import Input
+from nivel.machine.signals.sensor import Sensor
 from nivel.system.layout import FrameLayout, Variable
 from nivel.view import frames
 from nivel.view.package import Block, to_bytes

@@ -7,13 +7,14 @@ from typing import Final
 
 import numpy as np
 
-from nivel.machine import mass_properties, resolve
 from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Box, Cylinder, Sphere
 from nivel.machine.forces import Contact, ForceElement, Hand, JointSpringDamper, PointForce, Torque
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import resolve
 
 SOFT: Final = 0.2  # frequency, or rate of decay, times the step
 CORNER: Final = 4.0  # mass of a solid over that which a corner of it feels

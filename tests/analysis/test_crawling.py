@@ -34,6 +34,18 @@ def test_a_run_that_sticks_under_a_sign_stops_and_names_it(integrator):
     assert result.array("cart.position.x")[-1] == pytest.approx(SPEED**2 / (2.0 * PUSH), rel=1e-4)
 
 
+@pytest.mark.parametrize("integrator", ["dopri5", "radau"])
+def test_a_switch_that_turns_to_and_fro_is_named_in_bounded_work(integrator):
+    """Near its end, too: 30 ms after the cart stands. A condition that is passed once jumps as well, and is not the one."""
+    effort = f"if(rail.displacement > 0.1, -{PUSH}, -{PUSH + 0.1})*sign(rail.displacement_rate)"
+    record = slide(effort, ", far: {type: motor, coordinate: rail, effort: 'if(rail.displacement > 0.1, 0, 1e-3)'}")
+    with pytest.raises(SolveError, match="steps have shrunk") as caught:
+        Machine.from_record(record).simulate(integrator=integrator, tolerance=1e-8, duration=0.36)
+    assert "forces.rub jumps" in caught.value.advice
+    assert "forces.far" not in caught.value.advice
+    assert caught.value.result.timing["steps"] < 30_000
+
+
 def test_what_the_message_proposes_runs_to_the_end_and_is_right():
     """Within v_t²/a of the place where Coulomb's friction stops the body."""
     proposals = (

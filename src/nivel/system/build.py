@@ -134,6 +134,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         size=size,
         start=np.zeros(0),
         units=tuple(builder.functions.units.values()),
+        switching=tuple(builder.functions.switching),
     )
     poses, velocities = given_poses(machine), given_velocities(machine.bodies)
     return replace(system, start=system.state(poses.ravel(), *velocities))

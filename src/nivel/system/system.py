@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.record.record import Control, Record
+from nivel.machine.units.tree import Node as Tree
 from nivel.system.hydraulics.circuit import Node
 from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout
@@ -54,6 +55,7 @@ class System:
     input_functions : the function of each input. units : of others that its control calls.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
+    switching : the function of each switch.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
     tree_names : what each velocity of a tree is the rate of, e.g. `hinge.angle`; empty in absolute coordinates.
     """
@@ -86,6 +88,7 @@ class System:
     modes: tuple[str, ...] = ()
     gradient_sizes: Array = field(default_factory=lambda: np.zeros(0))
     units: tuple[Unit, ...] = ()
+    switching: tuple[Tree, ...] = ()
 
     @property
     def body_count(self) -> int:

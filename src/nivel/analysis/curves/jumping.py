@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import jumps
@@ -9,12 +11,18 @@ from nivel.machine.units.tree import Node, signals
 from nivel.words.wording import shown
 
 
-def jumping_functions(machine: MachineRecord) -> tuple[str, ...]:
-    """Names and texts of the functions that jump where something of the motion passes a value; those of samples jump anyway."""
+def jumping_functions(machine: MachineRecord, among: Collection[Node] | None = None) -> tuple[str, ...]:
+    """Names and texts of the functions that jump where something of the motion passes a value; those of samples jump anyway.
+
+    among : these functions alone.
+    """
     return tuple(
         f"{shown(each.function.text)} of {each.section}.{each.part}"
         for each in machine.functions
-        if each.sampling is None and isinstance(each.function, Expression) and jumps(each.function.tree, _reads_signals)
+        if each.sampling is None
+        and isinstance(each.function, Expression)
+        and (among is None or each.function.tree in among)
+        and jumps(each.function.tree, _reads_signals)
     )
 
 

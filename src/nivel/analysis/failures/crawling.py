@@ -5,11 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from nivel.analysis.failures.status import Status
-from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, Run
+from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, WAIT, Run
+from nivel.machine.units.tree import Node
+from nivel.system.system import System
 
 # A run is looked at after so many steps. It crawls where they were this much shorter than its longest one, and so many are left at least.
 LOOKED_AT, SHORT, LEFT = 10_000, 1e-5, 1e7
+# The same where a switch turns to and fro: so many steps have made less way than the longest one, and a hundred times as many are left.
+SHORT_TO_AND_FRO, LEFT_TO_AND_FRO = 1e-4, 1e6
 # Its end is out of reach where so many steps are left, at each of so many looks.
 OUT_OF_REACH, OFTEN, TIMES = 1e8, 2_000, 20
 # beside a position where the motion branches after so many looks
@@ -33,20 +39,30 @@ class Pace:
         return mean
 
 
+def to_and_fro(run: Run, system: System) -> tuple[Node, ...]:
+    """Functions of the switches that turn to and fro without end, so that the run has let them go."""
+    watched = system.record.watched
+    waits = run.event_values[WAIT, len(watched.event) + len(watched.surface) :]
+    return tuple(system.switching[k] for k in np.flatnonzero(waits))
+
+
 class Crawl:
     """Whether a run of this duration [s] makes next to no way any more. jumps : some function jumps with the motion. branches : whether
-    the motion does, beside the state of a run."""
+    the motion does, beside the state of a run. system : its equations."""
 
-    def __init__(self, duration: float, jumps: bool, branches: Callable[[Run], bool]) -> None:
-        self.duration, self.jumps, self.branches = duration, jumps, branches
+    def __init__(self, duration: float, jumps: bool, branches: Callable[[Run], bool], system: System) -> None:
+        self.duration, self.jumps, self.branches, self.system = duration, jumps, branches, system
         self.since, self.often, self.count = Pace(), Pace(), 0
 
     def seen(self, run: Run) -> Status | None:
         """Called between chunks of steps; the status with which the run ends, None where it goes on."""
         left = self.duration - float(run.clock[TIME])
         mean = self.since.mean(run, LOOKED_AT) if self.jumps else None
-        if mean is not None and mean < SHORT * float(run.pace[TAKEN].max()) and left > LEFT * mean:
-            return Status.CRAWLS
+        if mean is not None:
+            turning = to_and_fro(run, self.system)
+            short, many = (SHORT_TO_AND_FRO, LEFT_TO_AND_FRO) if turning else (SHORT, LEFT)
+            if mean < short * float(run.pace[TAKEN].max()) and left > many * mean:
+                return Status.CRAWLS
         mean = self.often.mean(run, OFTEN)
         if mean is not None:
             self.count = self.count + 1 if left > OUT_OF_REACH * mean else 0

@@ -17,7 +17,8 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback
 from nivel.analysis.assembly.row_settings import of_rows
-from nivel.analysis.failures.crawling import Crawl
+from nivel.analysis.curves.jumping import jumping_functions
+from nivel.analysis.failures.crawling import Crawl, to_and_fro
 from nivel.analysis.failures.divergence import GROWN, UNBOUND
 from nivel.analysis.failures.fastest import fastest_beyond, held_step
 from nivel.analysis.failures.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
@@ -163,9 +164,9 @@ def march(
     sinks = sinks if probes is None else (probes, *sinks)
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
-    crawl = (
-        Crawl(settings.duration, bool(prepared.jumping), partial(_branches, prepared)) if settings.steps == 0 else None
-    )
+    crawl = None
+    if settings.steps == 0:
+        crawl = Crawl(settings.duration, bool(prepared.jumping), partial(_branches, prepared), system)
     while status in GOES_ON and finished.outcome == "done":
         status, spent = march_in_chunks(
             loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing, crawl, narrow, probes
@@ -360,7 +361,7 @@ def failure_of(
         run.previous,
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
-        jumping=prepared.jumping,
+        jumping=_jumping(prepared, run),
     )
     message, advice = failure(stop)
     if status == NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
@@ -370,6 +371,13 @@ def failure_of(
         message, advice = branching_advice(joints, stop.step)
         message = f"stopped at t = {time:.6g} s: {message}"
     return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
+
+
+def _jumping(prepared: Prepared, run: Run) -> tuple[str, ...]:
+    """Functions that jump: those that turn to and fro, where there are any."""
+    turning = to_and_fro(run, prepared.motion.system)
+    few = jumping_functions(prepared.machine, turning) if prepared.machine is not None and turning else ()
+    return few or prepared.jumping
 
 
 def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: str, advice: str) -> tuple[str, str]:

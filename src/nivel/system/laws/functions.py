@@ -21,6 +21,7 @@ from nivel.machine.units.formula import Formula
 from nivel.machine.units.interpolation import SMOOTH
 from nivel.machine.units.linear_function import LinearFunction, linear_function
 from nivel.machine.units.tree import TIME as TIME_SYMBOL
+from nivel.machine.units.tree import Node
 from nivel.system.laws.laws import law_address
 from nivel.system.laws.program import (
     Switching,
@@ -42,7 +43,8 @@ Find = Callable[[str], Signal]
 class FunctionTable:
     """Functions of a machine in numbers. Laws are compiled, or loaded from the cache, when they are added.
 
-    units : of others by their blocks. switches : places in `arguments` of the side of each switch, and of its difference.
+    units : of others by their blocks. switches : places in `arguments` of the side of each switch, and of its difference. switching : the
+    function of each.
     """
 
     kind: list[int] = field(default_factory=list)
@@ -55,6 +57,7 @@ class FunctionTable:
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
     switches: list[tuple[int, int]] = field(default_factory=list)
+    switching: list[Node] = field(default_factory=list)
     units: dict[str, Unit] = field(default_factory=dict)
 
     def add(
@@ -95,7 +98,9 @@ class FunctionTable:
             case Expression() | Formula():
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
                 if switching:
-                    return self._append_switching(switching_program(function, signals), signals, find)
+                    program = switching_program(function, signals)
+                    self.switching += [function.tree] * len(program.switches)
+                    return self._append_switching(program, signals, find)
                 program = expression_program(function, signals, beyond=beyond)
                 return self._append(CODE, signals, find, address=run.address, program=program)
             case UnitOutput():

@@ -132,11 +132,31 @@ def test_a_large_column_is_unstable_in_as_many_directions_as_loads_are_passed(sh
     np.testing.assert_array_equal(column.statics(duration=0).array("unstable_directions"), [unstable])
 
 
+@pytest.mark.parametrize("share", [0.5, 0.9])
+def test_a_column_below_its_flutter_load_does_not_grow(share):
+    """Beck's column flutters at 20.05 E I/l². Below it vibrates without damping beside motions of 6e5/s, also where the load is put on at
+    once and round-off parts its two planes."""
+    radius, length = 0.01, 1.0
+    load = share * 20.05 * YOUNG * np.pi * radius**4 / (4.0 * length**2)
+    round_bar = {"type": "circle", "radius": radius}
+    column = machine(
+        {
+            "beams": {"column": {"from": [0, 0, 0], "to": [0, 0, length], "section": round_bar, "material": STEEL, "elements": 8}},
+            "joints": {"wall": {"type": "fixed", "bodies": ["ground", "column.start"], "point": [0, 0, 0]}},
+            "forces": {"follower": {"type": "force", "body": "column.end", "vector": [0, 0, -load], "axes": "body"}},
+        }
+    )  # fmt: skip
+    for about in ("start", "equilibrium"):
+        found = column.linearise(about=about, verify=False)
+        assert found.stable
+        assert {mode.kind for mode in found.modes} == {"undamped vibration"}
+
+
 # --- slow motions of few masses ---
 
 
-def masses(soft, stiff, soft_damping=0.0):
-    """Two masses of 2 kg on a rail, `soft` and its damper to the ground, `stiff` between them."""
+def masses(soft, stiff, soft_damping=0.0, push=0.0):
+    """Two masses of 2 kg on a rail, `soft` and its damper to the ground, `stiff` between them. push : times both speeds."""
     bodies = [nivel.Body(name=name, mass=2.0, inertia=(1, 1, 1)) for name in ("a", "b")]
     joints = [
         nivel.Joint(name=f"rail_{name}", type="translational", bodies=("ground", name), point=(0, 0, 0), axis=(1, 0, 0))
@@ -147,6 +167,9 @@ def masses(soft, stiff, soft_damping=0.0):
         nivel.Motor(name="right", coordinate="rail_b", effort=f"{stiff!r}*(rail_a.displacement - rail_b.displacement)"),
         nivel.Motor(name="left", coordinate="rail_a", effort=f"{stiff!r}*(rail_b.displacement - rail_a.displacement)"),
     ]
+    if push:
+        speed = "(rail_a.displacement_rate + rail_b.displacement_rate)"
+        forces.append(nivel.Motor(name="push", coordinate="rail_a", effort=f"{push!r}*{speed}"))
     return nivel.Machine("masses", bodies=bodies, joints=joints, forces=forces)
 
 
@@ -155,6 +178,18 @@ def test_a_soft_spring_beside_a_stiff_one_is_no_zero():
     assert not model.structural.any()
     np.testing.assert_allclose(np.abs(model.eigenvalues[:2]), 0.1, rtol=1e-3)
     np.testing.assert_allclose(np.abs(model.eigenvalues[2:]), np.sqrt(1e9), rtol=1e-9)
+
+
+def test_growth_that_round_off_hides_is_told():
+    """4 kg on 0.04 N/m under a push c (v + v) grow by c/4 beside 3e4 rad/s, of whose forces 1e9 N the last digit is 1e-7 N."""
+    grows = masses(0.04, 1e9, push=8e-4).linearise()
+    np.testing.assert_allclose(grows.eigenvalues[0].real, 2e-4, atol=grows.round_off[0])
+    assert not grows.stable
+    assert grows.trust.light == "green"
+    unsure = masses(0.04, 1e9, push=8e-6).linearise()
+    np.testing.assert_allclose(unsure.eigenvalues[0].real, 2e-6, atol=unsure.round_off[0])
+    assert unsure.stable
+    assert [item.name for item in unsure.trust.items if item.verdict == "amber"] == ["growth"]
 
 
 def test_a_slow_decay_beside_a_fast_vibration_is_no_zero():

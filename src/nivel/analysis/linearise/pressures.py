@@ -76,4 +76,4 @@ def transformed(space: StateSpace, T: Array) -> StateSpace:
 def seen(found: Eigen, T: Array) -> Eigen:
     """Eigenvectors of the equations for T x."""
     back: Array = np.asarray(np.linalg.inv(T), dtype=np.float64)
-    return Eigen(found.values, found.zero, T @ found.right, back.T @ found.left, found.zeros)
+    return Eigen(found.values, found.zero, T @ found.right, back.T @ found.left, found.zeros, found.known)

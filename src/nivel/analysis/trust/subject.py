@@ -269,7 +269,8 @@ class OtherVibrations:
 
 @dataclass(frozen=True, kw_only=True)
 class Linearisation(Subject, Computed):
-    """Linear equations about a state. eigenvalues (n,) [1/s] in ascending order of magnitude, not numbers where there are none to read.
+    """Linear equations about a state. eigenvalues (n,) [1/s] in ascending order of magnitude, not numbers where there are none to read;
+    round_off (n,) [1/s] : to how much they are known.
 
     moves : whether the machine moves in this state; unsteady : why it is neither in equilibrium nor in a steady motion, in sentences.
     kinks : of the equations at the state. reached : the time [s] until which the machine was run to it, 0 where it was not.
@@ -278,6 +279,7 @@ class Linearisation(Subject, Computed):
     """
 
     eigenvalues: NDArray[np.complex128]
+    round_off: NDArray[np.float64]
     moves: bool = False
     unsteady: tuple[str, ...] = ()
     kinks: tuple[Kink, ...] = ()

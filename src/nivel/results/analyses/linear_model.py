@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 SHOWN: Final = 3  # states that are named with a mode
-ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing
+ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing, however well it is known
 SHARE: Final = 0.1  # least participation of these
 FREQUENCIES: Final = 400
 LISTED: Final = 12  # modes in a text
@@ -41,7 +41,7 @@ class Mode:
 
     natural_frequency [Hz] : |λ|/2π. damping_ratio : -Re λ/|λ|, not a number for λ = 0. structural : exactly zero, whatever the numbers of
     the machine. participation : (name, share) of the states that take part most. unresolved : what makes it wrong, in words: elements of
-    beams, or modes of a flexible body; empty where nothing is known against it.
+    beams, or modes of a flexible body; empty where nothing is known against it. round_off [1/s] : to how much the eigenvalue is known.
     """
 
     number: int
@@ -51,6 +51,7 @@ class Mode:
     structural: bool
     participation: tuple[tuple[str, float], ...]
     unresolved: str = ""
+    round_off: float = 0.0
 
     @property
     def kind(self) -> str:
@@ -58,7 +59,7 @@ class Mode:
         if self.structural:
             return "exactly zero"
         value = self.eigenvalue
-        if abs(value.real) <= ROUND_OFF * abs(value):
+        if abs(value.real) <= max(self.round_off, ROUND_OFF * abs(value)):
             return "undamped vibration"
         if value.imag:
             return "damped vibration" if value.real < 0.0 else "vibration that grows"
@@ -81,7 +82,7 @@ class LinearModel(Tabulated):
 
     states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
     coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair; no numbers
-    where the machine does not move steadily.
+    where the machine does not move steadily. round_off (n,) : to how much they are known [1/s].
     steady : whether eigenvalues describe the motion (at rest, or the same A later on). no_modes : why they do not, and what to do; empty
     where they do. remarks : on what the states are. trust : the trust report.
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
@@ -107,6 +108,7 @@ class LinearModel(Tabulated):
     K: Array
     eigenvalues: Complex
     structural: NDArray[np.bool_]
+    round_off: Array
     right: Complex
     left: Complex
     shift: Complex
@@ -129,12 +131,18 @@ class LinearModel(Tabulated):
 
     @property
     def stable(self) -> bool:
-        """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off, with sampled controllers every pole
-        an absolute value of one at most; not where there are none to read."""
+        """Whether no eigenvalue is `growing`, with sampled controllers every pole has an absolute value of one at most; not where there are
+        none to read."""
         if self.sampled is not None:
             return self.steady and self.sampled.stable
-        values = self.eigenvalues[~self.structural]
-        return self.steady and bool(np.all(values.real <= ROUND_OFF * np.abs(values)))
+        return self.steady and not self.growing.any()
+
+    @property
+    def growing(self) -> NDArray[np.bool_]:
+        """(n,) whether the real part of each eigenvalue is positive, by more than round-off; not of those that are exactly zero."""
+        return ~self.structural & (
+            self.eigenvalues.real > np.maximum(self.round_off, ROUND_OFF * np.abs(self.eigenvalues))
+        )
 
     @property
     def participation(self) -> Array:
@@ -165,6 +173,7 @@ class LinearModel(Tabulated):
                     bool(self.structural[k]),
                     taking,
                     self._unresolved(len(out) + 1, complex(value)),
+                    float(self.round_off[k]),
                 )
             )
         return tuple(out)
@@ -237,6 +246,7 @@ class LinearModel(Tabulated):
             "K": (("coordinate", "coordinate_"), self.K, {}),
             "eigenvalue_real": (("eigenvalue",), self.eigenvalues.real, {"units": "1/s"}),
             "eigenvalue_imag": (("eigenvalue",), self.eigenvalues.imag, {"units": "1/s"}),
+            "eigenvalue_round_off": (("eigenvalue",), self.round_off, {"units": "1/s"}),
             "structural": (("eigenvalue",), self.structural, {}),
             "participation": (("state", "eigenvalue"), self.participation, {}),
         }

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
-from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
+from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.dataset_file import write_dataset
 from nivel.results.pages import page_maker
@@ -118,7 +118,7 @@ class LinearSweep:
     def stability_changes(self) -> list[tuple[float, float]]:
         """Pairs of values between which the machine becomes stable or unstable."""
         known = [
-            (value, bool(np.all(model.eigenvalues.real <= ROUND_OFF * np.abs(model.eigenvalues))))
+            (value, not model.growing.any())
             for value, model in zip(self.values, self.models, strict=True)
             if model.steady
         ]

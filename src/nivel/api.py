@@ -994,7 +994,7 @@ class Machine(Model):
         from nivel.analysis.linearise.opened import opened
         from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.plan.equations_only import neutral
-        from nivel.machine.settings.linearise import EQUILIBRIUM, LineariseSettings
+        from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
         from nivel.machine.settings.values import settings_of, static_coordinates
 
         simulation = self.record.simulation
@@ -1003,7 +1003,7 @@ class Machine(Model):
         asked = settings_of(LineariseSettings, "linearise", own | _given(settings))
         at_rest = asked.about == EQUILIBRIUM
         with self._faults_in_file():
-            refuse_jumps(self.record)
+            refuse_jumps(self.record, may_slide=asked.about not in (EQUILIBRIUM, ROTATION))
             inputs = opened(self.record, asked.inputs, asked.time)
             plain, chosen = neutral(inputs.machine, asked.coordinates, EQUILIBRIUM if at_rest else "as-given")
             methods = methods_of(plain, "newton-euler", chosen)

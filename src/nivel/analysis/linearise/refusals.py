@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from nivel.errors import Fault, ModelError
 from nivel.machine.control.order import PartOf, parts_of
 from nivel.machine.control.unit import UnitBlock
-from nivel.machine.forces import Contact, Friction, holds_by_capacity
+from nivel.machine.forces import Contact, Friction, TransmissionLoss, holds_by_capacity
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.machine.machine_record import MachineRecord
 
 MOST = 1500  # velocities of full matrices
 
 
-def refuse_jumps(machine: MachineRecord) -> None:
-    """Raises ModelError with all forces and states whose effect is no smooth function of the state."""
+def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_slide: bool = False) -> None:
+    """Raises ModelError with all forces and states whose effect is no smooth function of the state. sliding : names of forces that slide at
+    the state, as all that have a place for it `may_slide`."""
     faults = [
         Fault(
             "",
@@ -23,7 +26,7 @@ def refuse_jumps(machine: MachineRecord) -> None:
             f"'{force.model}' friction has no derivative where it sticks: leave it out, use a damper in the joint, or use `lugre`",
         )
         for force in machine.forces
-        if isinstance(force, Friction) and force.model != "lugre"
+        if isinstance(force, Friction) and force.model == "stiction" and force.name not in sliding and not may_slide
     ]
     faults += [
         Fault(
@@ -35,6 +38,8 @@ def refuse_jumps(machine: MachineRecord) -> None:
         )
         for force in machine.forces
         if holds_by_capacity(force)
+        and force.name not in sliding
+        and not (may_slide and not isinstance(force, TransmissionLoss))
     ]
     faults += [
         Fault(

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
 from nivel.analysis.assembly.user_frames import frame_axes, frame_place
@@ -23,6 +24,7 @@ from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
+from nivel.analysis.linearise.sliding import let_slide
 from nivel.analysis.linearise.validity import judged, signed
 from nivel.analysis.linearise.vibrations_apart import graded
 from nivel.analysis.plan.plan import Methods
@@ -66,8 +68,11 @@ def linear_model(
     """
     (listener or Listener()).say("linearising")
     machine = opened.machine
-    refuse_jumps(machine)
-    moment = at_start(methods) if posture is None else at_posture(methods, posture)
+
+    def slide(motion: MotionEquations, t: float, y: Array) -> None:
+        refuse_jumps(machine, let_slide(motion, t, y))
+
+    moment = at_start(methods, slide) if posture is None else at_posture(methods, posture, slide)
     moment = rotating(moment) if settings.about == ROTATION else moment
     instant = Instant(moment.motion, moment.t, moment.y)
     _refuse_large(instant)

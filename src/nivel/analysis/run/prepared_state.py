@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 
@@ -49,14 +49,19 @@ class Posture:
     reference: Array
 
 
-def at_start(methods: Methods) -> Moment:
-    """The machine as it starts by its settings."""
+Change = Callable[[MotionEquations, float, Array], None]
+
+
+def at_start(methods: Methods, change: Change | None = None) -> Moment:
+    """The machine as it starts by its settings. change : is made to its equations, for the time and state that it is called with."""
     prepared = prepare(methods)
+    if change is not None:
+        change(prepared.motion, 0.0, prepared.start)
     return _with_residual(prepared, prepared.motion, 0.0, prepared.start, prepared.assembly.reference, methods)
 
 
-def at_posture(methods: Methods, posture: Posture) -> Moment:
-    """The machine in a posture. Raises ModelError for flexible bodies in relative coordinates."""
+def at_posture(methods: Methods, posture: Posture, change: Change | None = None) -> Moment:
+    """The machine in a posture; change : as of `at_start`. Raises ModelError for flexible bodies in relative coordinates."""
     prepared = prepare(methods)
     if len(posture.modes) and methods.coordinates == "relative":
         message = "a moment of a run of flexible bodies is known in absolute coordinates: use --coordinates absolute"
@@ -75,6 +80,8 @@ def at_posture(methods: Methods, posture: Posture) -> Moment:
     for k, fact in enumerate(system.states):
         start[first + k] = posture.states.get(fact.name, start[first + k])
     motion = MotionEquations(system, import_module(methods.path.module))
+    if change is not None:
+        change(motion, posture.t, start)
     return _with_residual(prepared, motion, posture.t, start, posture.reference, methods)
 
 

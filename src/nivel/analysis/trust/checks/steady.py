@@ -11,7 +11,7 @@ from nivel.analysis.trust.check import Check
 from nivel.analysis.trust.subject import Linearisation
 from nivel.results.trust import Item, number
 
-# Growth by less than this share of an eigenvalue in a radian is none that matters.
+# Growth by less than this share of its eigenvalue, and of the slowest one that is told from zero, is none that matters.
 GROWTH = 1e-6
 
 
@@ -48,7 +48,9 @@ class Hidden:
 def look_for_growth(subject: Linearisation) -> Hidden | None:
     """The first mode whose growth may be round-off."""
     values, known = subject.eigenvalues, subject.round_off
-    hidden = np.flatnonzero((values.real > GROWTH * np.abs(values)) & (values.real <= known))
+    size = np.abs(values)
+    slowest = min(size[size > known], default=0.0)
+    hidden = np.flatnonzero((values.real > GROWTH * np.maximum(size, slowest)) & (values.real <= known))
     if not len(hidden):
         return None
     k = int(hidden[0])

@@ -9,11 +9,10 @@ import json
 import numpy as np
 
 import nivel
-from nivel.analysis.trust.checks.freedom import Freedom
-from nivel.analysis.trust.checks.redundancy import Redundancy
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Motion
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.checks.joints import Freedom, Redundancy
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Motion
 from nivel.system.layout import FrameLayout, frame_layout
 
 MASS, LENGTH, GRAVITY, SWING = 2.0, 0.5, 9.81, 0.3

@@ -10,12 +10,12 @@ from typing import get_args
 import pytest
 
 import nivel.integrate
-from nivel.analysis.failures.outcome import FAILURES
-from nivel.analysis.failures.status import Status
-from nivel.analysis.trust.report import every_check
 from nivel.cli.run import command as run_command
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.judge.after.report import every_check
+from nivel.judge.during.failure import FAILURES
+from nivel.judge.during.stop import Status
 from nivel.kernels.core import status
 from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.machine.forces import FORCES as RECORDS

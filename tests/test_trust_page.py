@@ -7,8 +7,8 @@ import pytest
 from click.testing import CliRunner
 
 from needing import needs
-from nivel.analysis.trust.report import every_check
 from nivel.cli import main
+from nivel.judge.after.report import every_check
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "trust.md").read_text(encoding="utf-8")

@@ -65,7 +65,6 @@ if TYPE_CHECKING:
     import xarray
 
     from nivel.analysis.assembly.mass import MassProperties
-    from nivel.analysis.check.check import Check
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.optimise.evaluations import Exact
@@ -75,6 +74,7 @@ if TYPE_CHECKING:
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.fmu.writer import Unit
+    from nivel.judge.before.check import Check
     from nivel.methods import StaticCoordinates
     from nivel.native.entry import Entry
     from nivel.results.analyses.configuration_curve import ConfigurationCurve
@@ -154,7 +154,7 @@ class Machine(Model):
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
         build(preparation_entries(plan.methods), listener)
-        from nivel.analysis.check.check import check
+        from nivel.judge.before.check import check
         from nivel.system.forces.stretched_ropes import stretched_ropes
 
         with self._faults_in_file():
@@ -728,7 +728,7 @@ class Machine(Model):
         own = {"duration": simulation.duration, "coordinates": static_coordinates(simulation.coordinates)}
         chosen_duration = settings.get("duration") is not None
         asked = settings_of(StaticsSettings, "statics", own | _given(settings))
-        from nivel.analysis.statics.refusals import for_statics
+        from nivel.analysis.statics.free_coordinates import for_statics
 
         neutral, chosen = for_statics(self.record, asked)
         with self._faults_in_file():
@@ -766,8 +766,8 @@ class Machine(Model):
         Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
         the positions until then, its message says what holds which driver.
         """
-        from nivel.analysis.kinematics.refusals import refuse_what_bends
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.judge.before.analyses import refuse_what_bends
         from nivel.machine.settings.kinematics import kinematics_settings
 
         asked = kinematics_settings(self.record, settings)
@@ -865,10 +865,10 @@ class Machine(Model):
         """
         from nivel.analysis.inverse.actuators import actuation
         from nivel.analysis.inverse.friction_efforts import acting_drivers, driven_alone, efforts_of_drivers, rubs
-        from nivel.analysis.inverse.refusals import refuse_for_inverse
         from nivel.analysis.inverse.trajectory import along_trajectory
         from nivel.analysis.inverse.trust import with_trust
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.judge.before.analyses import refuse_for_inverse
         from nivel.machine.settings.inverse import InverseSettings
         from nivel.machine.settings.values import settings_of
 
@@ -909,8 +909,8 @@ class Machine(Model):
 
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
-        from nivel.analysis.linearise.refusals import refuse_jumps, refuse_samples
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.judge.before.analyses import refuse_jumps, refuse_samples
 
         with self._faults_in_file():
             refuse_jumps(self.record)
@@ -992,8 +992,8 @@ class Machine(Model):
         Raises ModelError (nothing was computed) or SolveError.
         """
         from nivel.analysis.linearise.opened import opened
-        from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.plan.equations_only import neutral
+        from nivel.judge.before.analyses import refuse_jumps
         from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
         from nivel.machine.settings.values import settings_of, static_coordinates
 

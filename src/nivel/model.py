@@ -18,6 +18,7 @@ from nivel.files.sources import Sources
 from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
+from nivel.judge.before.unusual import remarks
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -32,7 +33,6 @@ from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.plausible import remarks
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input

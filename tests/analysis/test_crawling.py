@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nivel import SolveError
-from nivel.analysis.curves.jumping import jumping_functions
+from nivel.analysis.curves.corners import jumping_functions
 from nivel.api import Machine
 from nivel.files import parse_machine
 

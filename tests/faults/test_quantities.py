@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 import nivel
-from nivel.analysis.trust.checks.quantities import group_of
+from nivel.judge.after.checks.quantities import group_of
 from nivel.system.layout import Variable
 
 FAULTS = Path(__file__).parent

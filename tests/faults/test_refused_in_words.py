@@ -13,11 +13,11 @@ from click.testing import CliRunner
 from nivel import Body
 from nivel.cli import main
 from nivel.errors import ModelError, SolveError
+from nivel.judge.before.unusual import remarks
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.plausible import remarks
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from simulating import hinge, machine, solid
 from solid_meshes import box_mesh

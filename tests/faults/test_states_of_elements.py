@@ -9,9 +9,9 @@ from nivel import Machine
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
-from nivel.analysis.trust.checks.sides import look
-from nivel.analysis.trust.subject import run_of
 from nivel.files import parse_machine
+from nivel.judge.after.checks.states import look_at_sides
+from nivel.judge.after.subject import run_of
 
 ZOO = """
 format: 1
@@ -99,7 +99,7 @@ def zoo():
 
 def test_no_kind_contradicts_itself(zoo):
     """Each is on both of its sides in the run."""
-    assert look(zoo) == []
+    assert look_at_sides(zoo) == []
     force = zoo.result.array
     for name in (
         "contact.normal_force",
@@ -131,13 +131,13 @@ def test_an_effort_on_the_wrong_side_is_red(zoo, element, sides, effort):
     overlap = zoo.result.array(f"force.{element}.{sides}")
     apart, closed = int(np.argmin(overlap)), 100
     changes = [(f"force.{element}.{effort}", apart, 1.0)]
-    (found,) = look(replace(zoo, result=Spoilt(zoo.result, changes)))
+    (found,) = look_at_sides(replace(zoo, result=Spoilt(zoo.result, changes)))
     assert (found.element, found.time) == (element, zoo.result.time[apart])
     # it grows from frame to frame, and nothing acts
     near = slice(closed - 1, closed + 2)
     changes = [(f"force.{element}.{sides}", near, [0.01, 0.02, 0.03]), (f"force.{element}.{effort}", near, 0.0)]
     changes.append((f"force.{element}.rate", near, 1.0))
-    (found,) = look(replace(zoo, result=Spoilt(zoo.result, changes)))
+    (found,) = look_at_sides(replace(zoo, result=Spoilt(zoo.result, changes)))
     assert found.element == element
     assert abs(found.time - zoo.result.time[closed]) <= 0.0051
 
@@ -171,7 +171,7 @@ ALL, LAST = slice(0, 200), slice(160, 201)
     ],
 )
 def test_a_state_that_contradicts_its_inequality_is_red(zoo, element, changes):
-    (found,) = look(replace(zoo, result=Spoilt(zoo.result, changes)))
+    (found,) = look_at_sides(replace(zoo, result=Spoilt(zoo.result, changes)))
     assert found.element == element
     assert found.time in np.concatenate([np.atleast_1d(zoo.result.time[at]) for _, at, _ in changes])
 
@@ -181,4 +181,4 @@ def test_what_is_left_out_of_a_result_is_not_looked_at(zoo):
         def __contains__(self, name):
             return not name.startswith("force.contact") and name in self._result
 
-    assert look(replace(zoo, result=Without(zoo.result, [("force.contact.normal_force", 0, 5.0)]))) == []
+    assert look_at_sides(replace(zoo, result=Without(zoo.result, [("force.contact.normal_force", 0, 5.0)]))) == []

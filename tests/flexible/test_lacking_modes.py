@@ -6,8 +6,8 @@ import pytest
 import simulating
 from models import bar, block, reduced
 from needing import needs
-from nivel.analysis.trust.checks.modes import response
 from nivel.flexible.body.body_file import read_body, write_body
+from nivel.judge.after.checks.modes import response
 from nivel.results.scales import rotated
 
 LENGTH, WIDTH, HEIGHT, MODULUS, DENSITY = 2.0, 0.02, 0.03, 210e9, 7850.0

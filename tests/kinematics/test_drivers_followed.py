@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.trust.checks import followed
+from nivel.judge.after.checks import efforts
 
 
 def turned(value, **more):
@@ -42,9 +42,9 @@ def test_a_driver_that_is_not_followed_is_told(off, verdict):
         joint_coordinates={"hinge.angle": "rad"},
         scales=SimpleNamespace(size=1.0, size_kind="size"),
     )
-    found = followed.look(subject)
+    found = efforts.look_at_drivers(subject)
     assert found.missed == pytest.approx(off, rel=1e-3, abs=1e-13)
-    assert followed.say(found).verdict == verdict
+    assert efforts.say_drivers(found).verdict == verdict
 
 
 @pytest.mark.parametrize(
@@ -66,8 +66,8 @@ def test_drivers_by_speed_and_acceleration_are_compared_with_their_way(asked, wa
         joint_coordinates={"hinge.angle": "rad"},
         scales=SimpleNamespace(size=1.0, size_kind="size"),
     )
-    assert followed.say(followed.look(subject)).verdict == verdict
-    assert followed.not_compared(subject) == []
+    assert efforts.say_drivers(efforts.look_at_drivers(subject)).verdict == verdict
+    assert efforts.not_compared(subject) == []
 
 
 def test_efforts_compare_their_motion_with_drivers_that_hold():

@@ -8,8 +8,8 @@ from scipy.interpolate import CubicSpline
 
 import nivel
 from example_files import rigid_example
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Reach
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Reach
 from nivel.results.analyses.mechanism import Range, joint_place
 from references import four_bar, one_dof, slider_crank
 

@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from nivel.analysis.curves.corners import corners_of
-from nivel.analysis.curves.jumping import jumping_functions
+from nivel.analysis.curves.corners import corners_of, jumping_functions
 from nivel.kernels.record import program as kernel
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.bounds import bounds_of, values_of

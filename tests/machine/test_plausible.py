@@ -6,7 +6,7 @@ import pytest
 
 import nivel
 from example_files import EXAMPLES
-from nivel.machine.plausible import remarks
+from nivel.judge.before.unusual import remarks
 
 DEMOS = Path(nivel.__file__).parent / "demos"
 GOOD = """\

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
-from nivel.analysis.trust.checks.redundancy import Redundancy
 from nivel.errors import ModelError
+from nivel.judge.after.checks.joints import Redundancy
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.thinning import Thinning

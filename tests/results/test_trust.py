@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
-from nivel.analysis.trust.checks.accuracy import MARGIN, Accuracy, Verified, error_from_finer
-from nivel.analysis.trust.checks.neglected import Cost
-from nivel.analysis.trust.checks.quantities import QuantityError
-from nivel.analysis.trust.checks.redundancy import Redundancy
-from nivel.analysis.trust.report import assess, blindness, thresholds_of
-from nivel.analysis.trust.subject import Scales, Subject
+from nivel.judge.after.checks.accuracy import MARGIN, Accuracy, Verified, error_from_finer
+from nivel.judge.after.checks.flexible import Cost
+from nivel.judge.after.checks.joints import Redundancy
+from nivel.judge.after.checks.quantities import QuantityError
+from nivel.judge.after.report import assess, blindness, thresholds_of
+from nivel.judge.after.subject import Scales, Subject
 from nivel.results import Memory
 from nivel.results.trust import Item, Trust
 

@@ -1,7 +1,7 @@
 """What a machine is, as its own settings would run it."""
 
-from nivel.analysis.check import check as of_plans
 from nivel.analysis.plan.plan import plan_run
+from nivel.judge.before import check as of_plans
 
 
 def check(machine):

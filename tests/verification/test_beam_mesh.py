@@ -4,7 +4,7 @@ deflection."""
 import numpy as np
 import pytest
 
-from nivel.analysis.trust.checks.beam_mesh import BeamMesh, coarsest, turns
+from nivel.judge.after.checks.beams import BeamMesh, coarsest, turns
 from simulating import machine
 
 LENGTH, EI, LOAD = 1.0, 2.07e11 * 0.01**4 / 12, 0.5

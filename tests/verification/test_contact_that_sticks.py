@@ -9,7 +9,7 @@ import nivel
 from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
-from nivel.machine.plausible import remarks
+from nivel.judge.before.unusual import remarks
 from preparing import prepare
 from references import stick_slip
 from simulating import G, machine, simulate, slide, solid

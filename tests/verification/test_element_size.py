@@ -4,7 +4,7 @@ values."""
 import numpy as np
 import pytest
 
-from nivel.analysis.trust.other_elements import other_elements
+from nivel.judge.after.other_elements import other_elements
 from nivel.machine.beams.other_elements import changed, doubled
 from nivel.results.analyses.linear_model import LinearModel
 from references.planar_beam import PlanarBeam

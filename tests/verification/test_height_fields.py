@@ -8,8 +8,8 @@ import pytest
 
 from nivel.errors import ModelError
 from nivel.files import read_machine
+from nivel.judge.before.unusual import remarks
 from nivel.machine.bodies.surface import surface_arrays
-from nivel.machine.plausible import remarks
 from simulating import G, machine, simulate
 
 CONTACT = {"type": "contact", "stiffness": 1e5, "exponent": 1, "restitution": 0.5}

@@ -6,7 +6,7 @@ from beams import general
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run import second_run
 from nivel.analysis.run.dynamics import RunOutcome
-from nivel.analysis.trust.checks.accuracy import MARGIN, error_from_finer
+from nivel.judge.after.checks.accuracy import MARGIN, error_from_finer
 from simulating import machine
 
 SECTION = general(EA=2e5, GA=1e5, GJ=100.0, EI=150.0, inertia=(2e-3, 1e-3, 1e-3))

@@ -9,8 +9,8 @@ from linkages import change_point, folded_slider_crank, four_bar, jansen_leg
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
-from nivel.analysis.trust.checks import singular
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.checks import branches
 from nivel.results.memory import Memory
 from simulating import machine
 
@@ -75,7 +75,7 @@ def test_parallelogram_beside_a_beam_is_found(model):
 def test_search_takes_less_than_the_run(monkeypatch):
     """Of a machine with redundant rows, in a run of 27 ms. Seconds of this thread, the least of three."""
     seconds = {"search": [], "run": []}
-    passages = singular.passages
+    passages = branches.passages
 
     def timed(run):
         begin = time.thread_time()
@@ -83,7 +83,7 @@ def test_search_takes_less_than_the_run(monkeypatch):
         seconds["search"].append(time.thread_time() - begin)
         return iter(found)
 
-    monkeypatch.setattr(singular, "passages", timed)
+    monkeypatch.setattr(branches, "passages", timed)
     leg = machine({**jansen_leg(), "simulation": {"duration": 1.0, "step": 1e-3}})
     for _ in range(3):
         leg.simulate(verify=True)

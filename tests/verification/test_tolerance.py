@@ -13,8 +13,8 @@ import machines
 import nivel
 from lanes import tail
 from nivel import Body, Joint, MachineRecord, Marker, PairForce, SimulationSettings
-from nivel.analysis.trust.checks.accuracy import error_from_finer
 from nivel.api import Machine
+from nivel.judge.after.checks.accuracy import error_from_finer
 from references import andrews, four_bar, heavy_top, kepler, pendulum, slider_crank
 from running import run
 from test_mechanisms import EXAMPLES

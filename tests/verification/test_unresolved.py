@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nivel.analysis.trust.checks.energy import unresolved_force
 from nivel.errors import SolveError
+from nivel.judge.after.checks.energy import unresolved_force
 from nivel.results.result import Result
 from simulating import G, simulate, slide, solid
 from test_growth import stiff_pair

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from nivel.analysis.failures.status import Status
+from nivel.judge.during.stop import Status
 from nivel.system.system import System
 
 

@@ -37,7 +37,7 @@ def _print(result: Result) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from nivel.analysis.trust.report import thresholds_of
+    from nivel.judge.after.report import thresholds_of
     from nivel.results.scales import RULES
 
     console, trust = Console(highlight=False), result.trust

@@ -13,11 +13,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.trust.checks import circuits, energy, joints
-from nivel.analysis.trust.checks.energy import Energy
-from nivel.analysis.trust.checks.joints import Violation
-from nivel.analysis.trust.subject import Motion
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.checks import circuits, energy, joints
+from nivel.judge.after.checks.energy import Energy
+from nivel.judge.after.checks.joints import Violation
+from nivel.judge.after.subject import Motion
 from nivel.live.timing import Timing
 from nivel.results.memory import MemoryContents
 from nivel.results.result import Result
@@ -91,7 +91,7 @@ class Judge:
             yield Item("outcome", "red", f"Outcome: {problem}")
         if self._worst is not None:
             balance, opening, rates = self._worst
-            said = energy.say(balance), joints.say(opening), joints.say_rates(rates)
+            said = energy.say_balance(balance), joints.say_opening(opening), joints.say_rates(rates)
             yield from (each for each in said if each is not None)
         yield from self._circuits
         if counts.guards and steps:
@@ -104,7 +104,11 @@ class Judge:
         """Judge frames, the first of which is that of the start; kinetic_energy : the largest one of steps [J]."""
         result = Result(MemoryContents(Header(self.layout, self.attributes), frames, self.attributes))
         motion = Motion(result=result, outcome="running", kinetic_energy=kinetic_energy)
-        found = replace(energy.look(motion), force=""), joints.look(motion), joints.look_at_rates(motion)
+        found = (
+            replace(energy.look_at_balance(motion), force=""),
+            joints.look_at_opening(motion),
+            joints.look_at_rates(motion),
+        )
         self._speed = max(self._speed, largest_speed(result))
         if circuits.CIRCUITS.met(motion):
             balances = (

@@ -11,20 +11,21 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome, counts_of
 from nivel.analysis.run.simulate import close_run
-from nivel.analysis.trust.subject import run_of
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files.target import check_target
 from nivel.integrate.loop.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
 from nivel.integrate.loop.run import ACCEPTED, STEP, STOPPED
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.subject import run_of
+from nivel.judge.during.failure import failure
+from nivel.judge.during.stop import Stop
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.core.status import DONE as ENDED
 from nivel.live.preparation import LiveRun, prepared_run

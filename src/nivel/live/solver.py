@@ -13,7 +13,6 @@ from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
 
-from nivel.analysis.failures.outcome import Stop, failure
 from nivel.analysis.plan.plan import Plan
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.loop.paced import (
@@ -33,6 +32,8 @@ from nivel.integrate.loop.paced import (
 )
 from nivel.integrate.loop.run import ACCEPTED, MOVING, REJECTED, STOPPED, TIME
 from nivel.integrate.loop.run import STEP as STEP_CLOCK
+from nivel.judge.during.failure import failure
+from nivel.judge.during.stop import Stop
 from nivel.kernels.core import status as codes
 from nivel.kernels.output.observe import observe
 from nivel.live import shared

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nivel.analysis.trust.checks import joints
+from nivel.judge.after.checks import joints
 from nivel.report.control_panel import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
@@ -197,7 +197,7 @@ def _violations(result: Result) -> Panel | None:
     """The largest violation of each joint, apart for lengths and cosines, at position and at velocity level."""
     groups = []
     trust = result.trust
-    position, rate = joints.THRESHOLD, joints.RATES
+    position, rate = joints.OPENING, joints.RATES
     for variable, suffix, level, threshold, scales in (
         ("constraint_violation", "violation", "", position, {"m": trust.size, "1": 1.0}),
         (

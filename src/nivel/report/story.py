@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from nivel.analysis.trust.report import titles
+from nivel.judge.after.report import titles
 from nivel.results.beams.beam_nodes import beam_nodes
 from nivel.results.frames.occurrence import in_words
 from nivel.results.trust import NOT_VERIFIED, Item, Trust, Verdict

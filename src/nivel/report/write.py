@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.trust.report import thresholds_of
 from nivel.errors import ModelError
 from nivel.files.target import keep_sources, write_file
+from nivel.judge.after.report import thresholds_of
 from nivel.looks.circuit.characteristics import valve_diagram
 from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards

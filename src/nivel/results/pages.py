@@ -32,5 +32,5 @@ def page_maker(page: str) -> Any:
 
 def report_of_remains(result: Result) -> Trust:
     """The trust report of a run that was killed, or still goes on, from what its file holds."""
-    trust = import_module("nivel.analysis.trust.report")
+    trust = import_module("nivel.judge.after.report")
     return trust.assess_remains(result)

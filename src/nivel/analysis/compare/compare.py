@@ -15,9 +15,9 @@ from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.analysis.run.in_memory import run_in_memory
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Methods
 from nivel.errors import ModelError
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Methods
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Method, Row, Spread
 from nivel.results.comparison.comparison_table import number, seconds

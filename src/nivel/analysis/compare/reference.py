@@ -17,8 +17,8 @@ from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.in_memory import run_in_memory
-from nivel.analysis.trust.report import assess, blindness
-from nivel.analysis.trust.subject import Run
+from nivel.judge.after.report import assess, blindness
+from nivel.judge.after.subject import Run
 from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison.comparison import Reference

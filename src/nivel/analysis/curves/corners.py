@@ -1,9 +1,9 @@
-"""Times at which the functions of time of a machine have corners: points of tables of straight lines, and where an absolute value, a
-minimum or a maximum of expressions of time alone changes sides."""
+"""Corners and jumps of the functions of a machine: times at which functions of time have corners, as points of tables of straight lines,
+and where an absolute value, a minimum or a maximum of expressions of time alone changes sides; and functions that jump with the motion."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 from functools import lru_cache
 from typing import TypeGuard
@@ -18,6 +18,7 @@ from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import is_of_time_alone, jumps, sides
 from nivel.machine.units.tree import TIME, ExpressionError, Node, signals
+from nivel.words.wording import shown
 
 # Sides of an expression are looked at so many times in a run.
 SAMPLES = 2000
@@ -133,3 +134,22 @@ def _holds(expression: Expression, time: float) -> bool:
 
 def _of_time_alone(*nodes: Node) -> bool:
     return not any(signals(node) for node in nodes)
+
+
+def jumping_functions(machine: MachineRecord, among: Collection[Node] | None = None) -> tuple[str, ...]:
+    """Names and texts of the functions that jump where something of the motion passes a value; those of samples jump anyway.
+
+    among : these functions alone.
+    """
+    return tuple(
+        f"{shown(each.function.text)} of {each.section}.{each.part}"
+        for each in machine.functions
+        if each.sampling is None
+        and isinstance(each.function, Expression)
+        and (among is None or each.function.tree in among)
+        and jumps(each.function.tree, _reads_signals)
+    )
+
+
+def _reads_signals(node: Node) -> bool:
+    return bool(signals(node))

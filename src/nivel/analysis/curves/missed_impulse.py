@@ -1,7 +1,7 @@
 """Impulse of every function that the steps of a run have missed.
 
 Over each step the integral of the function, and that of its magnitude, are compared with those of what the method takes it for
-(`nivel.analysis.curves.method_interpolation`). What is missed is summed over a twentieth of the run, where
+(`nivel.analysis.curves.path`). What is missed is summed over a twentieth of the run, where
 errors of both signs cancel as they do in the motion, and held against the integral of the magnitude. Features narrower than what lies
 between samples are found by bounds of the function over intervals, which are halved as long as they allow more than was sampled.
 """
@@ -15,9 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.curves.functions import Varying, varying
-from nivel.analysis.curves.method_interpolation import as_seen
-from nivel.analysis.curves.path import Path, Steps, path_of
-from nivel.analysis.curves.switches import cut_at_switches
+from nivel.analysis.curves.path import Path, Steps, as_seen, cut_at_switches, path_of
 from nivel.integrate.facts import IntegratorFacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.bounds import Interval

@@ -1,8 +1,13 @@
-"""Path of a run: its steps, and the signals of its functions along them."""
+"""Path of a run: its steps, the signals of its functions along them, switches of these, and what a method takes a function for in a step.
+
+Runge–Kutta methods look inside a step: here at places evenly spaced, as many as have the integral of the order of the method. Methods
+of several steps look at the ends of steps, and their curve passes through those of earlier steps too: a cubic spline has about the same
+integral, where the function has a corner a straight line.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,14 +15,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.curves.functions import Varying, is_local
+from nivel.analysis.curves.functions import ExpressionCurve, Varying, is_local
 from nivel.errors import ModelError
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import LEAST, PARTS
 from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import cross
+from nivel.machine.laws.functions import functions_of
 from nivel.machine.laws.symbols import Symbol, UnknownSymbolError, find_symbol
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.tree import TIME
+from nivel.machine.units.bounds import values_of
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.sides import sides
+from nivel.machine.units.tree import TIME, Node, signals
 from nivel.results.result import Result
 from nivel.results.scales import rotated
 
@@ -160,3 +170,102 @@ def _of_point(symbol: Symbol, body: str, place: Array, result: Result) -> Array:
         turning = cross(result.array(f"{body}.angular_velocity"), arm)
         return (result.array(f"{body}.velocity") + turning)[:, axis]
     return (result.array(f"{body}.position") + arm)[:, axis]
+
+
+# Halvings of the time between two frames, and the share of it that is left out around a switch: on either side the function is smooth.
+HALVINGS, LEFT_OUT = 40, 1e-10
+
+
+def has_switches(machine: MachineRecord) -> bool:
+    """Whether a function has corners or jumps with signals. Those of blocks, which have laws of their own, are taken to."""
+    return bool(machine.control) or any(
+        isinstance(each.function, Expression) and any(_switches(each.function)) for each in functions_of(machine)
+    )
+
+
+def _switches(expression: Expression) -> Iterator[tuple[Node, Node | None]]:
+    """Pairs of expressions whose order decides. Corners of curves are no switches."""
+    return sides(expression.tree, _of_signals, curves=False)
+
+
+def cut_at_switches(function: Varying, path: Path, steps: Steps) -> Steps:
+    """The steps, each in parts where it contains a switch of the function."""
+    if not isinstance(function.curve, ExpressionCurve) or function.motion:
+        return steps
+    found = [_changes(first, second, path) for first, second in _switches(function.curve.expression)]
+    times = np.unique(np.concatenate([*found, []]))
+    times = times[(times > steps.begin[0]) & (times < steps.begin[-1] + steps.length[-1])]
+    if not len(times):
+        return steps
+    gap = LEFT_OUT * float(np.diff(path.time).min())
+    begin = np.concatenate([steps.begin, times + gap])
+    end = np.concatenate([steps.begin + steps.length, times - gap])
+    begin, end = np.sort(begin), np.sort(end)
+    longer = end > begin
+    return Steps(begin[longer], (end - begin)[longer])
+
+
+def _of_signals(*nodes: Node) -> bool:
+    return any(signals(node) for node in nodes)
+
+
+def _changes(first: Node, second: Node | None, path: Path) -> Array:
+    """Times [s] at which the order of two expressions changes, one at most between two frames."""
+
+    def is_above(time: Array) -> NDArray[np.bool_]:
+        known = path.at(time)
+        return values_of(first, known) > (values_of(second, known) if second is not None else 0.0)
+
+    above = is_above(path.time)
+    at = np.flatnonzero(above[1:] != above[:-1])
+    low, high, before = path.time[at], path.time[at + 1], above[at]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        same = is_above(middle) == before
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return high
+
+
+Array = NDArray[np.float64]
+# steps that a spline needs
+LEAST_STEPS = 4
+ENDS, SIMPSON, BOOLE = 2, 3, 5
+
+
+def as_seen(values: Array, steps: Steps, facts: IntegratorFacts) -> Array:
+    """Values (n, samples) of a function at places evenly spaced over each step, begin and end among them; returns what the method takes
+    them for (n, samples). The number of samples less one is a multiple of four."""
+    if facts.order <= 2:
+        return _through(values, ENDS)
+    if facts.multistep:
+        return _over_steps(values, steps)
+    return _through(values, SIMPSON if facts.order <= 4 else BOOLE)
+
+
+def _through(values: Array, count: int) -> Array:
+    """The polynomial through `count` of the samples, evenly spaced."""
+    share = np.linspace(0.0, 1.0, values.shape[1])
+    at = np.linspace(0.0, 1.0, count)
+    places = np.linspace(0, values.shape[1] - 1, count).astype(int)
+    weights = np.ones((count, len(share)))
+    for j in range(count):
+        for k in range(count):
+            if k != j:
+                weights[j] *= (share - at[k]) / (at[j] - at[k])
+    return (weights.T @ values[:, places].T).T  # in the order of `values`, whose columns stand side by side
+
+
+def _over_steps(values: Array, steps: Steps) -> Array:
+    """A spline through the ends of all steps, straight lines where these miss less of the integral."""
+    from scipy.interpolate import CubicSpline  # takes a quarter of a second to import
+
+    straight = _through(values, ENDS)
+    follow = np.allclose(steps.begin[1:], steps.begin[:-1] + steps.length[:-1], rtol=1e-9, atol=0.0)
+    if len(steps.begin) < LEAST_STEPS or not follow:
+        return straight
+    ends = np.append(steps.begin, steps.begin[-1] + steps.length[-1])
+    share = np.linspace(0.0, 1.0, values.shape[1])
+    curve = CubicSpline(ends, np.append(values[:, 0], values[-1, -1]))
+    smooth = curve(steps.begin[:, None] + steps.length[:, None] * share)
+    closer = np.abs((values - smooth).mean(axis=1)) < np.abs((values - straight).mean(axis=1))
+    return np.where(closer[:, None], smooth, straight)

@@ -19,7 +19,6 @@ from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
 from nivel.analysis.plan.choice import FOR_STIFF
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run, plan_run
-from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
@@ -29,6 +28,7 @@ from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import FINER, TENTH, refine
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
+from nivel.judge.before.refusals import sampled_times
 from nivel.model import Model
 from nivel.results.curve import TOLD
 from nivel.results.frames.labelled import data_array

@@ -19,9 +19,9 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.inverse.mechanics import Mechanics
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Led
 from nivel.errors import Fault, ModelError
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Led
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name

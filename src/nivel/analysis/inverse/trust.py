@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Actuated
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Actuated
 from nivel.machine.joints.driver import Driver
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result

@@ -19,9 +19,9 @@ from nivel.analysis.assembly.equations import MotionEquations, change_between, e
 from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.assembly.redundancy import scaled_jacobian
 from nivel.analysis.kinematics.singular import TAKES_PART, determinant_sign, independent_rows
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Curve
 from nivel.errors import Fault, ModelError, SolveError
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Curve
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
 from nivel.system.beams.nodes import with_nodes

@@ -8,9 +8,9 @@ from math import pi
 
 import numpy as np
 
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Reach
 from nivel.errors import ModelError, SolveError
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Reach
 from nivel.results.analyses.configuration_curve import ConfigurationCurve
 from nivel.results.analyses.mechanism import Range
 from nivel.results.result import Result

@@ -11,9 +11,6 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.failures.lockup import find_jam
-from nivel.analysis.failures.outcome import KINEMATICS, Stop, failure
-from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
@@ -26,14 +23,18 @@ from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.probes import GOLDEN, Probes
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Positions
 from nivel.errors import SolveError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.positions import follow_positions
 from nivel.integrate.loop.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
 from nivel.integrate.loop.sink import Header, Sink
 from nivel.integrate.stabilise import direct
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Positions
+from nivel.judge.before.analyses import refuse_free_motions, refuse_what_bends
+from nivel.judge.during.failure import KINEMATICS, failure
+from nivel.judge.during.lockup import find_jam
+from nivel.judge.during.stop import Stop
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord

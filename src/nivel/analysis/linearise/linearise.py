@@ -10,7 +10,7 @@ from nivel.analysis.linearise.run import linear_model
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import run_until
-from nivel.analysis.trust.report import assess
+from nivel.judge.after.report import assess
 from nivel.machine.settings.linearise import LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 

@@ -11,9 +11,9 @@ from nivel.analysis.linearise.run import linear_model
 from nivel.analysis.plan.plan import Methods, Plan, methods_of
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import run_until
-from nivel.analysis.trust.other_elements import other_elements
-from nivel.analysis.trust.subject import OtherVibrations
 from nivel.errors import ModelError, SolveError
+from nivel.judge.after.other_elements import other_elements
+from nivel.judge.after.subject import OtherVibrations
 from nivel.machine.settings.linearise import LineariseSettings
 
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Sweep, Variant
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Sweep, Variant
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_sweep import LinearSweep
 

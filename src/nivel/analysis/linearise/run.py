@@ -21,7 +21,6 @@ from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.pressures import PressureStates, pressure_states, seen, transformation, transformed
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
-from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
 from nivel.analysis.linearise.sliding import let_slide
@@ -31,8 +30,9 @@ from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start
-from nivel.analysis.trust.subject import Linearisation
 from nivel.errors import Fault, ModelError
+from nivel.judge.after.subject import Linearisation
+from nivel.judge.before.analyses import MOST, refuse_jumps
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel

@@ -7,7 +7,7 @@ from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from time import perf_counter
 
-from nivel.analysis.curves.switches import has_switches
+from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError, NivelError

@@ -18,21 +18,21 @@ from nivel.analysis.plan.choice import (
 )
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.analysis.plan.modal_stiffness import integrator_of
-from nivel.analysis.plan.nonholonomic_refusals import refuse_rolling_by_positions
-from nivel.analysis.plan.refusals import (
-    refuse_conserved_drivers,
-    refuse_flexible_lagrange,
-    refuse_for_shared_mass,
-    refuse_friction_at_jumps,
-    refuse_rough_motions,
-    refuse_samples_between_steps,
-    refuse_stiction_over_steps,
-)
 from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.judge.before.refusals import (
+    refuse_conserved_drivers,
+    refuse_flexible_lagrange,
+    refuse_for_shared_mass,
+    refuse_friction_at_jumps,
+    refuse_rolling_by_positions,
+    refuse_rough_motions,
+    refuse_samples_between_steps,
+    refuse_stiction_over_steps,
+)
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses

@@ -24,20 +24,19 @@ from nivel.analysis.assembly.modal_rows import modal_rows
 from nivel.analysis.assembly.penalties import penalise, soft_rows
 from nivel.analysis.assembly.redundancy import Redundancy, analyse
 from nivel.analysis.assembly.row_settings import refuse_unknown_rows
-from nivel.analysis.curves.corners import corners
-from nivel.analysis.curves.jumping import jumping_functions
+from nivel.analysis.curves.corners import corners, jumping_functions
 from nivel.analysis.curves.step_limits import allowed_steps
 from nivel.analysis.plan.plan import Methods
-from nivel.analysis.plan.refusals import (
+from nivel.analysis.preparation.one_piece import in_one_piece
+from nivel.errors import Fault, ModelError
+from nivel.integrate.facts import IntegratorFacts
+from nivel.judge.before.refusals import (
     refuse_deep_starts,
     refuse_moved_nodes,
     refuse_struck_nodes,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
 )
-from nivel.analysis.preparation.one_piece import in_one_piece
-from nivel.errors import Fault, ModelError
-from nivel.integrate.facts import IntegratorFacts
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
 from nivel.machine.beams.beam import Beam

@@ -16,9 +16,9 @@ from nivel.analysis.progress.pacing import Leader
 from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.elements_run import ElementsRun, Found
 from nivel.analysis.run.second_run import SecondRun, Verified
-from nivel.analysis.trust.checks.accuracy import factor
-from nivel.analysis.trust.subject import Run, run_of
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.checks.accuracy import factor
+from nivel.judge.after.subject import Run, run_of
 from nivel.results.estimate import estimate_errors
 from nivel.results.memory import Memory
 from nivel.results.result import Result

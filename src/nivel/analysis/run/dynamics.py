@@ -17,13 +17,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback
 from nivel.analysis.assembly.row_settings import of_rows
-from nivel.analysis.curves.jumping import jumping_functions
-from nivel.analysis.failures.crawling import Crawl, to_and_fro
-from nivel.analysis.failures.divergence import GROWN, UNBOUND
-from nivel.analysis.failures.fastest import fastest_beyond, held_step
-from nivel.analysis.failures.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
-from nivel.analysis.failures.outcome import Stop, failure
-from nivel.analysis.failures.status import Status
+from nivel.analysis.curves.corners import jumping_functions
 from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.broken_function import NO_NUMBER
@@ -58,6 +52,11 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.loop.sink import Sink
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.judge.before.circuits import circuit_remarks
+from nivel.judge.during.failure import Status, Stop, failure
+from nivel.judge.during.fastest import fastest_beyond, held_step
+from nivel.judge.during.growth import GROWN, UNBOUND, Crawl, to_and_fro
+from nivel.judge.during.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import (
     BUDGET_SPENT,
@@ -74,7 +73,6 @@ from nivel.kernels.core.status import (
     STEP_TOO_SMALL,
 )
 from nivel.kernels.output.observe import observe
-from nivel.machine.circuit_remarks import circuit_remarks
 from nivel.native.entry import Entry
 from nivel.results.frames.occurrence import Occurrence
 from nivel.system.system import Array, System

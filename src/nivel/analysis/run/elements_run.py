@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from nivel.analysis.plan.plan import Plan, methods_of
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.second_run import SecondRun, Verified
-from nivel.analysis.trust.other_elements import Compared, Pair, element_errors, other_elements
 from nivel.errors import ModelError, SolveError
+from nivel.judge.after.other_elements import Compared, Pair, element_errors, other_elements
 from nivel.results.result import Result
 
 

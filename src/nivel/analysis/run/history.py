@@ -10,11 +10,8 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.curves.corners import corners
-from nivel.analysis.failures.lockup import can_be_asked
-from nivel.analysis.plan.refusals import WHOLE
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.trust.checks.indeterminate_friction import STILL
 from nivel.integrate.explicit.dormand_prince import COUNTS as COUNTS_STIFF
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import (
@@ -50,6 +47,9 @@ from nivel.integrate.loop.run import (
     Run,
 )
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.judge.after.checks.friction import STILL
+from nivel.judge.before.refusals import WHOLE
+from nivel.judge.during.lockup import can_be_asked
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.forces import contact, height_contact, height_way
 from nivel.kernels.output.observe import observe

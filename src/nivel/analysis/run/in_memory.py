@@ -7,8 +7,8 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
-from nivel.analysis.trust.subject import Run, run_of
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.subject import Run, run_of
 from nivel.results.memory import Memory
 
 

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.curves.functions import LawCurve, SideOf, Varying, varying
-from nivel.analysis.curves.method_interpolation import as_seen
 from nivel.analysis.curves.missed_impulse import BEYOND, beyond_samples, sampled_densely
-from nivel.analysis.curves.path import Path, Steps, path_of
+from nivel.analysis.curves.path import Path, Steps, as_seen, path_of
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.remembered import remembered
 from nivel.integrate.facts import IntegratorFacts

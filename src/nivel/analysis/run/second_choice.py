@@ -12,17 +12,17 @@ from dataclasses import dataclass, replace
 from math import ceil
 from typing import Final
 
-from nivel.analysis.failures.status import Status
 from nivel.analysis.plan.choice import FOR_STIFF, USUAL_TOLERANCE
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.run.attempt import Attempt, Options, attempt
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import TENTH, SecondRun, most_work
-from nivel.analysis.trust.report import assess
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import TAKEN
+from nivel.judge.after.report import assess
+from nivel.judge.during.stop import Status
 from nivel.results.memory import Memory
 from nivel.results.trust import Trust
 from nivel.words.wording import seconds

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import interruptible
@@ -23,6 +22,7 @@ from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.preparation import prepare
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
+from nivel.judge.before.refusals import sampled_times
 from nivel.results.estimate import TIMES
 from nivel.results.memory import Memory
 from nivel.results.result import Result

@@ -13,11 +13,11 @@ from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.attempt import Options, attempt, header_of
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_choice import second_choice
-from nivel.analysis.trust.other_elements import with_elements
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Run
 from nivel.errors import SolveError
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED
+from nivel.judge.after.other_elements import with_elements
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Run
 from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.occurrence import to_json

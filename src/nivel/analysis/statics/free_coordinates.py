@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.analysis.plan.choice import choose_coordinates
+from nivel.analysis.plan.smooth_contacts import with_smooth_contacts
 from nivel.errors import SolveError
 from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.statics import StaticsSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.result import Result
 from nivel.system.system import Array
@@ -63,3 +66,25 @@ ADVICE = "Take it out of `simulation: {free: …}`, or hold it by a spring or a 
 def _not_free(machine: MachineRecord, why: str) -> str:
     named = ", ".join(machine.simulation.free)
     return f"this is no equilibrium: {why} with {named} where the file places it"
+
+
+def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[MachineRecord, str]:
+    """The machine with simulation settings that mean nothing but the equations of statics, and the coordinates."""
+    duration = settings.duration or 1.0
+    simulation = machine.simulation.replace(
+        integrator="generalised-alpha",
+        formulation="newton-euler",
+        coordinates=settings.coordinates,
+        stabilisation="direct",
+        rotations="euler-parameters",
+        baumgarte=None,
+        independent=(),
+        start="as-given",
+        duration=duration,
+        step=min(settings.interval, duration),
+        output_interval=None,
+        step_control="own",
+    )
+    neutral = holding_free(with_smooth_contacts(machine).with_simulation(simulation))
+    coordinates = choose_coordinates(neutral)
+    return neutral.with_simulation(neutral.simulation.replace(coordinates=coordinates)), coordinates

@@ -13,7 +13,6 @@ import numpy as np
 
 from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
-from nivel.analysis.plan.refusals import refuse_rough_motions
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.broken_function import broken_function
 from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
@@ -24,18 +23,19 @@ from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
-from nivel.analysis.statics.free_coordinates import loaded_free
+from nivel.analysis.statics.free_coordinates import for_statics, loaded_free
 from nivel.analysis.statics.labels import direction_in_words
 from nivel.analysis.statics.linear import PivotError, has_potential, lowest, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
-from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction, refuse_with_states
 from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
-from nivel.analysis.trust.other_elements import (
+from nivel.errors import ModelError, SolveError
+from nivel.integrate.loop.sink import Header
+from nivel.judge.after.other_elements import (
     Compared,
     Stiffness,
     element_errors,
@@ -43,10 +43,10 @@ from nivel.analysis.trust.other_elements import (
     other_elements,
     with_elements,
 )
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Equilibria
-from nivel.errors import ModelError, SolveError
-from nivel.integrate.loop.sink import Header
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Equilibria
+from nivel.judge.before.analyses import at_rest, refuse_friction, refuse_with_states
+from nivel.judge.before.refusals import refuse_rough_motions
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings

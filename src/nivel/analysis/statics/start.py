@@ -12,9 +12,8 @@ from nivel.analysis.plan.plan import Methods, methods_of
 from nivel.analysis.preparation.preparation import Assembled
 from nivel.analysis.statics.ends import no_start, without_stiffness
 from nivel.analysis.statics.equations import StateError
-from nivel.analysis.statics.free_coordinates import refuse_moving
+from nivel.analysis.statics.free_coordinates import for_statics, refuse_moving
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
-from nivel.analysis.statics.refusals import for_statics
 from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle

@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 from nivel.analysis.plan.plan import Plan, plan_run
-from nivel.analysis.plan.refusals import refuse_deep_starts
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.simulate import close_run
 from nivel.analysis.sweep.patched import Array, Patches, UnsuitedError, blank_of, learn, read_values
-from nivel.analysis.trust.subject import run_of
+from nivel.judge.after.subject import run_of
+from nivel.judge.before.refusals import refuse_deep_starts
 from nivel.model import Model
 from nivel.results.memory import Memory
 from nivel.results.result import Result

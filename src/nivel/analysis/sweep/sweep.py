@@ -24,9 +24,9 @@ from nivel.analysis.sweep.processes import Job, run_in_processes
 from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
 from nivel.analysis.sweep.variants import Variants
-from nivel.analysis.trust.report import assess
-from nivel.analysis.trust.subject import Sweep, Variant
 from nivel.errors import ModelError
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Sweep, Variant
 from nivel.machine.study import Output
 
 # facts of every run: attribute of VariantRun, and what it is

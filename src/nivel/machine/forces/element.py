@@ -11,7 +11,7 @@ from nivel.machine.core.usual import POWER
 from nivel.machine.given import Usual
 
 OUTPUTS: Final = ("magnitude", "power")
-# of an element and its numbers over time (`nivel.analysis.trust.checks.sides`): an array over time
+# of an element and its numbers over time (`nivel.judge.after.checks.states`): an array over time
 History = Callable[[Any, Any], Any]
 
 

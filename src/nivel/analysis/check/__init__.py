@@ -1,1 +1,0 @@
-"""Check of a machine before any run, as `nivel check` prints it."""

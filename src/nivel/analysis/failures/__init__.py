@@ -1,1 +1,0 @@
-"""Failures of an analysis: what stopped it, and what to do about it."""

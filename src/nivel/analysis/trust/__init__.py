@@ -1,1 +1,0 @@
-"""Trust report of an analysis: its checks, and the verdicts on what they find."""

@@ -1,0 +1,1 @@
+"""All sentences about a machine: before, during and after its analysis."""

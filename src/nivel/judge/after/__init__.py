@@ -1,0 +1,1 @@
+"""After an analysis: the trust report, its checks, and the verdicts on what they find."""

@@ -1,0 +1,1 @@
+"""Checks of the trust report, by subject: what each measures and what it says."""

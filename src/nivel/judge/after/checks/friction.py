@@ -1,0 +1,266 @@
+"""Indeterminate friction: several frictions hold one motion at rest; what they hold it with together is known, their shares are not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.freedoms import coordinate_derivatives
+from nivel.judge.after.report import FRAMES, Check
+from nivel.judge.after.subject import Run
+from nivel.kernels.elements import friction as columns
+from nivel.machine.forces import Friction
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import resolve
+from nivel.results.frames.row_units import own_units
+from nivel.results.scales import Readable, machine_size, span
+from nivel.results.trust import Item
+from nivel.system.system import Array, System
+
+# A rate below this share of the largest one of the run, and of the machine's size or a radian once in the run, is none.
+STILL = 1e-9
+SHOWN = 3  # spans in a sentence
+# A coordinate that sticks is not exactly at rest: what changes of its load leave it is slower than this share of what `still` asks for.
+RESTING = 1e-6
+# An effort below the greatest one by more than this share of it is that of a friction that sticks.
+WITHIN = 1e-6
+# A motion of which no more than this share is left beside others follows from them.
+LEFT = 1e-7
+
+
+@dataclass(frozen=True)
+class Held:
+    """A friction with stiction on a joint coordinate (`pin.angle`) whose motion is prescribed by these drivers, or without any of them by
+    these joints and couplings."""
+
+    friction: str
+    coordinate: str
+    drivers: tuple[str, ...]
+    others: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sticking:
+    """A friction with stiction on a joint coordinate that may move.
+
+    left : (n,) unit direction of the coordinate's derivative in the motions that the constraints allow. static : its greatest effort at
+    rest over its normal load [- or m]. viscous : effort per rate.
+    """
+
+    friction: str
+    coordinate: str
+    left: NDArray[np.float64]
+    static: float
+    viscous: float
+
+
+@dataclass(frozen=True)
+class Shared:
+    """Who holds which joint coordinates at rest together, which results are not unique then, and the times [s] of the first and the last
+    frame of each span in which they do.
+
+    holders : in words, `driver turn`.
+    """
+
+    holders: tuple[str, ...]
+    coordinates: tuple[str, ...]
+    efforts: tuple[str, ...]
+    spans: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class SharedLoads:
+    """Who shares loads in no certain way, and the results that are not unique then."""
+
+    shared: tuple[Shared, ...]
+    efforts: tuple[str, ...]
+
+
+def look(run: Run) -> SharedLoads | None:
+    """Frictions that hold something at rest together, with what prescribes its motion or with each other."""
+    held, sticking = resting_frictions(run.machine, run.prepared.absolute, run.prepared.assembly.y)
+    shared = (*shared_loads(run.result, held), *loads_held_together(run.result, sticking))
+    efforts = tuple(dict.fromkeys(name for each in shared for name in each.efforts))
+    return SharedLoads(shared, efforts) if shared else None
+
+
+def say(found: SharedLoads) -> Item:
+    """Who holds what, and that it does not matter for the motion."""
+    text = (
+        f"Friction: {'; '.join(map(in_words, found.shared))}. The motion does not depend on how they share the load, which is not unique "
+        f"(green if none, amber otherwise)"
+    )
+    return Item("shared_friction", "amber", text, time=min(each.spans[0][0] for each in found.shared))
+
+
+def resting_frictions(
+    machine: MachineRecord, motion: MotionEquations, y: Array
+) -> tuple[tuple[Held, ...], tuple[Sticking, ...]]:
+    """In the assembled state y of absolute coordinates: frictions whose coordinate is a combination of constraint rows, and whose rows
+    these are; and all others, whose coordinates may move. Of machines that bend the former are only those that a driver moves directly, and
+    of the latter only those of one coordinate follow from each other, for all else may follow from bending."""
+    rubbing = [force for force in machine.forces if isinstance(force, Friction) and force.model == "stiction"]
+    if not rubbing or not motion.system.machine_rows:
+        return (), ()
+    system = motion.system
+    motion.evaluate(0.0, y)
+    places = [
+        int(system.record.friction.columns[system.frictions.index(force.name), columns.COORDINATE]) for force in rubbing
+    ]
+    wanted = _unit(coordinate_derivatives(motion, places))
+    rows = motion.jacobian().reshape(system.machine_rows, -1, 6).copy()
+    rows[:, :, :3] *= system.size
+    rows = _unit(rows.reshape(system.machine_rows, -1))
+    share = np.linalg.lstsq(rows.T, wanted.T, rcond=LEFT)[0].T
+    left = wanted - share @ rows
+    moves = (np.unique(places)[:, None] == places).T.astype(float) if machine.is_flexible else _unit(left)
+    held, sticking = [], []
+    for k, force in enumerate(rubbing):
+        name = ".".join(resolve(force.coordinate, machine.joints))
+        used = np.flatnonzero(np.abs(share[k]) > LEFT)
+        driven = all(system.rows[row].endswith(".driver") for row in used)
+        if np.linalg.norm(left[k]) > LEFT:
+            arm = system.record.friction.number[system.frictions.index(force.name), columns.ARM]
+            sticking.append(Sticking(force.name, name, moves[k], float(force.static * arm), force.viscous))
+        elif driven or not machine.is_flexible:
+            held.append(Held(force.name, name, *_owners(system, used)))
+    return tuple(held), tuple(sticking)
+
+
+def _owners(system: System, rows: NDArray[np.intp]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Drivers, and joints and couplings, whose rows these are."""
+    owners = {system.row_owner[row]: system.rows[row].endswith(".driver") for row in rows}
+    drivers = tuple(name for name, drives in owners.items() if drives)
+    return drivers, tuple(name for name in owners if name not in drivers)
+
+
+def _unit(rows: Array) -> Array:
+    """Rows of unit length."""
+    return rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-300)
+
+
+def shared_loads(result: Readable, held: Sequence[Held]) -> tuple[Shared, ...]:
+    """Those of the frictions `held` that rest over two frames or more, and when: a motion that turns back rests for no time."""
+    found = []
+    for each in held:
+        spans = spans_of(result.time, still(result, each.coordinate, STILL))
+        if spans:
+            efforts = f"force.{each.friction}.magnitude", *(f"driver.{name}.effort" for name in each.drivers)
+            found.append(Shared((each.friction, _prescriber(each)), (each.coordinate,), efforts, spans))
+    return tuple(found)
+
+
+def in_words(shared: Shared) -> str:
+    """Who holds which coordinates, and when."""
+    when = ", ".join(f"{first:.6g} to {last:.6g} s" for first, last in shared.spans[:SHOWN])
+    more = f" and {len(shared.spans) - SHOWN} times more" if len(shared.spans) > SHOWN else ""
+    return f"{_listed(shared.holders)} hold {_listed(shared.coordinates)} at rest together (t = {when}{more})"
+
+
+def still(result: Readable, coordinate: str, share: float) -> NDArray[np.bool_]:
+    """(frames,) whether the joint coordinate is at rest: slower than a share of its largest rate, or of the machine's size or a radian once
+    in the run."""
+    place = result.coordinates[result.variables["joint_rate"].dims[1]].index(coordinate)
+    rate = np.abs(result.array("joint_rate")[:, place])
+    known = np.isfinite(rate)
+    size = machine_size(result)[0] if own_units(result.attributes, "joint_coordinate", coordinate) == "m" else 1.0
+    once = size / span(result)
+    return known & (rate <= share * max(once, float(np.max(rate, initial=0.0, where=known))))
+
+
+def spans_of(time: NDArray[np.float64], rests: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
+    """First and last times of the frames that follow each other in `rests`, two at least."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], rests, [False]]).astype(int)))
+    pairs = zip(edges[::2], edges[1::2] - 1, strict=True)
+    return tuple((float(time[first]), float(time[last])) for first, last in pairs if last > first)
+
+
+def _prescriber(held: Held) -> str:
+    if not held.drivers:
+        return ", ".join(held.others)
+    return f"driver{'s' * (len(held.drivers) > 1)} {', '.join(held.drivers)}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def loads_held_together(result: Readable, frictions: Sequence[Sticking]) -> tuple[Shared, ...]:
+    """Frictions that hold one motion at rest together, over two frames or more.
+
+    A friction that sticks has an effort below its greatest one, so of frictions that stick, where the motion of one follows from those of
+    the others, each may give up something to the others. One that has come to its greatest effort and does not move may too.
+    """
+    if len(frictions) < 2:
+        return ()
+    left = np.array([each.left for each in frictions])
+    rests, sticks = _holding(result, frictions)
+    out: dict[tuple[int, ...], NDArray[np.bool_]] = {}
+    patterns, of_frame = np.unique(np.concatenate([rests, sticks], axis=1), axis=0, return_inverse=True)
+    for k, pattern in enumerate(patterns):
+        for group in _groups(left, *np.split(pattern, 2)):
+            out.setdefault(group, np.zeros(len(rests), dtype=bool))[of_frame.ravel() == k] = True
+    found = []
+    for group, frames in out.items():
+        spans = spans_of(result.time, frames)
+        if spans:
+            names = tuple(frictions[k].friction for k in group)
+            coordinates = tuple(dict.fromkeys(frictions[k].coordinate for k in group))
+            found.append(Shared(names, coordinates, tuple(f"force.{name}.magnitude" for name in names), spans))
+    return tuple(found)
+
+
+def _holding(result: Readable, frictions: Sequence[Sticking]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """(frames, frictions) which rest under a load, and which of them stick."""
+    rests, sticks = [], []
+    coordinates, rates = result.coordinates[result.variables["joint_rate"].dims[1]], result.array("joint_rate")
+    for each in frictions:
+        rate = rates[:, coordinates.index(each.coordinate)]
+        largest = each.static * result.array(f"force.{each.friction}.normal_load")
+        effort = np.abs(result.array(f"force.{each.friction}.magnitude") + each.viscous * rate)
+        resting = still(result, each.coordinate, RESTING) & (largest > 0.0)
+        rests.append(resting)
+        sticks.append(resting & (effort < (1.0 - WITHIN) * largest))
+    return np.array(rests).T, np.array(sticks).T
+
+
+def _groups(left: NDArray[np.float64], rests: NDArray[np.bool_], sticks: NDArray[np.bool_]) -> list[tuple[int, ...]]:
+    """Frictions whose efforts may change together without changing what they do, in groups that have nothing to do with each other."""
+    held = _basis(left[sticks])
+    beside = np.linalg.norm(left - left @ held.T @ held, axis=1)
+    chosen = np.flatnonzero(sticks | (rests & (beside < LEFT)))
+    if not len(chosen):
+        return []
+    _, size, every = np.linalg.svd(left[chosen].T)
+    free = every[int(np.sum(size > LEFT)) :]
+    # of the projection onto the changes that do nothing, the columns of two groups are perpendicular
+    together = np.abs(free.T @ free) > LEFT
+    groups: dict[tuple[int, ...], None] = {}
+    for k in range(len(chosen)):
+        if together[k, k]:
+            groups[tuple(int(chosen[m]) for m in _connected(together, k))] = None
+    return list(groups)
+
+
+def _connected(together: NDArray[np.bool_], start: int) -> NDArray[np.intp]:
+    """Whatever `start` is together with, by way of others too."""
+    reached = together[start]
+    while not np.array_equal(further := together[reached].any(axis=0), reached):
+        reached = further
+    return np.flatnonzero(reached)
+
+
+def _basis(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Orthonormal rows that span the same."""
+    if not len(rows):
+        return rows
+    _, size, every = np.linalg.svd(rows, full_matrices=False)
+    return every[size > LEFT]
+
+
+CHECKS = (Check("shared_friction", Run, look, say, 70, (FRAMES,), "Friction"),)

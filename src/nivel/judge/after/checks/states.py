@@ -1,0 +1,275 @@
+"""States of elements against their own inequalities: open or closed, slack or taut, held or sliding; and first-order states.
+
+Each kind of element declares its inequalities in its record (`nivel.machine.forces.element`). They are looked at in all frames of a run
+and of its second run: frames of steps that were chosen lie inside these, where an element keeps the side that it had at their begin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.judge.after.report import FRAMES, Check, Need
+from nivel.judge.after.subject import Run
+from nivel.kernels.forces import contact, height_contact
+from nivel.machine.forces.element import Acts, Holds
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
+from nivel.results.peaks import peak
+from nivel.results.result import Result
+from nivel.results.trust import Item, number
+from nivel.system.forces.height_fields import rows_over_heights
+
+Array = NDArray[np.float64]
+SHOWN = 5  # elements of which each has a line
+# An overlap or an effort below this share of its largest value is none, and an overlap below this share of the size of the machine.
+ROUNDING, PLACE = 1e-9, 1e-12
+# Efforts of friction are found to this share of the largest limit; those below NOTHING [N or N m] are none.
+FOUND, NOTHING = 1e-5, 1e-12
+# Share of the size of the machine, or angle [rad], by which what holds may slide.
+SLID = 1e-4
+# An overlap that steps have not seen is so many times those at their ends.
+DEEPER = 2.0
+
+
+@dataclass(frozen=True)
+class Contradiction:
+    """A state of `element` that contradicts its inequality at `time` [s], in words, and in how many frames. second : they are those of the
+    second run."""
+
+    element: str
+    time: float
+    said: str
+    count: int
+    second: bool = False
+
+
+class Numbers:
+    """The numbers of one element in a result: outputs by name, coordinates and pressures by what its record says. KeyError where the
+    result does not have one."""
+
+    def __init__(self, result: Result, machine: MachineRecord, element: Any) -> None:
+        self._result, self._machine, self._element = result, machine, element
+        self._section = "force" if element.collection == "forces" else element.collection
+
+    def _read(self, name: str) -> Array:
+        if name not in self._result:
+            raise KeyError(name)
+        return np.asarray(self._result.array(name), dtype=float)
+
+    def __getitem__(self, output: str) -> Array:
+        return self._read(f"{self._section}.{self._element.name}.{output}")
+
+    def units(self, like: str) -> str:
+        """Of an output, or a field of the record that refers to a coordinate or is a pressure; without the time of a rate."""
+        if like == "coordinate":
+            joint, coordinate = self._resolved(self._element.coordinate)
+            return self._result.units(f"{joint}.{coordinate}")
+        if like not in (*getattr(self._element, "outputs", ()), *getattr(self._element, "late", ())):
+            return "Pa"
+        return self._result.units(f"{self._section}.{self._element.name}.{like}").removesuffix("/s")
+
+    def all(self, value: float | None) -> Array:
+        """A number at all times, infinite where there is none."""
+        return np.full(len(self._result.time), np.inf if value is None else value)
+
+    def part(self, output: str, way: float) -> Array:
+        """The part of an output that has the sign `way`, as a magnitude."""
+        return np.maximum(way * self[output], 0.0)
+
+    def value(self, reference: str) -> Array:
+        """Of a joint coordinate [rad or m]."""
+        return self._coordinate(reference, "")
+
+    def rate(self, reference: str) -> Array:
+        """Of a joint coordinate [rad/s or m/s]."""
+        return self._coordinate(reference, ".rate")
+
+    def _coordinate(self, reference: str, rate: str) -> Array:
+        joint, coordinate = self._resolved(reference)
+        return self._read(f"{joint}.{coordinate}{rate}")
+
+    def _resolved(self, reference: str) -> tuple[str, str]:
+        try:
+            return resolve(reference, self._machine.joints)
+        except UnknownCoordinateError as fault:
+            raise KeyError(reference) from fault
+
+    def difference(self, own: Any) -> Array:
+        """coordinate - ratio · against."""
+        return self.value(own.coordinate) - (own.ratio * self.value(own.against) if own.against is not None else 0.0)
+
+    def way(self, own: Any) -> Array:
+        """[m] of one rim against the other, of two pulleys."""
+        one, two = own.radii
+        return one * self.value(own.coordinate) + (two if own.crossed else -two) * self.value(own.against)
+
+    def pressure(self, port: str) -> Array:
+        """[Pa] of the node at a port; that of a cylinder is before its cushion where it has one."""
+        node, _, chamber = self._element.ports[port].partition(".")
+        if not chamber:
+            return self._read(f"hydraulics.{node}.pressure")
+        before = f"hydraulics.{node}.pressure_port_{chamber}"
+        return self._read(before if before in self._result else f"hydraulics.{node}.pressure_{chamber}")
+
+
+@dataclass(frozen=True)
+class Frames:
+    """An element in the frames of a result."""
+
+    run: Run
+    result: Result
+    element: Any
+
+    @cached_property
+    def numbers(self) -> Numbers:
+        return Numbers(self.result, self.run.machine, self.element)
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """The largest of each kind."""
+        for rule in self.element.inequalities:
+            if rule.applies(self.element):
+                try:
+                    yield from self._acting(rule) if isinstance(rule, Acts) else self._holding(rule)
+                except KeyError:
+                    continue  # the result was asked to leave it out
+
+    def _acting(self, rule: Acts) -> Iterator[Contradiction]:
+        own, of = self.element, self.numbers
+        overlap, effort = rule.overlap(own, of), np.abs(rule.effort(own, of))
+        units, size = of.units(rule.like), self.run.scales.size
+        least = ROUNDING * _largest(overlap) + PLACE * (size if units == "m" else 1.0)
+        acts = effort > ROUNDING * _largest(effort)
+        is_open, is_closed = rule.sides
+        yield from self._told((overlap < -least) & acts, -overlap, f"{is_open} by {{}} {units} and acts")
+        if rule.always(own):
+            grows = _rises(overlap) if rule.rate is None else rule.rate(own, of) > 0.0
+            idle = (overlap > least) & (effort == 0.0) & grows
+            yield from self._told(idle, overlap, f"{is_closed} by {{}} {units} and does not act")
+
+    def _holding(self, rule: Holds) -> Iterator[Contradiction]:
+        own, of = self.element, self.numbers
+        effort, limit, slip = rule.effort(own, of), rule.limit(own, of), rule.slip(own, of)
+        least = FOUND * max(_largest(limit), _largest(effort)) + NOTHING
+        beyond = np.maximum(np.abs(effort) - limit, -effort if rule.one_way else -np.inf)
+        yield from self._told(beyond > least, beyond, f"exerts {{}} {of.units('magnitude')} more than its limit")
+        below = np.abs(effort) < rule.sliding(own, of) - least
+        holds = below & (effort > least) if rule.one_way else below
+        units = of.units(rule.like)
+        yield from self._sliding(holds, np.abs(slip), f"holds and slides by {{}} {units}", units)
+        if rule.one_way:
+            yield from self._sliding(below & (slip < 0.0), np.abs(slip), f"falls behind by {{}} {units}", units)
+
+    def _sliding(self, held: NDArray[np.bool_], slip: Array, said: str, units: str) -> Iterator[Contradiction]:
+        """What slides from frame to frame at which it is held: with the lesser one of both speeds, as it takes a short time to stop."""
+        time = self.result.time
+        way = np.minimum(slip[1:], slip[:-1]) * np.diff(time) * (held[1:] & held[:-1])
+        total = float(way.sum())
+        if total > SLID * (self.run.scales.size if units == "m" else 1.0):
+            k = int(np.argmax(way))
+            yield Contradiction(self.element.name, float(time[k]), said.format(number(total)), int((way > 0.0).sum()))
+
+    def _told(self, wrong: NDArray[np.bool_], amount: Array, said: str) -> Iterator[Contradiction]:
+        if wrong.any():
+            k = int(np.argmax(np.where(wrong, amount, -np.inf)))
+            time = float(self.result.time[k])
+            yield Contradiction(self.element.name, time, said.format(number(float(amount[k]))), int(wrong.sum()))
+
+
+def passed_over(run: Run) -> Iterator[Contradiction]:
+    """Contacts with ground that has heights, into which steps of fixed size go deeper than at any of their ends."""
+    elements = run.prepared.motion.system.record.elements
+    names = [force.name for force in run.machine.forces if getattr(force, "heights", None) is not None]
+    first, last = rows_over_heights(elements)
+    for name, numbers in zip(names, elements.number[first:last, contact.NUMBERS :], strict=True):
+        missed, seen = float(numbers[height_contact.MISSED]), max(float(numbers[height_contact.SEEN]), 0.0)
+        if missed > DEEPER * seen + PLACE * run.scales.size:
+            said = f"touches by {number(missed)} m between two steps, which do not see it,"
+            yield Contradiction(name, float(numbers[height_contact.MISSED_AT]), said, 1)
+
+
+def look_at_sides(run: Run) -> list[Contradiction]:
+    """The first contradiction of each element: between steps of fixed size, in the frames of the run, or in those of the second one."""
+    found = {each.element: each for each in passed_over(run)} if run.plan.settings.steps > 0 else {}
+    results = [run.result, *([run.second.result] if run.second is not None else [])]
+    for second, result in enumerate(results):
+        for element in (*run.machine.forces, *run.machine.hydraulics):
+            if element.inequalities and element.name not in found and len(found) < SHOWN:
+                for each in Frames(run, result, element).contradictions():
+                    found.setdefault(each.element, replace(each, second=bool(second)))
+    return list(found.values())
+
+
+def say_side(found: Contradiction) -> Item:
+    """Which element, in which state, and when."""
+    of = " of the second run" if found.second else ""
+    more = f", in {found.count} frames{of}" if found.count > 1 else of
+    text = f"State: {found.element} {found.said} at t = {found.time:.6g} s{more}: its state is wrong, use shorter steps or another method"
+    return Item("state", "red", text, row=found.element, time=found.time)
+
+
+def _rises(values: Array) -> NDArray[np.bool_]:
+    """(n,) whether they grew from the frame before, and do to the next."""
+    grows = np.diff(values) > 0.0
+    return np.append(False, grows) & np.append(grows, False)
+
+
+def _largest(values: Array) -> float:
+    """Of the magnitudes that are finite."""
+    return float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+
+
+# A state whose values stay below this share of its scale is not followed, and where the tolerance is finer below the share of which that is
+# FOLLOWED.
+SMALL, FOLLOWED = 0.01, 1e-4
+
+
+def _controls_errors(run: Run) -> bool:
+    facts = run.prepared.integrator
+    return bool(facts.chooses_steps or facts.optional_control or facts.residual)
+
+
+TOLERANCE = Need("a method with a tolerance", _controls_errors)
+
+
+@dataclass(frozen=True)
+class SmallState:
+    """A first-order state whose `largest` magnitude stayed far below its `scale`, by which its errors were measured."""
+
+    name: str
+    largest: float
+    scale: float
+
+
+def look_at_states(run: Run) -> list[SmallState]:
+    """The small states; scales of components of circuits are those of their components."""
+    small = min(SMALL, (run.plan.settings.tolerance or 1.0) / FOLLOWED)
+    out, components = [], {component.name for component in run.machine.hydraulics}
+    for fact in run.prepared.motion.system.states:
+        if fact.integral or fact.name.partition(".")[0] in components:
+            continue
+        largest = peak(run.result, fact.result).value
+        if not fact.sampled and 0.0 < largest < small * fact.scale:
+            out.append(SmallState(fact.name, largest, fact.scale))
+    return out
+
+
+def say_state(found: SmallState) -> Item:
+    """A state of which the tolerance says little."""
+    said = f"the largest value of {found.name} is {number(found.largest)}, its scale is {number(found.scale)}: the tolerance hardly held"
+    section, name = ("states", found.name)
+    if found.name.startswith("control."):
+        section, name = found.name.split(".")[:2]
+    advice = f"write `{section}: {{{name}: {{scale: {found.largest:.1g}}}}}`"
+    return Item("states", "amber", f"States: {said} it; {advice}", row=found.name)
+
+
+CHECKS = (
+    Check("state", Run, look_at_sides, say_side, 218, (FRAMES,), "State", blind="both have {row} in a wrong state"),
+    Check("states", Run, look_at_states, say_state, 400, (TOLERANCE,), "States"),
+)

@@ -1,0 +1,311 @@
+"""Outcome of an analysis, what has verified its result and what of it nothing has, variants of a sweep and references of a comparison."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nivel.judge.after.checks.efforts import not_compared
+from nivel.judge.after.other_elements import Compared
+from nivel.judge.after.report import Check
+from nivel.judge.after.subject import (
+    Actuated,
+    Curve,
+    Equilibria,
+    Led,
+    Linearisation,
+    Methods,
+    Motion,
+    Positions,
+    Reach,
+    Run,
+    Subject,
+    Sweep,
+    Variant,
+)
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.trust import Item, Verdict, number
+
+SHOWN = 4  # names in a sentence
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What has examined a result, and what of it nothing has, in words that stand after "by" and after "not verified:"."""
+
+    by: tuple[str, ...]
+    lacks: tuple[str, ...] = ()
+
+
+def look_at_run(run: Run) -> Verification:
+    """The second run, and the one with other elements."""
+    if run.second is None or not len(run.second.result.time):
+        return Verification((), ("no second run was made",))
+    by, lacks = examined_elements(run.machine, run.elements)
+    return Verification((f"a second run with {run.second.refinement.words}", *by), lacks)
+
+
+def look_at_equilibria(subject: Equilibria) -> Verification:
+    """The balance of forces, and the equilibria with other elements."""
+    by, lacks = examined_elements(subject.machine, subject.elements)
+    return Verification(("the balance of forces in every state", *by), lacks)
+
+
+def look_at_positions(subject: Positions) -> Verification:
+    """Constraints, and functions of drivers that are evaluated apart from them."""
+    by, lacks = _followed(subject)
+    return Verification(("the closed joints", *by), lacks)
+
+
+def look_at_efforts(subject: Actuated) -> Verification:
+    """The balance of forces, what the motion says of itself, and the functions of the drivers."""
+    by, lacks = _followed(subject)
+    motion = subject.result.trust
+    if not motion.verified:
+        lacks = ("the motion", *lacks)
+    return Verification(("the balance of forces at every time", *by), lacks)
+
+
+def _followed(subject: Positions | Actuated) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    left = not_compared(subject)
+    lacks = (f"what {listed(left)} prescribe{'s' * (len(left) == 1)}",) if left else ()
+    compared = len(left) < len(subject.drivers)
+    return ("the functions of its drivers, evaluated apart",) if compared else (), lacks
+
+
+def look_at_led(subject: Led) -> Verification:
+    """The postures themselves: where they put the point, evaluated at each of them."""
+    return Verification(("the place of the point in every posture, with its joints closed",))
+
+
+def look_at_reach(subject: Reach) -> Verification:
+    """The kinematic analyses of both ways, and the turning points of the curve of positions."""
+    ways = "the closed joints of both ways"
+    if subject.range.full_turn or not (subject.range.low_reason or subject.range.high_reason):
+        return Verification((ways,))
+    if not subject.turning:
+        return Verification((ways,), ("the ends of the range",))
+    return Verification((ways, "the turning points of the curve of positions"))
+
+
+def look_at_curve(_: Curve) -> Verification:
+    """The joints at all places."""
+    return Verification(("the closed joints at every position",))
+
+
+def look_at_linear(subject: Linearisation) -> Verification:
+    """What eigenvalues are of: an equilibrium, or a motion that was followed; and vibrations with other elements."""
+    if subject.unsteady or any(each.jumps for each in subject.kinks):
+        return Verification((), ("the linear equations, which describe no motion",))
+    by = "A at two later moments of the motion" if subject.moves else "the equilibrium of the state"
+    judged = subject.others is not None and not subject.others.why
+    more, lacks = _elements(subject.machine, subject.others.pair.words if subject.others and judged else "")
+    run = (f"the run to the state at {subject.reached:.6g} s",) if subject.reached else ()
+    return Verification((by, *more), (*lacks, *run))
+
+
+def look_at_methods(subject: Methods) -> Verification:
+    """The references, each of which checks the other."""
+    references, rows = subject.references, [each for each in subject.rows if each.outcome == "done"]
+    if not references or not rows:
+        return Verification((), ("the motions, as there is no reference",))
+    if any(each.blind for each in references):
+        return Verification((), ("errors of motions, as references may have the same",))
+    if len(references) == 1:
+        return Verification((references[0].name,), ("the reference, as no other method came to the end",))
+    return Verification(tuple(each.name for each in references))
+
+
+def look_at_sweep(sweep: Sweep) -> Verification:
+    """The variants that were verified, and those that were not."""
+    ran = [each for each in sweep.variants if each.verdict]
+    left = [each for each in ran if not each.verified]
+    if len(left) == len(ran):
+        return Verification((), (sweep.without,))
+    count = len(ran) - len(left)
+    lacks = (f"{len(left)} of {len(ran)} variants",) if left else ()
+    return Verification((f"{sweep.by} of {count} variant{'s' * (count > 1)}",), lacks)
+
+
+def examined_elements(machine: MachineRecord, elements: Compared | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """(by, lacks) of the elements of beams, nothing of machines without."""
+    return _elements(machine, elements.pair.words if elements is not None and elements.errors is not None else "")
+
+
+def _elements(machine: MachineRecord, words: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """words : which other elements there were; empty where none have told anything."""
+    if not machine.beams:
+        return (), ()
+    return ((f"a machine with {words} elements of beams",), ()) if words else ((), ("the elements of beams",))
+
+
+def listed(names: list[str]) -> str:
+    """The first of them."""
+    return ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
+
+
+VERDICTS: dict[str, Verdict] = {"done": "green", "interrupted": "amber", "failed": "red", "running": "amber"}
+SAID: dict[type[Subject], dict[str, str]] = {
+    Motion: {
+        "done": "the run reached its end",
+        "interrupted": "interrupted; the result ends there",
+        "failed": "the computation failed; the result ends there",
+        "running": "the file was not closed: the run is still going on, or it was killed",
+    },
+    Equilibria: {
+        "done": "every state of equilibrium was found",
+        "interrupted": "interrupted; the result has the states up to there",
+        "failed": "the computation failed; the result has the states up to there",
+    },
+    Positions: {
+        "done": "every position was found",
+        "interrupted": "interrupted; the result has the positions up to there",
+        "failed": "the machine cannot move any further; the result has the positions up to there",
+    },
+    Actuated: {"done": "efforts were found for every time of the motion"},
+    Linearisation: {"done": "the linear equations were found"},
+    Methods: {"done": "every cell was tried", "interrupted": "interrupted; cells are missing"},
+    Sweep: {
+        "done": "every variant was tried",
+        "interrupted": "interrupted; some variants are not run",
+    },
+}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How an analysis ended, in a word and a sentence."""
+
+    outcome: str
+    said: str
+
+
+def look_at_outcome(subject: Subject) -> Outcome:
+    """The outcome, with the failure or the event that ended it."""
+    words = next((each for kind, each in SAID.items() if isinstance(subject, kind)), {})
+    said = words.get(subject.outcome, subject.outcome)
+    if isinstance(subject, Motion) and subject.stopped_by:
+        said = f"the event {subject.stopped_by} ended the run, as intended"
+    return Outcome(subject.outcome, f"{said}: {subject.failure}" if subject.failure else said)
+
+
+def say_outcome(found: Outcome) -> Item:
+    """The line of the outcome."""
+    return Item("outcome", VERDICTS.get(found.outcome, "red"), f"Outcome: {found.said}")
+
+
+ENDED = ("done", "stopped")  # outcomes of variants that ran as intended
+WORST = ("red", "amber")  # of which one is named
+
+
+@dataclass(frozen=True)
+class Ran:
+    """How many variants there are, how many came to their end, and the first one that did not, with the reason."""
+
+    count: int
+    ended: int
+    first: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Judged:
+    """How many variants have a red and an amber trust report, of how many; the first of the worst and what is said of it."""
+
+    count: int
+    red: int
+    amber: int
+    worst: str
+    headline: str
+
+
+def look_at_ends(sweep: Sweep) -> Ran:
+    """Variants that failed, were refused or not run."""
+    others = [each for each in sweep.variants if each.outcome not in ENDED]
+    first, reason = (others[0].name, others[0].reason or others[0].outcome) if others else ("", "")
+    return Ran(len(sweep.variants), len(sweep.variants) - len(others), first, reason)
+
+
+def say_ends(found: Ran) -> Item:
+    """How many came to their end."""
+    said = f"Variants: {found.ended} of {found.count} came to their end"
+    if found.ended == found.count:
+        return Item("variants", "green", f"{said} (green if all do)")
+    verdict: Verdict = "amber" if found.ended else "red"
+    text = f"{said}; the first that did not is {found.first}: {found.reason} (green if all do, amber if some do)"
+    return Item("variants", verdict, text, row=found.first)
+
+
+def look_at_verdicts(sweep: Sweep) -> Judged:
+    """The trust reports of the variants."""
+    by: dict[str, list[Variant]] = {
+        colour: [each for each in sweep.variants if each.verdict == colour] for colour in WORST
+    }
+    worst = next((each[0] for each in by.values() if each), None)
+    count = sum(bool(each.verdict) for each in sweep.variants)
+    return Judged(count, len(by["red"]), len(by["amber"]), worst.name if worst else "", worst.headline if worst else "")
+
+
+def say_verdicts(found: Judged) -> Item:
+    """The worst of them."""
+    if not found.red and not found.amber:
+        text = f"Verdicts: no trust report of {found.count} is amber or red (the colour is that of the worst)"
+        return Item("verdicts", "green", text)
+    said = f"Verdicts: of {found.count} trust reports {found.red} are red and {found.amber} amber"
+    text = f"{said}; {found.worst}: {found.headline} (the colour is that of the worst)"
+    return Item("verdicts", "red" if found.red else "amber", text, row=found.worst)
+
+
+@dataclass(frozen=True)
+class Held:
+    """Names of the references, their own errors as shares of the size, or radians, and why each may miss something; empty where nothing
+    says so."""
+
+    names: tuple[str, ...]
+    errors: tuple[float, ...]
+    blind: tuple[str, ...]
+
+
+def look_at_references(subject: Methods) -> Held:
+    """The references, the best first."""
+    every = subject.references
+    return Held(
+        tuple(each.name for each in every), tuple(each.error for each in every), tuple(each.blind for each in every)
+    )
+
+
+def say_references(found: Held) -> Item:
+    """Whether errors of motions are known."""
+    limits = "(green with two references of different methods that miss nothing)"
+    if not found.names:
+        return Item("references", "amber", f"References: there are none, so no error of a motion is known {limits}")
+    blind = next((each for each in found.blind if each), "")
+    if all(found.blind):
+        several = "all of them" if len(found.names) > 1 else "the only one"
+        said = f"{several} may have the same error as the runs: {blind}; errors of motions may be larger than they are shown"
+        return Item("references", "amber", f"References: {said} {limits}")
+    if blind:
+        names = ", ".join(name for name, why in zip(found.names, found.blind, strict=True) if why)
+        return Item("references", "amber", f"References: {names} may have an error that is not known: {blind} {limits}")
+    if len(found.names) == 1:
+        return Item("references", "amber", f"References: {found.names[0]} alone, which no other method checks {limits}")
+    errors = " and ".join(number(each) for each in found.errors)
+    said = f"{' and '.join(found.names)}, whose own errors are {errors}, check each other"
+    return Item("references", "green", f"References: {said} {limits}")
+
+
+CHECKS = (
+    Check("verification", Run, look_at_run, lambda _: None, 1),
+    Check("verification", Equilibria, look_at_equilibria, lambda _: None, 1),
+    Check("verification", Positions, look_at_positions, lambda _: None, 1),
+    Check("verification", Actuated, look_at_efforts, lambda _: None, 1),
+    Check("verification", Led, look_at_led, lambda _: None, 1),
+    Check("verification", Reach, look_at_reach, lambda _: None, 1),
+    Check("verification", Curve, look_at_curve, lambda _: None, 1),
+    Check("verification", Linearisation, look_at_linear, lambda _: None, 1),
+    Check("verification", Methods, look_at_methods, lambda _: None, 1),
+    Check("verification", Sweep, look_at_sweep, lambda _: None, 1),
+    Check("outcome", Subject, look_at_outcome, say_outcome, 0, (), "Outcome"),
+    Check("variants", Sweep, look_at_ends, say_ends, 12, (), "Variants"),
+    Check("verdicts", Sweep, look_at_verdicts, say_verdicts, 14, (), "Verdicts"),
+    Check("references", Methods, look_at_references, say_references, 10, (), "References"),
+)

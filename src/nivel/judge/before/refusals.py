@@ -1,0 +1,394 @@
+"""Refusals before a run whose numbers would mean nothing, though the machine can be assembled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.redundancy import Redundancy
+from nivel.analysis.curves.corners import corners_of
+from nivel.analysis.plan.screw_couplings import screws_as_couplings
+from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import INTEGRATORS
+from nivel.machine.forces import Contact, Contacts, Friction, Stop, TransmissionLoss, holds_by_capacity, is_sticking
+from nivel.machine.forces.element import ForceElement
+from nivel.machine.joints.driver import RATES
+from nivel.machine.laws.functions import functions_in
+from nivel.machine.laws.python_law import PythonLaw
+from nivel.machine.laws.table import Table
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.run import SimulationSettings
+from nivel.machine.units.expression import Expression
+from nivel.machine.uses.coordinate_reference import resolve
+from nivel.methods import chooses
+from nivel.motion.catalogue import FORMULATIONS
+from nivel.system.laws.laws import false_derivative
+from nivel.system.layout import reported
+from nivel.system.system import Array
+
+# Stops and contacts may start inside what they touch by this share of the machine's length, or of a radian.
+DEEPEST_START = 0.02
+# Times of samples are ends of steps to this share.
+WHOLE = 1e-9
+# The assembly may move a node of a beam by this share of the machine's length, or of a radian.
+FITS = 1e-8
+# and change its speed by this share of the machine's.
+BLOW = 1e-3
+
+
+def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
+    """Stops and contacts that start far inside what they touch: they would throw the machine apart."""
+    if not any(isinstance(force, Stop | Contact | Contacts) for force in machine.forces):
+        return
+    motion.evaluate(0.0, y)
+    system, faults = motion.system, []
+    values = system.record.outputs.value
+    reports = reported(system.layout, len(values))
+    names = [variable.name for variable in reports]
+    for force in machine.forces:
+        if isinstance(force, Stop | Contact | Contacts):
+            place = names.index(f"force.{force.name}.depth")
+            depth, units = float(values[place]), reports[place].units
+            deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
+            if depth > deepest:
+                message = (
+                    f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): the contact force "
+                    f"would be huge; move the bodies, or the limits of the stop"
+                )
+                faults.append(Fault("", 0, 0, f"forces.{force.name}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
+    """Periods, offsets and latencies of sampled states and blocks [s] that are not zero, with where they stand."""
+    times = [(f"states.{state.name}.every", state.every or 0.0) for state in machine.states]
+    times += [
+        (f"control.{block.name}.{key}", getattr(block, key) or 0.0)
+        for block in machine.control
+        for key in ("sample_time", "offset", "latency")
+    ]
+    return [(place, time) for place, time in times if time]
+
+
+def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
+    """Sampled states and blocks whose times are not ends of fixed steps [s]."""
+    faults = []
+    for place, time in sampled_times(machine) if fixed else ():
+        count = round(time / step)
+        if count < 1 or abs(count * step - time) > WHOLE * time:
+            message = (
+                f"{time:.6g} s is no whole number of steps of {step:.6g} s: use `simulation: {{step: {time / max(count, 1):.6g}}}`, "
+                f"or an integrator that chooses its steps"
+            )
+            faults.append(Fault("", 0, 0, place, message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> None:
+    """Methods without any damping as index 3: what a jump of the load leaves in the multipliers then alternates for ever."""
+    settings = machine.simulation
+    undamped = {
+        "newmark": settings.newmark.gamma == 0.5,
+        "hht": settings.hht.alpha == 0.0,
+        "generalised-alpha": settings.generalised_alpha.spectral_radius == 1.0,
+    }
+    if constraints and settings.stabilisation == "none" and undamped.get(settings.integrator):
+        message = (
+            f"'none' makes `integrator: {settings.integrator}` solve the positions' constraints alone (index 3), and without "
+            f"damping its multipliers oscillate after a load changes: use direct (stabilised index 2), or damping: "
+            f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
+        )
+        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+
+
+def refuse_stiction_over_steps(machine: MachineRecord) -> None:
+    """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
+    if INTEGRATORS[machine.simulation.integrator].needs != "whole steps":
+        return
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}.{_key_of_model(force)}",
+            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, "
+            f"while sticking depends on the acceleration at a time: use generalised-alpha, or {_instead_of_stiction(force)}",
+        )
+        for force in machine.forces
+        if is_sticking(force)
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def _key_of_model(force: ForceElement) -> str:
+    """Where a force says how its friction goes."""
+    return "model" if isinstance(force, Friction) else "type" if holds_by_capacity(force) else "friction_model"
+
+
+def _instead_of_stiction(force: ForceElement) -> str:
+    """What to write for friction that does not stick."""
+    if holds_by_capacity(force):
+        return "leave it out"
+    return "`model: lugre`" if isinstance(force, Friction) else "`friction_model: coulomb`"
+
+
+def refuse_conserved_drivers(machine: MachineRecord) -> None:
+    """Drivers prescribe speeds, which the energy constraint would have to scale. What a fixed step misses of a contact that begins in
+    it is no drift either: to scale all velocities for it would take momentum where no force does."""
+    if machine.simulation.stabilisation != "geometric":
+        return
+    faults = []
+    sudden = [force.name for force in machine.forces if isinstance(force, Contact | Contacts | Stop)]
+    if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
+        message = (
+            f"'geometric' scales all velocities to conserve energy. It would also correct the error of a fixed step in which "
+            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch: use direct, or `integrator: dopri5`, whose steps "
+            f"end there"
+        )
+        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+    if machine.drivers:
+        names = ", ".join(driver.name for driver in machine.drivers)
+        message = (
+            f"'geometric' scales velocities to conserve energy, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
+            f"velocities: take direct"
+        )
+        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_rough_motions(machine: MachineRecord) -> None:
+    """Tables of drivers whose speed jumps, for integrators that would lose the jump within a step. Laws whose derivatives are not those of
+    what they return."""
+    faults = []
+    settings = machine.simulation
+    for owner, table in _motions(machine):
+        message = ""
+        if isinstance(table, PythonLaw) and (wrong := false_derivative(table, settings.duration)):
+            message = f"the law `{table.function}` must return consistent value, rate and acceleration: {wrong}"
+        elif isinstance(table, Table) and INTEGRATORS[settings.integrator].ends != "jumps":
+            message = _jump_of(table, settings)
+        if message:
+            faults.append(Fault("", 0, 0, owner, message))
+    if faults:
+        raise ModelError(faults)
+
+
+def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
+    """The functions by which drivers move a machine, each with its place in the file: `drivers.lift.value`, or the list where it stands."""
+    for driver in machine.drivers:
+        for place, function in functions_in(driver):
+            if place in RATES:
+                continue
+            yield f"drivers.{driver.name}.{place if place == 'value' else place.rpartition('.')[0] or place}", function
+
+
+def refuse_friction_at_jumps(machine: MachineRecord) -> None:
+    """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
+    end = machine.simulation.duration
+    jumping = [
+        owner.split(".")[1]
+        for owner, motion in _motions(machine)
+        if isinstance(motion, Table)
+        and (
+            motion.ends_before(end)
+            or (motion.interpolation == "linear" and min(corners_of(motion, end), default=end) < end)
+        )
+    ]
+    loaded = [
+        force.name
+        for force in machine.forces
+        if (isinstance(force, Friction) and force.normal_load is None) or isinstance(force, TransmissionLoss)
+    ]
+    if jumping and loaded:
+        message = (
+            f"the speed of {', '.join(jumping)} jumps, and the friction of {', '.join(loaded)} is loaded by reactions, which are impulses "
+            f"there: give a `normal_load`, or take `interpolation: cubic` for the driver"
+        )
+        raise ModelError([Fault("", 0, 0, f"forces.{name}.normal_load", message) for name in loaded])
+
+
+def _jump_of(table: Table, settings: SimulationSettings) -> str:
+    """What is wrong with a table of a driver for an integrator that does not stop where its speed jumps; empty: nothing."""
+    end, first, last = settings.duration, table.times[0], table.times[-1]
+    lost = (
+        f"`integrator: {settings.integrator}` would lose the jump within a step: take `integrator: newmark`, hht or generalised-alpha, "
+        f"whose steps end there and begin with the new speed"
+    )
+    if first > 0.0 or table.ends_before(end):
+        return (
+            f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed jumps to "
+            f"zero, and {lost}; or add points, or run for {last:.6g} s"
+        )
+    times = [time for time in corners_of(table, end) if time < last]
+    if table.interpolation == "linear" and times:
+        named = ", ".join(f"{time:.6g}" for time in times[:3]) + (", …" if len(times) > 3 else "")
+        return f"the speed of straight lines jumps at {named} s, and {lost}; or take `interpolation: cubic`, which has no corners"
+    return ""
+
+
+def _lumped(machine: MachineRecord) -> str:
+    """How the beams of a machine would have masses of single bodies, in words."""
+    if any(beam.has_gradients for beam in machine.beams):
+        return "beams of `model: segments`, or geometrically-exact ones of `mass: lumped`"
+    return "`mass: lumped` for the beams"
+
+
+def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+    """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
+    if not machine.shares_mass:
+        return
+    names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
+    why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
+    faults = []
+    if coordinates not in ("absolute", "relative"):
+        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
+    if formulation != "newton-euler":
+        faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
+    gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
+    if INTEGRATORS[machine.simulation.integrator].needs == "whole steps" and gradients:
+        message = (
+            f"'{machine.simulation.integrator}' does not go with {gradients}, because the velocities of its gradients are not the "
+            f"mean of those at both ends of a step: use generalised-alpha, or beams of another `model`"
+        )
+        faults.append(("integrator", message))
+    out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
+    for force in machine.forces:
+        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
+            message = f"friction under `integrator: {machine.simulation.integrator}` {why.format('generalised-alpha')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}", message))
+        elif is_sticking(force):
+            message = f"'stiction' {why.format('lugre or coulomb' if isinstance(force, Friction) else 'coulomb')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}.{_key_of_model(force)}", message))
+    if out:
+        raise ModelError(out)
+
+
+def refuse_flexible_lagrange(machine: MachineRecord, formulation: str) -> None:
+    """The Lagrange equations, which are for rigid bodies."""
+    names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
+    if names and formulation == "lagrange":
+        message = f"'lagrange' does not go with flexible bodies ({names}): take `formulation: newton-euler`, whose motion is the same"
+        raise ModelError(Fault("", 0, 0, "simulation.formulation", message))
+
+
+def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> None:
+    """Beams that the assembly would stress, by moving single nodes of them. moved : body, distance [m], angle [rad]."""
+    owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"beams.{owners[name]}",
+            f"its joints do not fit: the assembly would move its node {name} by {distance:.3g} m and {angle:.3g} rad, and stress it; place "
+            f"the beam, or what is joined to it, so that they meet to {FITS * size:.0e} m, and drivers so that they start there",
+        )
+        for name, distance, angle in moved
+        if name in owners and max(distance / size, angle) > FITS
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_struck_nodes(
+    machine: MachineRecord, changes: Sequence[tuple[str, float, float]], speed: float, turning: float
+) -> None:
+    """Velocities of joints that the assembly would give to single nodes of beams: an impact, not a motion. Drivers may strike them.
+
+    changes : body, speed [m/s], angular speed [rad/s]. speed, turning : largest ones of the machine [m/s, rad/s].
+    """
+    owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
+    struck = [
+        (name, change, turn)
+        for name, change, turn in changes
+        if name in owners and not machine.drivers and (change > BLOW * speed or turn > BLOW * turning)
+    ]
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"beams.{owners[name]}",
+            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an "
+            f"impact. Give the beam the `velocity` of its start and the `angular_velocity` with which it moves as a rigid body",
+        )
+        for name, change, turn in struck
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_uncertain_loads(
+    machine: MachineRecord, redundancy: Redundancy, exact: Callable[[], tuple[str, ...]]
+) -> None:
+    """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many.
+
+    exact : changes of joints with which nothing is redundant, in words.
+    """
+    faults = []
+    for force in machine.forces:
+        if isinstance(force, Friction) and force.normal_load is None:
+            joint, _ = resolve(force.coordinate, machine.joints)
+            if joint in redundancy.non_unique_joints:
+                rows, screws = (
+                    redundancy.redundant_rows,
+                    list(screws_as_couplings(machine, redundancy.non_unique_joints)),
+                )
+                changes = () if screws else exact()
+                written = " and ".join(
+                    f"in place of the joint {name} under `couplings` `{line}`" for name, line in screws
+                )
+                message = (
+                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(rows)} "
+                    f"repeat{'s' if len(rows) == 1 else ''} other constraints; give a `normal_load`, or "
+                    + (
+                        f"write {written}"
+                        if screws
+                        else f"make {' and '.join(changes)}"
+                        if changes
+                        else "replace joints until no constraint is redundant"
+                    )
+                )
+                faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_rolling(machine: MachineRecord, instead: str) -> None:
+    """Raises ModelError for every wheel; instead : what to do, in words."""
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"joints.{joint.name}.type",
+            f"'rolling' without slip constrains velocities, not positions, so the position of a wheel depends on its path: {instead}",
+        )
+        for joint in machine.joints
+        if joint.type == "rolling"
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_rolling_by_positions(machine: MachineRecord, coordinates: str) -> None:
+    """Raises ModelError for methods whose multipliers close positions, and so would let wheels slip."""
+    settings = machine.simulation
+    integrator = INTEGRATORS[settings.integrator]
+    if integrator.needs == "whole steps":
+        refuse_rolling(
+            machine,
+            f"`integrator: {settings.integrator}` solves position constraints only; use generalised-alpha, radau or rk4",
+        )
+    feeds_back = FORMULATIONS[settings.formulation].factor > 0.0
+    closes_positions = settings.stabilisation == "none" and not feeds_back and coordinates != "independent"
+    if integrator.needs == "accelerations" and closes_positions:
+        refuse_rolling(
+            machine,
+            f"with 'none' the multipliers of `integrator: {settings.integrator}` close positions alone (index 3); "
+            f"take `stabilisation: direct`",
+        )

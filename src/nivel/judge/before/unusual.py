@@ -1,0 +1,262 @@
+"""Values of a machine that are far from those of real machines: what stands there, what is usual, and what to write."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.judge.before.circuits import circuit_remarks
+from nivel.machine.bodies.body import Body
+from nivel.machine.bodies.inertia import mass_of, mass_properties
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.bodies.solids import (
+    axes_of,
+    box_size,
+    centroid,
+    length,
+    mesh_surface,
+    share_of_hull,
+    squared_gyration,
+)
+from nivel.machine.core.placement import marker_frame
+from nivel.machine.core.record import Record
+from nivel.machine.forces import Contact
+from nivel.machine.given import Shown, Usual
+from nivel.machine.hydraulics import Actuator, Component, Volume
+from nivel.machine.hydraulics.machines import RotaryMachine
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
+from nivel.machine.uses.hydraulic_uses import makers, ports_of
+from nivel.machine.uses.references import SECTIONS
+
+# Of its hull a body fills no less than this share where the hull may touch in its place.
+HOLLOW: Final = 0.9
+# Bodies of machines are shorter [m] and lighter [kg].
+LONGEST: Final = 100.0
+HEAVIEST: Final = 1e6
+
+
+@dataclass(frozen=True)
+class Remark:
+    """What is right by its unit and may be a slip all the same.
+
+    place : as in a machine file, ``hydraulics.pump.displacement``. share : by how many times a value is beyond what is usual; infinite
+    where that is no matter of its size.
+    """
+
+    place: str
+    message: str
+    share: float
+
+
+def remarks(machine: MachineRecord) -> Iterator[Remark]:
+    """Everything that is unusual in a machine."""
+    yield from _of_fields(machine, "")
+    for section in SECTIONS:
+        for element in getattr(machine, section):
+            yield from _of_fields(element, f"{section}.{element.name}")
+    yield from _of_volumes(machine)
+    yield from _unfillable(machine)
+    yield from _hollow(machine)
+    yield from _immense(machine)
+    yield from _narrow(machine)
+    for name, message in resting_remarks(machine):
+        yield Remark(f"forces.{name}", message, math.inf)
+    for place, message in circuit_remarks(machine.hydraulics):
+        yield Remark(f"hydraulics.{place}", message, math.inf)
+
+
+@cache
+def unit_of(usual: Usual) -> float:
+    """The unit of a range in SI units."""
+    return read_quantity(f"1 {usual.unit}", ANY, {})
+
+
+def excess(value: float, usual: Usual) -> float:
+    """By how many times the magnitude of `value`, in SI units, is beyond a range; up to 1 within it. Zero is usual."""
+    size = abs(value) / unit_of(usual)
+    return max(size / usual.most, usual.least / size) if size > 0.0 else 0.0
+
+
+def in_words(value: float, usual: Usual) -> str:
+    """``2500 bar, and 0.01 to 700 bar is usual``."""
+    span = f"{usual.least:g} to {usual.most:g}" if usual.least else f"up to {usual.most:g}"
+    return f"{value / unit_of(usual):.6g} {usual.unit}, and {span} {usual.unit} is usual"
+
+
+def _of_fields(record: Record, place: str) -> Iterator[Remark]:
+    """What is unusual in the fields of a record, and of those that it holds."""
+    start = f"{place}." if place else ""
+    for name, field in type(record).model_fields.items():
+        value, key, its = getattr(record, name), field.alias or name, field.json_schema_extra
+        if isinstance(its, Shown) and its.usual is not None:
+            yield from _of_value(value, its.usual, f"{start}{key}", key)
+        elif isinstance(value, Record):
+            yield from _of_fields(value, f"{start}{key}")
+
+
+def _of_value(value: Any, usual: Usual, place: str, key: str) -> Iterator[Remark]:
+    numbers = value if isinstance(value, tuple) else (value,)
+    shares = [(excess(each, usual), each) for each in numbers if isinstance(each, float | int)]
+    share, worst = max(shares, default=(0.0, 0.0))
+    if share > 1.0:
+        message = f"`{key}` is {in_words(worst, usual)}; for example `{key}: {usual.example}`"
+        yield Remark(place, message, share)
+
+
+def _of_volumes(machine: MachineRecord) -> Iterator[Remark]:
+    """Displacements of pumps and motors that were given as volumes: per radian they are 2π times those per turn."""
+    for component in machine.hydraulics:
+        volume = getattr(component, "displacement", None)
+        if isinstance(component, RotaryMachine) and isinstance(volume, PlainVolume):
+            size, per_turn = f"{volume * 1e6:.6g} cm^3", f"{volume * 2e6 * math.pi:.4g} cm^3/rev"
+            message = (
+                f"`displacement` is a volume per angle: `{size}` counts as {size}/rad, which is {per_turn}; catalogues state it per turn: "
+                f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
+            )
+            yield Remark(f"hydraulics.{component.name}.displacement", message, math.inf)
+
+
+def _hollow(machine: MachineRecord) -> Iterator[Remark]:
+    """Contacts of bodies of which the hull touches, and is much more than the body."""
+    bodies = {body.name: body for body in machine.bodies}
+    for force in machine.forces:
+        if not isinstance(force, Contact) or force.bodies is None:
+            continue
+        for name in force.bodies:
+            shape = bodies[name].shape
+            if not isinstance(shape, Extrusion | Mesh) or (isinstance(shape, Mesh) and shape.parts is not None):
+                continue
+            share = share_of_hull(shape)
+            if share < HOLLOW:
+                advice = (
+                    "give the shape `convex_parts: 8`"
+                    if isinstance(shape, Mesh)
+                    else "divide it into bodies with `fixed` joints, or take a mesh with `convex_parts`"
+                )
+                message = f"`{name}` is concave, and its hull touches, of which it fills {100 * share:.0f} %; {advice}"
+                yield Remark(f"forces.{force.name}", message, math.inf)
+
+
+def _immense(machine: MachineRecord) -> Iterator[Remark]:
+    """Bodies that are larger or heavier than those of machines, as where the file of a mesh is in millimetres."""
+    for body in machine.bodies:
+        shape = body.shape
+        if shape is None or body.point_mass or body.flexible is not None:
+            continue
+        if isinstance(shape, Mesh):
+            extent = float(np.ptp(mesh_surface(shape)[0], axis=0).max())
+        else:
+            extent = math.sqrt(12.0 * float(np.max(squared_gyration(shape))))  # of a bar its length
+        mass = mass_of(body)
+        if extent <= LONGEST and mass <= HEAVIEST:
+            continue
+        smaller = f"{extent / 1000.0:.4g} m" + (f" and {mass / 1e9:.4g} kg" if body.density is not None else "")
+        advice = f"with `unit: {shape.unit:g} mm` of its file" if isinstance(shape, Mesh) else "in millimetres"
+        message = (
+            f"`{body.name}` is {extent:.4g} m long and has a mass of {mass:.4g} kg; is it given in millimetres? Lengths divided by 1000, "
+            f"{advice}, make {smaller}"
+        )
+        yield Remark(f"bodies.{body.name}.shape", message, math.inf)
+
+
+def _narrow(machine: MachineRecord) -> Iterator[Remark]:
+    """Balls on ground with heights that curves more than they do."""
+    bodies = {body.name: body for body in machine.bodies}
+    for force in machine.forces:
+        if not isinstance(force, Contact) or force.heights is None or force.body is None:
+            continue
+        radius = getattr(bodies[force.body].shape, "radius", None)
+        curvature = force.heights.greatest_curvature
+        if not isinstance(bodies[force.body].shape, Sphere | Capsule) or radius is None or radius * curvature <= 1.0:
+            continue
+        message = (
+            f"a valley of the ground curves with a radius of {1.0 / curvature:.3g} m, less than the {radius:.3g} m of "
+            f"`{force.body}`, which touches one side at a time there, and jumps between them; write smoother heights, or a smaller radius"
+        )
+        yield Remark(f"forces.{force.name}.heights", message, math.inf)
+
+
+def _unfillable(machine: MachineRecord) -> Iterator[Remark]:
+    """Chambers and volumes of liquid into which nothing can flow, and whose pressure is not given."""
+    gases = {fluid.name for fluid in machine.fluids if fluid.type == "ideal-gas"}
+    only_gas = len(gases) == len(machine.fluids) == 1
+    filled = _filled(machine.hydraulics)
+    for node, maker in makers(machine.hydraulics).items():
+        if node in filled or not isinstance(maker, Volume | Actuator) or _is_filled_by_hand(maker, node):
+            continue
+        if only_gas if maker.fluid is None else maker.fluid in gases:
+            continue  # a spring
+        which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
+        advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
+        message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
+        yield Remark(f"hydraulics.{maker.name}", message, math.inf)
+
+
+def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:
+    """Whether the pressure that it is to keep is given."""
+    start = maker.start if isinstance(maker, Volume) else getattr(maker, f"start_{node.rpartition('.')[2]}")
+    return start is not None
+
+
+def _filled(components: Iterable[Component]) -> set[str]:
+    """Nodes into which fluid can flow: through a component, or from a second chamber that is part of the same volume."""
+    inlets = [ports_of(each)[port] for each in components for port in each.inlets if port in ports_of(each)]
+    parts = Counter(node for each in components if isinstance(each, Actuator) for node in ports_of(each).values())
+    return {*inlets, *(node for node, count in parts.items() if count > 1)}
+
+
+# Of its size a body touches within this share.
+TOUCHES = 1e-6
+
+
+def resting_remarks(machine: MachineRecord) -> Iterator[tuple[str, str]]:
+    """(name of the contact, message): a contact without overlap has no force, so its body slides before friction can hold it."""
+    if machine.simulation.start == "equilibrium":
+        return
+    for force in machine.forces:
+        if not isinstance(force, Contact) or not force.sticks or not force.static > force.friction:
+            continue
+        if force.body is None or force.plane is None or force.heights is not None or force.stiffness is None:
+            continue
+        body = machine.body_named[force.body]
+        marker = machine.marker_named[force.plane] if isinstance(force.plane, str) else force.plane
+        if marker.body != "ground" or not isinstance(body.shape, Box | Cylinder) or _moves(body):
+            continue
+        point, axes = marker_frame(marker)
+        n = axes[:, 2]
+        pressed = -float(n @ np.array(machine.gravity))
+        across = float(np.linalg.norm(np.array(machine.gravity) + pressed * n))
+        if not force.friction * pressed < across < force.static * pressed:
+            continue
+        reach = _reach(body.shape, machine.placed[body.name][1].T @ n)
+        centre = machine.placed[body.name][0] + machine.placed[body.name][1] @ centroid(body.shape)
+        if abs(float(n @ (centre - point)) - reach) > TOUCHES * reach:
+            continue
+        load = mass_properties(body).mass * pressed / 4
+        depth = (load / force.stiffness) ** (1.0 / force.exponent)
+        yield (
+            force.name,
+            f"`{body.name}` just touches the slope: without overlap there is no force, so it begins to slide, and kinetic friction does "
+            f"not stop it; to have it rest, place it {depth:.2g} m deeper (four points that carry its weight)",
+        )
+
+
+def _moves(body: Body) -> bool:
+    given = (body.velocity, body.angular_velocity, body.angular_velocity_body)
+    return any(np.any(np.array(each or 0.0)) for each in given)
+
+
+def _reach(shape: Box | Cylinder, n: NDArray[np.float64]) -> float:
+    """[m] from the centre of a shape to where it is farthest along n, a unit vector in the body frame."""
+    if isinstance(shape, Box):
+        return 0.5 * float(np.abs(n) @ np.array(box_size(shape)))
+    along = float(n[axes_of(shape.along)[0]])
+    return 0.5 * length(shape) * abs(along) + shape.radius * float(np.sqrt(max(1.0 - along * along, 0.0)))

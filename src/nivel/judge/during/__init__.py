@@ -1,0 +1,1 @@
+"""During an analysis: what stopped it, and what to do about it."""

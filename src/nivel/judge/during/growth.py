@@ -1,0 +1,147 @@
+"""Runs without an end: motion that has grown without bound, and steps that have become so short that the end is out of reach."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, WAIT, Run
+from nivel.judge.during.stop import Status
+from nivel.kernels.output.observe import observe
+from nivel.machine.units.tree import Node
+from nivel.system.layout import reported
+from nivel.system.system import Array, System
+
+# Energy that no load gave, as a multiple of that of the start and of the weights at the machine's length; as a share of the work.
+GROWN, OF_WORK = 1e3, 0.1
+UNBOUND = "the motion has grown without bound"
+
+
+def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
+    """(message, advice) where the last accepted state y has far more energy than anything gave it, in what is elastic too or in what
+    dampers take in a step, and bodies that move by more than the length of the machine in a step of fixed size; None where it has not."""
+    system, control = motion.system, motion.system.record.control
+    motion.evaluate(time, y)
+    observe(motion.handle.address, time, y, np.zeros(system.layout.width))
+    kinetic, potential, start = (float(each) for each in control.energy)
+    work, dissipated = float(y[-2]), float(y[-1])
+    gained = kinetic + potential - start - work + dissipated
+    bodies = system.record.bodies
+    mass = float(bodies.mass.sum())
+    known = max(abs(start), mass * float(np.linalg.norm(bodies.gravity)) * system.size)
+    slow = kinetic <= 0.5 * mass * (system.size / step) ** 2
+    stored, damped = float(control.stored[0]), step * _damping_power(system)
+    fast = max(stored, damped)
+    if slow or fast <= GROWN * known or abs(gained) <= max(GROWN * known, OF_WORK * abs(work)):
+        return None
+    decays = damped > stored
+    kind, strongest = ("decay", "takes most power") if decays else ("vibration", "is largest")
+    pulls = _most(system, "power" if decays else "magnitude")
+    gain = f"{abs(gained):.2g} J" if np.isfinite(gained) else "more energy than a number can hold,"
+    message = (
+        f"{UNBOUND}: the machine has {gain} that no load gave it. A step of {step:.3g} s is too long for its "
+        f"fastest {kind}{pulls and f', and {pulls} is the force that {strongest}'}"
+    )
+    stiff, over = ("damper", "decays") if decays else ("spring", "vibrations")
+    advice = (
+        f"Try --step {step / 10:.3g}, and less for a stiffer {stiff} or a lighter body; or a method that steps over fast "
+        f"{over}: radau, generalised-alpha, or ros2 with --coordinates relative."
+    )
+    return message, advice
+
+
+def _damping_power(system: System) -> float:
+    """What dampers take from the machine in the state last evaluated, frictions not counted [W]; infinite beyond all numbers."""
+    frictions = [value for name, value in _outputs(system, "power") if name in system.frictions]
+    power = float(system.record.control.power[1]) + sum(frictions)
+    return power if np.isfinite(power) else np.inf
+
+
+def _most(system: System, output: str) -> str:
+    """The force with the largest `output` in the state last evaluated, frictions not counted; empty without any."""
+    found = [
+        (float(np.nan_to_num(abs(value), nan=np.inf, posinf=np.inf)), name)
+        for name, value in _outputs(system, output)
+        if name not in system.frictions
+    ]
+    return max(found)[1] if found else ""
+
+
+def _outputs(system: System, output: str) -> list[tuple[str, float]]:
+    """(name, value) of the forces that report `output`, in the state last evaluated."""
+    values = system.record.outputs.value
+    names = [variable.name for variable in reported(system.layout, len(values))]
+    parts = [(name.split("."), float(value)) for name, value in zip(names, values, strict=True)]
+    return [(part[1], value) for part, value in parts if part[0] == "force" and part[-1] == output]
+
+
+# A run is looked at after so many steps. It crawls where they were this much shorter than its longest one, and so many are left at least.
+LOOKED_AT, SHORT, LEFT = 10_000, 1e-5, 1e7
+# The same where a switch turns to and fro: so many steps have made less way than the longest one, and a hundred times as many are left.
+SHORT_TO_AND_FRO, LEFT_TO_AND_FRO = 1e-4, 1e6
+# Its end is out of reach where so many steps are left, at each of so many looks.
+OUT_OF_REACH, OFTEN, TIMES = 1e8, 2_000, 20
+# beside a position where the motion branches after so many looks
+SOON = 2
+
+
+@dataclass
+class Pace:
+    """Steps and time [s] of a run when it was looked at last."""
+
+    steps: int = 0
+    time: float = 0.0
+
+    def mean(self, run: Run, least: int) -> float | None:
+        """The mean step [s] since then; None where there were fewer than `least`."""
+        steps, time = int(run.counter[DONE_STEPS]), float(run.clock[TIME])
+        if steps - self.steps < least:
+            return None
+        mean = (time - self.time) / (steps - self.steps)
+        self.steps, self.time = steps, time
+        return mean
+
+
+def to_and_fro(run: Run, system: System) -> tuple[Node, ...]:
+    """Functions of the switches that turn to and fro without end, so that the run has let them go."""
+    watched = system.record.watched
+    waits = run.event_values[WAIT, len(watched.event) + len(watched.surface) :]
+    return tuple(system.switching[k] for k in np.flatnonzero(waits))
+
+
+class Crawl:
+    """Whether a run of this duration [s] makes next to no way any more. jumps : some function jumps with the motion. branches : whether
+    the motion does, beside the state of a run. system : its equations."""
+
+    def __init__(self, duration: float, jumps: bool, branches: Callable[[Run], bool], system: System) -> None:
+        self.duration, self.jumps, self.branches, self.system = duration, jumps, branches, system
+        self.since, self.often, self.count = Pace(), Pace(), 0
+
+    def seen(self, run: Run) -> Status | None:
+        """Called between chunks of steps; the status with which the run ends, None where it goes on."""
+        left = self.duration - float(run.clock[TIME])
+        mean = self.since.mean(run, LOOKED_AT) if self.jumps else None
+        if mean is not None:
+            turning = to_and_fro(run, self.system)
+            short, many = (SHORT_TO_AND_FRO, LEFT_TO_AND_FRO) if turning else (SHORT, LEFT)
+            if mean < short * float(run.pace[TAKEN].max()) and left > many * mean:
+                return Status.CRAWLS
+        mean = self.often.mean(run, OFTEN)
+        if mean is not None:
+            self.count = self.count + 1 if left > OUT_OF_REACH * mean else 0
+            if self.count == SOON and self.branches(run):
+                return Status.OUT_OF_REACH
+        return Status.OUT_OF_REACH if self.count >= TIMES else None
+
+
+def jump_advice(jumping: tuple[str, ...]) -> str:
+    """What to do about functions that jump."""
+    few = " and ".join(jumping[:3])
+    return (
+        f"{few} {'jumps' if len(jumping) == 1 else 'jump'}: where it brings the motion to rest it turns round in every step. "
+        f"Dry friction is a force `type: friction` with `model: stiction`, which stands still. Else let it pass smoothly, "
+        f"tanh(v/(1 mm/s)) in place of sign(v), or take a fixed step."
+    )

@@ -3,6 +3,7 @@
 import functools
 import gc
 import os
+import sys
 
 import numpy as np
 import pytest
@@ -63,6 +64,20 @@ if not PLAIN:  # kernels as plain Python are imported by `tests/interpreted/plai
         """Runs and equilibria are verified unless they say otherwise, as they are outside of the tests."""
         monkeypatch.setitem(Machine.simulate.__wrapped__.__kwdefaults__, "verify", True)
         monkeypatch.setattr(Machine, "statics", statics)
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A browser for pages: the same for all tests of this process."""
+    from browsing import chromium
+
+    with chromium() as running:
+        yield running
+
+
+def pytest_sessionfinish():
+    if "browsing" in sys.modules:
+        sys.modules["browsing"].close()
 
 
 @pytest.fixture

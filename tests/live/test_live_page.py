@@ -8,7 +8,7 @@ import pytest
 
 import cart
 import nivel
-from browsing import chromium, served, until, watched
+from browsing import served, until, watched
 from nivel.demos.catalogue import demo_file
 from nivel.integrate.loop.paced import DONE
 from nivel.live.opening import session_of
@@ -23,12 +23,6 @@ def live():
     with cart.running() as session, served(LiveSource(session)) as viewing:
         session.command("run")
         yield session, viewing
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 @pytest.mark.full

@@ -1,22 +1,14 @@
 """The report in a real browser: no error, all plots drawn, one cursor and one time range for all of them."""
 
 import json
-import os
 import re
-import shutil
-import subprocess
 
 import numpy as np
 import pytest
 
 import synthetic_run as pendulum
+from browsing import titled, watched
 from nivel.results import Memory
-from patience import PATIENCE
-
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
-pytestmark = pytest.mark.skipif(
-    BROWSER is None and not os.environ.get("CI"), reason="no chromium on this machine to open the report in"
-)
 
 EVENTS = json.dumps(
     [{"name": name, "time": time, "direction": "rising"} for name, time in (("bottom", 3.0), ("top", 6.0))]
@@ -95,23 +87,14 @@ def page(tmp_path_factory):
     return folder
 
 
-def browse(page, width):
-    command = [BROWSER, "--headless=new", "--disable-gpu", "--hide-scrollbars", "--enable-logging=stderr", "--v=0"]
-    command += ["--no-sandbox"] * (os.geteuid() == 0) + [
-        f"--user-data-dir={page / 'profile'}",
-        f"--window-size={width},1200",
-    ]
-    command += ["--virtual-time-budget=4000", "--dump-dom", (page / "driven.html").as_uri()]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=True)
-    said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-    title = re.search(r"<title>(\{.*?\})</title>", done.stdout, re.DOTALL)
-    return said, json.loads(title[1].replace("&amp;", "&")) if title else None
+def browse(page, browser, width):
+    """What the script in the page saw."""
+    with watched(browser, width=width, height=1200) as seen:
+        return titled(seen.page, page / "driven.html")
 
 
-def test_the_report_works_in_a_browser(page):
-    said, seen = browse(page, 1200)
-    assert said == []
-    assert seen is not None
+def test_the_report_works_in_a_browser(page, browser):
+    seen = browse(page, browser, 1200)
     assert len(seen["painted"]) == 7
     assert all(seen["painted"])
     assert seen["before"] == [[0.0, 8.0]]
@@ -137,8 +120,7 @@ def test_the_report_works_in_a_browser(page):
     assert all(seen["drawn"])
 
 
-def test_the_report_fits_a_phone(page):
-    said, seen = browse(page, 400)
-    assert said == []
+def test_the_report_fits_a_phone(page, browser):
+    seen = browse(page, browser, 400)
     assert all(seen["painted"])
     assert seen["wide"] == 0

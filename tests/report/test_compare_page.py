@@ -1,21 +1,16 @@
 """The page of a comparison: everything is in it, it needs nothing else, and a browser shows it."""
 
-import json
-import os
 import re
-import shutil
-import subprocess
 from html.parser import HTMLParser
 
 import pytest
 
+from browsing import titled, watched
 from nivel.report.compare_page import COLUMNS, comparison_html
 from nivel.report.log_axis import LogAxis, power_of_ten
 from nivel.report.work_precision import WIDE, curves, diagram
 from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread
-from patience import PATIENCE
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 VOID = {"meta", "link", "br", "hr", "img", "input"}
 REFERENCE = Reference("dop853 at tolerance 1e-12", "dop853", 1e-12, "its distance from a run at tolerance 1e-11")
 
@@ -174,21 +169,14 @@ document.title = JSON.stringify({ rising, falling, chosen, shown, left: document
 """
 
 
-@pytest.mark.skipif(
-    BROWSER is None and not os.environ.get("CI"), reason="no chromium on this machine to open the page in"
-)
 @pytest.mark.parametrize("width", [1200, 400])
-def test_the_page_works_in_a_browser(tmp_path, width):
+def test_the_page_works_in_a_browser(tmp_path, browser, width):
     page = tmp_path / "page.html"
     page.write_text(
         comparison_html(comparison()).replace("</body>", f"<script>{SCRIPT}</script></body>"), encoding="utf-8"
     )
-    command = [BROWSER, "--headless=new", "--disable-gpu", "--hide-scrollbars", "--enable-logging=stderr", "--v=0"]
-    command += ["--no-sandbox"] * (os.geteuid() == 0) + [f"--user-data-dir={tmp_path / 'profile'}"]
-    command += [f"--window-size={width},1200", "--virtual-time-budget=2000", "--dump-dom", page.as_uri()]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=True)
-    assert [line for line in done.stderr.splitlines() if "CONSOLE" in line] == []
-    seen = json.loads(re.search(r"<title>(\{.*?\})</title>", done.stdout, re.DOTALL)[1].replace("&amp;", "&"))
+    with watched(browser, width=width, height=1200) as looking:
+        seen = titled(looking.page, page)
     motions = [text for text in seen["rising"] if text]
     assert COLUMNS[8].title == "motion"
     assert [text[:6] for text in motions] == ["≲ 1.0e", "1.0e-9", "5.0e-6", "1.0e-5"]

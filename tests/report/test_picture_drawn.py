@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import nivel
-from browsing import chromium
 from example_files import EXAMPLES
 from nivel.demos.catalogue import demo_file
 from nivel.looks.poses import upwards
@@ -28,9 +27,10 @@ BOXES = """() => [...document.querySelectorAll("svg text:not(.aid)")].map((text)
 
 
 @pytest.fixture(scope="module")
-def page():
-    with chromium() as running:
-        yield running.new_page()
+def page(browser):
+    page = browser.new_page()
+    yield page
+    page.close()
 
 
 def gap(a, b):

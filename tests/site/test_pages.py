@@ -14,7 +14,7 @@ import pytest
 import yaml
 
 import nivel
-from browsing import chromium, watched
+from browsing import watched
 from checking import check
 from example_files import rigid_example
 from needing import needs
@@ -242,12 +242,6 @@ def test_no_page_of_the_site_fetches_anything(site):
     for page in site.rglob("*.html"):
         text = page.read_text(encoding="utf-8")
         assert not re.findall(r'<(?:script|img|iframe|link)\b[^>]*?(?:src|href)="?(?:https?:)?//[^>]*', text), page
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 def test_the_first_page_frames_nothing_that_was_left_out(site):

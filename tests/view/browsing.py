@@ -1,6 +1,7 @@
 """A browser for tests: Debian's chromium without a window, drawing with the processor, and a server in a thread."""
 
 import asyncio
+import json
 import os
 import shutil
 import threading
@@ -28,19 +29,63 @@ FLAGS = [
 LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 
 
+class Running:
+    """The browser of this process, its driver and the event loop of both."""
+
+    def __init__(self):
+        self.driver = needing.needs("playwright.sync_api").sync_playwright().start()
+        root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+        self.browser = self.driver.chromium.launch(
+            executable_path=CHROMIUM, args=[*FLAGS, *root], timeout=1000 * PATIENCE
+        )
+        self.loop = asyncio.get_running_loop()
+
+    def close(self):
+        with going_on(self.loop):
+            self.browser.close()
+            self.driver.stop()
+
+
+RUNNING: list[Running] = []
+
+
+@contextmanager
+def going_on(loop):
+    """`loop` counts as running, as Playwright leaves it between two calls; outside of this a test may run a loop of its own."""
+    before = asyncio._get_running_loop()
+    asyncio._set_running_loop(loop)
+    try:
+        yield
+    finally:
+        asyncio._set_running_loop(before)
+
+
 @contextmanager
 def chromium():
-    """A browser; without one a skipped test with the reason, or a failed one in CI."""
+    """The one browser of this process, without the pages that were opened meanwhile; without a browser a skipped test with the reason, or
+    a failed one in CI."""
     if CHROMIUM is None:
         needing.miss(NO_BROWSER)
-    playwright = needing.needs("playwright.sync_api")
-    root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *root], timeout=1000 * PATIENCE)
+    with going_on(asyncio._get_running_loop()):
+        if RUNNING and not RUNNING[0].browser.is_connected():
+            RUNNING.pop().close()
+        if not RUNNING:
+            RUNNING.append(Running())
+    with going_on(RUNNING[0].loop):
+        browser = RUNNING[0].browser
+        before = list(browser.contexts)
         try:
             yield browser
         finally:
-            browser.close()
+            for context in browser.contexts:
+                if context not in before:
+                    context.close()
+
+
+def close():
+    """End the browser of this process, if one was started."""
+    while RUNNING:
+        RUNNING.pop().close()
 
 
 def until(page, condition, patience=PATIENCE):
@@ -115,6 +160,13 @@ def watched(browser, **given):
         page.context.close()
         raise
     page.close()
+
+
+def titled(page, file):
+    """What a script of the page in `file` wrote as its title, in JSON."""
+    page.goto(file.as_uri())
+    until(page, "document.title.startsWith('{')")
+    return json.loads(page.title())
 
 
 @contextmanager

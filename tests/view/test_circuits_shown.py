@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import nivel
-from browsing import chromium, until, watched
+from browsing import until, watched
 from nivel.view.export import write_scene
 from nivel.view.package import Block
 from nivel.view.playback import ALONE, stage
@@ -34,9 +34,9 @@ def test_machines_without_circuits_have_no_diagram():
 
 
 @pytest.mark.full
-def test_pressures_follow_the_cursor_and_a_click_plots_one(result, tmp_path):
+def test_pressures_follow_the_cursor_and_a_click_plots_one(result, tmp_path, browser):
     write_scene([result], tmp_path / "page.html")
-    with chromium() as browser, watched(browser) as seen:
+    with watched(browser) as seen:
         page = seen.open((tmp_path / "page.html").as_uri())
         for time in (0.0, 0.5):
             page.evaluate(f"nivel.app.goTo({time})")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import nivel
-from browsing import chromium, drawn, watched
+from browsing import drawn, watched
 from models import bar, reduced
 from needing import needs
 from nivel.errors import ModelError
@@ -61,12 +61,6 @@ MEANT = {
     "twist": ("curvature", [0]),
     "curvature": ("curvature", [1, 2]),
 }
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module", params=[1, 2])

@@ -9,7 +9,7 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
-from browsing import chromium, drawn, served, until, watched
+from browsing import drawn, served, until, watched
 from many_bodies import ARC, NODES, RADIUS, arc, beam
 from nivel.api import Machine
 from nivel.files.reader import parse_machine
@@ -66,12 +66,6 @@ def result(tmp_path_factory):
 @pytest.fixture(scope="module")
 def stage(result):
     return from_bytes(playback([result], ALONE))[0]["stages"][0]
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 def named(records):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nivel
-from browsing import chromium, drawn, watched
+from browsing import drawn, watched
 from lanes import tail
 from nivel.view.export import write_scene
 from nivel.view.package import from_bytes
@@ -49,12 +49,6 @@ joints:
   clamp: {type: fixed, bodies: [ground, boom.start], point: [0, 0, 0.15]}
   thread: {type: screw, bodies: [boom.end, nut], point: [1.1, 0, 0], axis: [1, 0, 0], pitch: 2 mm}
 """
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 def test_every_example_is_here():

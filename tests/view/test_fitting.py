@@ -3,7 +3,7 @@
 import pytest
 
 import nivel
-from browsing import chromium, drawn, until, watched
+from browsing import drawn, until, watched
 from nivel import Table
 from nivel.demos.catalogue import demo_file
 from nivel.view.export import write_scene
@@ -25,12 +25,6 @@ REACH = """() => {
   return edge;
 }"""
 BOX = "(name) => { const box = document.querySelector(name).getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; }"
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module")

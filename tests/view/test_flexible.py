@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nivel
-from browsing import chromium, watched
+from browsing import watched
 from models import bar, reduced
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.body.picture import moving_surface
@@ -85,9 +85,9 @@ def test_bars_are_closed_and_keep_their_thickness_where_they_turn():
     np.testing.assert_allclose(np.linalg.norm(moved - moved.mean(axis=1, keepdims=True), axis=2), radius, rtol=1e-9)
 
 
-def test_a_marker_of_a_body_that_bends_is_traced_where_its_sensor_is(result, tmp_path):
+def test_a_marker_of_a_body_that_bends_is_traced_where_its_sensor_is(result, tmp_path, browser):
     write_scene([result], tmp_path / "scene.html")
-    with chromium() as browser, watched(browser) as seen:
+    with watched(browser) as seen:
         page = seen.open((tmp_path / "scene.html").as_uri())
         page.get_by_role("button", name="bar", exact=True).click()
         page.get_by_role("button", name="Trace tip").click()

@@ -7,17 +7,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nivel
-from browsing import chromium, drawn, landed, until, watched
+from browsing import drawn, landed, until, watched
 from nivel.view.export import write_scene
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 EYE, AIM = "nivel.app.world.camera.position.toArray()", "nivel.app.world.controls.target.toArray()"
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from browsing import chromium, until, watched
+from browsing import until, watched
 from needing import needs
 from patience import PATIENCE
 
@@ -16,7 +16,7 @@ EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "mechanisms" / "sim
 
 @pytest.mark.filterwarnings("ignore")  # of the programs that run notebooks
 @pytest.mark.full
-def test_a_notebook_shows_a_motion_that_plays(tmp_path):
+def test_a_notebook_shows_a_motion_that_plays(tmp_path, browser):
     cells = [
         f"import nivel\nresult = nivel.load({str(EXAMPLE)!r}).simulate(duration=0.5)",
         "result.animate()",
@@ -30,7 +30,7 @@ def test_a_notebook_shows_a_motion_that_plays(tmp_path):
     page, _ = nbconvert.HTMLExporter(embed_images=True).from_notebook_node(notebook)
     file = tmp_path / "notebook.html"
     file.write_text(page, encoding="utf-8")
-    with chromium() as browser, watched(browser) as seen:
+    with watched(browser) as seen:
         seen.page.route("https://**", lambda route: route.abort())  # what the exporter's own page asks for
         seen.page.goto(file.as_uri())
         until(seen.page, lambda: len(seen.page.frames) == 3)

@@ -10,7 +10,7 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
-from browsing import chromium, drawn, landed, served, until, watched
+from browsing import drawn, landed, served, until, watched
 from example_files import RIGID
 from lanes import tail
 from nivel.results import Memory
@@ -22,12 +22,6 @@ from playing import assert_plays_and_scrubs
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 MACHINES = [*RIGID, EXAMPLES / "mechanisms" / "double_pendulum.py"]
 SHOWN = [path for path in MACHINES if path.stem == "slider-crank"]
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as running:
-        yield running
 
 
 @cache

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from browsing import chromium, drawn, watched
+from browsing import drawn, watched
 from nivel.looks.poses import body_poses
 from nivel.looks.ropes import STEPS, rope_line
 from nivel.report.picture import machine_picture
@@ -97,9 +97,9 @@ def test_a_drawn_rope_is_as_long_as_the_solver_says(result, name, left_out):
 
 
 @pytest.fixture(scope="module")
-def page(result, tmp_path_factory):
+def page(result, tmp_path_factory, browser):
     file = write_scene([result], tmp_path_factory.mktemp("ropes") / "scene.html")
-    with chromium() as browser, watched(browser) as seen:
+    with watched(browser) as seen:
         yield seen.open(file.as_uri())
 
 

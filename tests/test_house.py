@@ -1,20 +1,18 @@
 """Checks of the whole code: import layers, types, and indices of kernels, which run as plain Python in a process of their own."""
 
-import hashlib
 import importlib.util
 import json
 import os
 import re
 import subprocess
 import sys
-from importlib.metadata import distributions
 from pathlib import Path
 
 import pytest
 
 from lanes import FULL
-from needing import MUST_RUN
 from patience import PATIENCE
+from rooms import RIGHT, digests_of_types, kept_digests, rooms_of
 
 ROOT = Path(__file__).parent.parent
 BIN = Path(sys.executable).parent
@@ -57,44 +55,53 @@ def missing(fault):
     return name is not None and importlib.util.find_spec(name[1]) is None
 
 
-def digest_of_types(source, settings):
-    """Of all that the types depend on: sources of the package, settings and the versions of what is installed."""
-    files = sorted([*source.rglob("*.py"), *source.rglob("*.pyi")])
-    parts = [path.relative_to(source).as_posix().encode() + path.read_bytes() for path in files]
-    parts += [sys.version.encode(), settings.read_bytes()]
-    parts += sorted(f"{each.name}=={each.version}".encode() for each in distributions())
-    return hashlib.sha256(b"\0".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
-
-
 @pytest.mark.house
 def test_types(request):
-    """Where nothing has changed since they were right they are right; the full tests and CI check them in any case."""
-    kept, digest = getattr(request.config, "cache", None), digest_of_types(ROOT / "src", ROOT / "pyproject.toml")
-    if kept is not None and not FULL and not MUST_RUN and kept.get("nivel/types", "") == digest:
-        return
-    check = done([str(BIN / "pyright"), "--outputjson", "--pythonpath", sys.executable], {})
-    try:
-        found = json.loads(check.stdout)
-    except json.JSONDecodeError:
-        pytest.fail(f"{check.stdout}\n{check.stderr}")
-    assert found["summary"]["filesAnalyzed"] > 800
-    faults = [each for each in found["generalDiagnostics"] if each["severity"] == "error" and not missing(each)]
-    lines = [f"{each['file']}:{each['range']['start']['line'] + 1}: {each['message']}" for each in faults]
-    assert not lines, "\n".join(lines)
-    if kept is not None:
-        kept.set("nivel/types", digest)
+    """Pyright looks at the rooms that are not as they were when it found no fault there; at all of them in the full tests."""
+    package = ROOT / "src" / "nivel"
+    digests = digests_of_types(package, ROOT / "pyproject.toml")
+    cache = getattr(request.config, "cache", None)
+    right = set() if FULL else {*kept_digests().values(), *(cache.get(RIGHT, {}) if cache else {}).values()}
+    paths = [path for name, files in rooms_of(package).items() if digests[name] not in right for path in files]
+    if paths:
+        names = [str(path) for path in paths]
+        check = done([str(BIN / "pyright"), "--outputjson", "--pythonpath", sys.executable, *names], {})
+        try:
+            found = json.loads(check.stdout)
+        except json.JSONDecodeError:
+            pytest.fail(f"{check.stdout}\n{check.stderr}")
+        assert found["summary"]["filesAnalyzed"] == len(paths)
+        faults = [each for each in found["generalDiagnostics"] if each["severity"] == "error" and not missing(each)]
+        lines = [f"{each['file']}:{each['range']['start']['line'] + 1}: {each['message']}" for each in faults]
+        assert not lines, "\n".join(lines)
+    if cache is not None:
+        cache.set(RIGHT, digests)
 
 
 def test_types_are_checked_anew_where_a_source_or_a_setting_changed(tmp_path):
-    source, settings = tmp_path / "src", tmp_path / "pyproject.toml"
-    source.mkdir()
-    digests = []
-    for name, text, said in (("a.py", "1", ""), ("a.py", "2", ""), ("b.py", "1", ""), ("a.py", "2", "strict")):
-        (source / name).write_text(text, encoding="utf-8")
-        settings.write_text(said, encoding="utf-8")
-        digests.append(digest_of_types(source, settings))
-    assert len(set(digests)) == len(digests)
-    assert digest_of_types(source, settings) == digests[-1]
+    """Of the room that changed and of those that depend on it, and of no other."""
+    package, settings = tmp_path / "machines", tmp_path / "pyproject.toml"
+    (package / "high").mkdir(parents=True)
+    (package / "__init__.py").touch()
+
+    def digests(low, high, side, mode="standard"):
+        (package / "low.py").write_text(low, encoding="utf-8")
+        (package / "high" / "top.py").write_text(f"from machines.middle import x\n{high}", encoding="utf-8")
+        (package / "middle.py").write_text("def f():\n    from machines.low import x", encoding="utf-8")
+        (package / "side.py").write_text(side, encoding="utf-8")
+        settings.write_text(f'[tool.pyright]\ntypeCheckingMode = "{mode}"', encoding="utf-8")
+        return digests_of_types(package, settings)
+
+    def changed(other):
+        return {name for name, digest in digests(*other).items() if digest != first[name]}
+
+    first = digests("x = 1", "y = 1", "z = 1")
+    assert digests("x = 1", "y = 1", "z = 1") == first
+    assert changed(["x = 2", "y = 1", "z = 1"]) == {"low", "middle", "high"}
+    assert changed(["x = 1", "y = 2", "z = 1"]) == {"high"}
+    assert changed(["x = 1", "y = 1", "z = 2"]) == {"side"}
+    assert changed(["x = 1", "y = 1", "import machines"]) == {"side"}
+    assert changed(["x = 1", "y = 1", "z = 1", "strict"]) == set(first)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from lanes import thinned
+
 # the first example of a test may compile a kernel, so there is no deadline; the same examples every time keep CI steady
 settings.register_profile("nivel", deadline=None, derandomize=True)
 settings.load_profile("nivel")
@@ -30,8 +32,11 @@ def pytest_collection(session):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """Checks of the whole code come first: they take longest. What is marked `plain` runs so, and compiled in the full tests."""
+    """Checks of the whole code come first: they take longest. Grids marked `covering` leave their tails to the full tests. What is marked
+    `plain` runs so, and compiled in the full tests."""
     items.sort(key=lambda item: item.get_closest_marker("house") is None)
+    for item in thinned(items):
+        item.add_marker(pytest.mark.full)
     if not PLAIN:
         for item in filter(is_plain, items):
             item.add_marker(pytest.mark.full)

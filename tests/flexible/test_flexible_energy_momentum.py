@@ -8,6 +8,8 @@ from nivel import Beam, Body, Bushing, Friction, Joint, MachineRecord, Marker, P
 from running import reference_run, run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 
+pytestmark = pytest.mark.covering
+
 METHOD = {"integrator": "energy-momentum", "stabilisation": "none", "coordinates": "absolute"}
 
 

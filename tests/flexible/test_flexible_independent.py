@@ -15,6 +15,8 @@ from preparing import prepare
 from running import reference_run, run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 
+pytestmark = pytest.mark.covering
+
 TIME = 0.1
 INDEPENDENT = {"formulation": "newton-euler", "coordinates": "independent"}
 EACH = pytest.mark.parametrize("name", MACHINES)

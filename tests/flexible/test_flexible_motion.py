@@ -25,6 +25,8 @@ from nivel.system.flexible import bending_bodies
 from preparing import prepare
 from running import reference_run, run
 
+pytestmark = pytest.mark.covering
+
 GRAVITY = (0.0, -9.81, 0.0)
 FORCE = (1.0, 2.0, -3.0)
 

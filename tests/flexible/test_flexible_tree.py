@@ -25,6 +25,8 @@ from running import reference_run, run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 from unknowns import Unknowns
 
+pytestmark = pytest.mark.covering
+
 EACH = pytest.mark.parametrize("name", MACHINES)
 
 

@@ -17,6 +17,8 @@ from test_rails import KINDS
 from tree_machines import write_beams
 from unknowns import Unknowns
 
+pytestmark = pytest.mark.covering
+
 TIME = 0.1
 
 

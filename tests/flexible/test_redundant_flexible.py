@@ -14,6 +14,8 @@ from nivel.flexible.body.body_file import write_body
 from preparing import prepare
 from running import run
 
+pytestmark = pytest.mark.covering
+
 ALONG = "reference: mean-axis, modes: given, shapes: [{y: x^2}, {y: x^3}, {y: x^4}]"
 PAIRS = (("ground", "left"), ("left", "top"), ("top", "right"), ("ground", "right"))
 SPACE, PLANE = "modes: 3", ALONG

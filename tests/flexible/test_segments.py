@@ -14,6 +14,8 @@ from nivel.system.beams.segments import segments_of
 from preparing import prepare
 from simulating import machine, simulate
 
+pytestmark = pytest.mark.covering
+
 STEEL = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}
 SECTION = {"type": "rectangle", "width": 0.02, "height": 0.01}
 EI, LENGTH, MASS = 100.0, 2.0, 3.0

@@ -6,6 +6,8 @@ import pytest
 from circuits import history
 from hydraulic_zoo import machine_with_circuits, machine_with_gas, machine_with_warm_oil
 
+pytestmark = pytest.mark.covering
+
 
 @pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas, machine_with_warm_oil])
 @pytest.mark.parametrize("coordinates", ["relative", "absolute"])

@@ -10,6 +10,8 @@ from scipy.integrate import quad, solve_ivp
 from circuits import ALPHA, BAR, BETA, LITRE_PER_MINUTE, PA, SLOPE, N, circuit, density, history, steady
 from simulating import slide
 
+pytestmark = pytest.mark.covering
+
 RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}
 K = 40 * LITRE_PER_MINUTE / math.sqrt(7 * BAR)
 CORNER = 0.5 * BAR

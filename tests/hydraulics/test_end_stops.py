@@ -18,6 +18,8 @@ from lanes import tail
 from nivel.demos.catalogue import demo_file
 from simulating import machine
 
+pytestmark = pytest.mark.covering
+
 G, STIFFNESS = 9.81, 2e8
 # A load that swings takes long to come to rest. Contacts without friction and dampers of heavy bodies are soft beside 2 ms, so all steps
 # are those with derivatives by hand; the slower form has cases of its own.

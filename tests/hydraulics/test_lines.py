@@ -8,6 +8,8 @@ import pytest
 from circuits import BAR, PA, circuit, history, steady
 from nivel.kernels.hydraulics.line import RATES, WEIGHTS
 
+pytestmark = pytest.mark.covering
+
 STIFF = {"air": 0, "bulk_modulus_slope": 0, "bulk_modulus": "1.5 GPa", "density": 870}
 FAST = {"integrator": "radau", "tolerance": 1e-7}
 

@@ -13,6 +13,8 @@ from nivel.system.hydraulics.fluid_law import density_and_modulus
 from nivel.system.hydraulics.nodes import fluid_constants
 from simulating import hinge, machine, slide
 
+pytestmark = pytest.mark.covering
+
 LAW = fluid_constants(OIL)
 # Published with the law: p [bar], β [MPa], ρ [kg/m³]
 TABLE = [

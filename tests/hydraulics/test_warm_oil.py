@@ -10,6 +10,8 @@ from hydraulic_zoo import machine_with_warm_oil
 from nivel.errors import ModelError
 from nivel.machine.hydraulics.grades import GRADES
 
+pytestmark = pytest.mark.covering
+
 START, AROUND = 313.15, 293.15
 HLP = GRADES["HLP 46"]
 DENSITY, CAPACITY = HLP.at(START).density, HLP.at(START).heat_capacity

@@ -8,6 +8,8 @@ from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, Sim
 from nivel.errors import ModelError
 from running import run
 
+pytestmark = pytest.mark.covering
+
 CHOOSING = pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau"])
 NEWTON = {"corrector": {"iteration": "newton"}}
 

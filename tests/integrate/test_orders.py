@@ -15,6 +15,8 @@ from references import slider_crank as slider_crank_reference
 from references.solution import Solution
 from running import run
 
+pytestmark = pytest.mark.covering
+
 FIXED = [name for name, facts in INTEGRATORS.items() if not facts.chooses_steps]
 # The iteration's error must stay below that of the finest step.
 TIGHT = {"tolerance": 1e-13}

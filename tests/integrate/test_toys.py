@@ -5,6 +5,8 @@ import pytest
 import toys
 from scipy.integrate import solve_ivp
 
+pytestmark = pytest.mark.covering
+
 START = [0.0, 1.0, 0.0, 0.0]
 
 

@@ -29,6 +29,7 @@ import test_statics_closed_forms
 import test_thermal_accumulator
 import tree_machines
 from circuits import circuit
+from lanes import tail
 from nivel import PointForce, Table
 from nivel.analysis.assembly import circuit_start
 from nivel.analysis.assembly.implicit import find_tangent
@@ -309,7 +310,9 @@ def test_states_and_samples(integrator):
     short(machine(sections).record, integrator, steps=5)
 
 
-@pytest.mark.parametrize("integrator", [EXPLICIT, "dopri5", "generalised-alpha", "radau"])
+@pytest.mark.parametrize(
+    "integrator", tail([EXPLICIT, "dopri5", "generalised-alpha", "radau"], [EXPLICIT, "dopri5", "generalised-alpha"])
+)
 def test_control_and_drives(integrator):
     """Signals, samples with latency, smooth steps, linear and other functions; both drives with their limits and an elastic gear."""
     elastic = {"rotor_inertia": 1e-3, "gear_stiffness": 100, "gear_damping": 0.1}
@@ -411,6 +414,38 @@ def test_ways_over_hills(integrator):
     short(machine(sections).record, integrator, duration=0.1, output_interval=0.1, **fixed)
 
 
+def test_a_place_beyond_a_crest():
+    """Among crests as steep as these the place that the search finds lies behind one: it begins anew on the side of the ball."""
+    heights = 3.0 * np.random.default_rng(3).standard_normal((9, 9))
+    ball = {"mass": 1, "inertia": [1e-3, 1e-3, 1e-3], "shape": {"type": "sphere", "radius": 0.01}}
+    ground = {"size": [2, 2], "values": heights.tolist()}
+    point = {"type": "contact", "plane": "floor", "stiffness": 1e3, "exponent": 1, "restitution": 1}
+    sections = {
+        "bodies": {"ball": {**ball, "position": [0.4188, 0.2308, 1.7141]}},
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]}},
+        "forces": {"touch": {**point, "body": "ball", "heights": ground}},
+    }
+    short(machine(sections).record, steps=1, step=1e-6)
+
+
+def test_edges_that_pass_each_other():
+    """Two square bars across each other, edge to edge: no face keeps them apart, the edges do by 1.6 mm."""
+    bodies = {
+        "lower": {
+            "shape": {"type": "box", "size": [0.6, 0.1, 0.1]},
+            "orientation": {"axis": [1, 0, 0], "angle": "45 deg"},
+        },
+        "upper": {
+            "shape": {"type": "box", "size": [0.1, 0.6, 0.1]},
+            "orientation": {"axis": [0, 1, 0], "angle": "45 deg"},
+        },
+    }
+    bodies = {name: {"mass": 1, "inertia": [1, 1, 1], **more} for name, more in bodies.items()}
+    bodies["upper"]["position"] = [0, 0, 0.143]
+    forces = {"touch": {"type": "contact", "bodies": ["lower", "upper"], "foundation_modulus": 1e8, "damping": 0.1}}
+    short(machine({"bodies": bodies, "forces": forces}).record, steps=1, step=1e-6)
+
+
 def test_steps_that_stability_bounds():
     """A run that names no method goes on with an implicit one where it is stiff."""
     spring = {"type": "joint-spring-damper", "coordinate": "rail", "stiffness": 1e8, "damping": 1e5}
@@ -503,7 +538,7 @@ def test_further_beams(model):
     short(record, "generalised-alpha", steps=2, step=1e-4)
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", tail(["absolute", "relative"], ["relative"]))
 def test_a_slider_passes_a_node(coordinates):
     sections = test_rails.spinning(7, STEP)
     place = 4.0 / 7 - 2e-3
@@ -517,13 +552,13 @@ def test_beams_that_slide_on_beams():
     short(record, "generalised-alpha", steps=1, step=1e-2, coordinates="relative", stabilisation="direct")
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", tail(["absolute", "relative"], ["relative"]))
 def test_flexible_bodies_beams_and_sliders(folder, coordinates):
     record = machine(mixed_machines.mixed(folder, closed=True)).record
     short(record, "generalised-alpha", steps=1, step=1e-4, coordinates=coordinates)
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", tail(["absolute", "relative"], ["relative"]))
 def test_statics(coordinates):
     machine(test_statics_closed_forms.four_bar()).statics(coordinates=coordinates)
 

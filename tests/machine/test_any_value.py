@@ -9,7 +9,7 @@ from nivel import MachineRecord
 from nivel.machine.core.record import Record
 from wrong_values import WRONG, told_or_done
 
-PARTS = 12  # of the wrong values, one for all tests
+PARTS = 24  # of the wrong values, one for all tests
 
 
 def records(record):

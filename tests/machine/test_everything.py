@@ -17,7 +17,7 @@ from nivel.machine.hydraulics import COMPONENTS
 from nivel.machine.joints.joint import JOINT_COORDINATES
 
 MACHINE = MachineRecord(**EVERYTHING)
-PARTS = 16
+PARTS, PARTS_MISSING = 48, 24
 GARBAGE = (
     None,
     True,
@@ -96,10 +96,10 @@ def test_garbage_anywhere_gives_a_machine_or_faults(section, part):
                 assert error.faults, (path, garbage)  # noqa: PT017
 
 
-@parts(6)
+@parts(PARTS_MISSING)
 @pytest.mark.parametrize("section", SECTIONS)
 def test_what_is_missing_gives_a_machine_or_faults(section, part):
-    for path in list(places(EVERYTHING[section], (section,)))[part::6]:
+    for path in list(places(EVERYTHING[section], (section,)))[part::PARTS_MISSING]:
         data = deepcopy(EVERYTHING)
         container = data
         for step in path[:-1]:

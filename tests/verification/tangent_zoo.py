@@ -68,10 +68,10 @@ def tangent_rests(name, coordinates):
 
 
 def _rests(name, coordinates):
-    """Each element meets one of the rotation coordinates by default, in turn, so that all of these meet a third of the elements."""
-    if name not in force_zoo.ELEMENTS or coordinates not in ROTATIONS:
+    """Each machine meets one of the rotation coordinates by default, in turn, so that all of these meet a third of the machines."""
+    if coordinates not in ROTATIONS:
         return False
-    return list(force_zoo.ELEMENTS).index(name) % len(ROTATIONS) != ROTATIONS.index(coordinates)
+    return list(ZOO).index(name) % len(ROTATIONS) != ROTATIONS.index(coordinates)
 
 
 # all machines and elements, by the coordinates of the motion

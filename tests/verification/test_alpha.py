@@ -13,6 +13,8 @@ from nivel.errors import ModelError
 from references import four_bar, heavy_top, slider_crank
 from running import reference_run, run
 
+pytestmark = pytest.mark.covering
+
 DAMPED = {
     "newmark": {"newmark": {"beta": 0.3025, "gamma": 0.6}},
     "hht": {"hht": {"alpha": 0.1}},

@@ -15,6 +15,8 @@ from test_events import pendulum as bar
 from test_friction import MASS, sled
 from test_tolerance import closing_angle, loop_angles, machine_size, squeezed, squeezer, swinging
 
+pytestmark = pytest.mark.covering
+
 ASKED = pytest.mark.parametrize("tolerance", tail([1e-4, 1e-6, 1e-8, 1e-10], [1e-4, 1e-8]))
 
 

@@ -13,6 +13,8 @@ from nivel.machine.beams.beam import Beam
 from nivel.system.beams.elements import masses_of
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 ORDERS = (1, 2, 3)
 
 

@@ -12,6 +12,8 @@ from nivel.errors import ModelError
 from nivel.kernels.core.status import OK
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3, "density": "7850 kg/m^3"}
 
 

@@ -8,6 +8,8 @@ from beams import flying, general, hinged
 from references import hinged_beams, spin_up
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 HINGED = np.array(hinged_beams.TIP)
 SPIN_UP = np.array(spin_up.TIP)
 

@@ -8,6 +8,8 @@ import pytest
 from nivel.errors import ModelError
 from simulating import G, hinge, simulate, solid, wheel
 
+pytestmark = pytest.mark.covering
+
 METHODS = pytest.mark.parametrize(
     "method",
     [

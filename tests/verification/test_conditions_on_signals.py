@@ -5,6 +5,8 @@ import pytest
 
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 FORCE, MASS, START = 5.0, 2.0, 0.3
 QUARTER = np.sqrt(2.0 * START * MASS / FORCE)
 

@@ -6,6 +6,8 @@ from scipy.spatial.transform import Rotation
 
 from simulating import G, hinge, simulate, slide, slopes, solid, wheel
 
+pytestmark = pytest.mark.covering
+
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 
 # --- a joint the other way round: coordinates and efforts change their signs, the bodies do not notice ---

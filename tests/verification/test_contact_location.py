@@ -9,6 +9,8 @@ from nivel.analysis.run import history
 from references import impact
 from simulating import G, simulate, slide, solid
 
+pytestmark = pytest.mark.covering
+
 MASS, RADIUS, HEIGHT = 0.4, 0.05, 0.5
 ADAPTIVE = pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear"])
 EXPLICIT = pytest.mark.parametrize("integrator", ["dopri5", "dop853"])

@@ -14,6 +14,8 @@ from preparing import prepare
 from references import stick_slip
 from simulating import G, machine, simulate, slide, solid
 
+pytestmark = pytest.mark.covering
+
 FAULT = Path(__file__).parents[1] / "faults" / "r02_box_incline.yaml"
 METHODS = pytest.mark.parametrize(
     ("integrator", "coordinates", "step"),

@@ -12,6 +12,8 @@ from nivel.files import convex_parts as dividing
 from nivel.files import parse_machine, read_machine, write_machine
 from simulating import G, Machine
 
+pytestmark = pytest.mark.covering
+
 if not is_installed("coacd"):
     pytest.skip("coacd is not installed", allow_module_level=True)
 

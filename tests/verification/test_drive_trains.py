@@ -12,6 +12,8 @@ from nivel.errors import ModelError
 from simulating import G, hinge, machine, simulate, slide, solid, wheel
 from unknowns import Unknowns, moving
 
+pytestmark = pytest.mark.covering
+
 EXPLICIT = {"integrator": "rk4", "step": "1 ms", "coordinates": "absolute"}
 CHOSEN = {"integrator": "dopri5", "coordinates": "relative"}
 IMPLICIT = {"integrator": "generalised-alpha", "step": "1 ms", "coordinates": "absolute"}

@@ -7,6 +7,8 @@ from simulating import G, hinge, simulate, solid
 from test_friction import MASS, MU, sled
 from test_held_friction import crank
 
+pytestmark = pytest.mark.covering
+
 LIMIT = MU * MASS * G
 STEPS = [
     ("rk4", "absolute"),

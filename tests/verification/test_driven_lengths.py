@@ -15,6 +15,8 @@ from nivel.analysis.assembly.redundancy import analyse
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 
+pytestmark = pytest.mark.covering
+
 BOOM = """\
 format: 1
 gravity: [0, 0, -9.81]

@@ -6,6 +6,8 @@ from scipy.spatial.transform import Rotation
 
 import nivel
 
+pytestmark = pytest.mark.covering
+
 MASS, CENTRE, INERTIA = 3.0, np.array([0.1, 0.05, -0.02]), np.diag([0.2, 0.3, 0.4])
 GRAVITY = np.array([0.0, 0.0, -9.81])
 TIP, SEAT = np.array([0.2, -0.1, 0.3]), np.array([0.5, 0.0, 0.0])
@@ -47,7 +49,7 @@ def machine(orientation, **simulation):
             nivel.Driver(name="fly", marker="tip", relative_to="seat", position=POSITION, orientation=orientation)
         ],
         gravity=tuple(GRAVITY),
-        simulation={"duration": 0.02, "step": 0.005, **simulation},
+        simulation={"duration": 0.02, "step": 0.005, "output_interval": 0.001, **simulation},
     )
 
 

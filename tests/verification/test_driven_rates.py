@@ -8,6 +8,8 @@ from nivel.machine.units.expression import Expression
 from nivel.system.laws.integrated import integrated
 from simulating import hinge, simulate, slide, wheel
 
+pytestmark = pytest.mark.covering
+
 METHODS = pytest.mark.parametrize(
     "method",
     [

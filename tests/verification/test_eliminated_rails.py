@@ -18,6 +18,8 @@ from simulating import machine, simulate, solid
 from test_rails import KINDS, bead, girder, loaded, spinning
 from unknowns import Unknowns, at_state
 
+pytestmark = pytest.mark.covering
+
 SHOWN = ("position", "velocity", "acceleration", "angular_acceleration", "joint_force", "joint_torque", "joint_rate")
 LOADS = {
     "push": {"type": "force", "body": "bead", "vector": [3, -5, 20]},

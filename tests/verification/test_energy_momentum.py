@@ -10,6 +10,8 @@ from nivel.errors import ModelError
 from running import reference_run, run
 from stiff_machines import elastic_pendulum
 
+pytestmark = pytest.mark.covering
+
 METHOD = {"integrator": "energy-momentum", "stabilisation": "none"}
 
 

@@ -13,6 +13,8 @@ from nivel.errors import SolveError
 from running import run
 from simulating import G, hinge, machine, simulate, slopes, solid, turning_error
 
+pytestmark = pytest.mark.covering
+
 MASS, ARM, INERTIA, AMPLITUDE = 2.0, 0.4, 0.05, 1.2
 RATE = np.sqrt(MASS * G * ARM / (INERTIA + MASS * ARM**2))
 MODULUS = np.sin(AMPLITUDE / 2) ** 2  # m = k²

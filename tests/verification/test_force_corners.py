@@ -6,6 +6,8 @@ from numpy.testing import assert_allclose
 
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 BLOW = {"times": [0, 1, 2, 100], "values": [0, 50, 0, 0], "interpolation": "linear"}
 
 

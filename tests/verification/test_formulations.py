@@ -8,6 +8,8 @@ from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from preparing import prepare
 
+pytestmark = pytest.mark.covering
+
 MACHINES = {
     "slider-crank": machines.slider_crank,
     "four-bar": machines.four_bar,

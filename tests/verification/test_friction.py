@@ -8,6 +8,8 @@ from references import stick_slip
 from references.rubbing import RubbingPendulum, TwoSliders
 from simulating import G, hinge, simulate, slide, solid, wheel
 
+pytestmark = pytest.mark.covering
+
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 MASS, MU = 1.5, 0.3
 

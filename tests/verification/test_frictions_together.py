@@ -9,6 +9,8 @@ from simulating import G, hinge, simulate, slide, solid
 from test_friction import MASS, sled
 from test_held_friction import crank, found
 
+pytestmark = pytest.mark.covering
+
 METHODS = pytest.mark.parametrize(
     ("integrator", "coordinates"),
     [("rk4", "absolute"), ("rk4", "relative"), ("generalised-alpha", "absolute"), ("radau", "relative")],

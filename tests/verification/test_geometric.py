@@ -6,6 +6,8 @@ import pytest
 import machines
 from running import run
 
+pytestmark = pytest.mark.covering
+
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_nothing_is_left_of_the_energy_error_of_a_step(coordinates):

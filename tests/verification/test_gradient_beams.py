@@ -22,6 +22,8 @@ from simulating import machine, simulate
 from test_beam_elements import moved
 from unknowns import Unknowns
 
+pytestmark = pytest.mark.covering
+
 BOTH = pytest.mark.parametrize("model", MODELS)
 
 

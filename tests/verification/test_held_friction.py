@@ -6,6 +6,8 @@ import pytest
 from simulating import G, hinge, simulate, slide, solid
 from test_friction import sled
 
+pytestmark = pytest.mark.covering
+
 RADIUS, LOAD, MU = 0.1, 100.0, 0.5
 STOPS = "0.2/(1+exp(-100*(time-0.3)))"  # rests from 0.55 s on: its rate is below 3e-10 rad/s
 METHODS = pytest.mark.parametrize(

@@ -14,6 +14,8 @@ from simulating import G, simulate, slide, solid
 from test_friction import DRAWN, MASS, MU, PAIR, THICK, drawn, rubbing_pendulum, sled, two_sliders
 from unknowns import Unknowns, moving
 
+pytestmark = pytest.mark.covering
+
 ALPHA = [("generalised-alpha", each) for each in ("absolute", "relative", "independent")]
 ALPHA += [("newmark", "absolute"), ("hht", "relative")]
 CHOSEN = [("radau", "relative"), ("bdf", "relative")]

@@ -24,6 +24,8 @@ from simulating import machine as machine_of
 from test_independent import triple_rocker
 from test_shifted_parts import sled
 
+pytestmark = pytest.mark.covering
+
 ALPHA = {"newmark": {}, "hht": {"hht": {"alpha": 0.1}}, "generalised-alpha": {}}
 EACH_ALPHA = pytest.mark.parametrize("integrator", ALPHA)
 MACHINES = {

@@ -19,6 +19,8 @@ from test_alpha import SECOND_ORDER, errors_against_fine
 from test_driver_corners import RAMPS, cart_and_arm, swing
 from unknowns import ROTATIONS, at_state, explicit, value_at
 
+pytestmark = pytest.mark.covering
+
 EACH = pytest.mark.parametrize("rotations", ROTATIONS)
 FIXED = ("newmark", "hht", "generalised-alpha", "ros2")
 # a rotation vector carries no full turn: the crank makes one in 1.66 s, the top in 0.04 s

@@ -9,6 +9,8 @@ from references import slider_crank
 from running import reference_run, run
 from test_driver_corners import RAMPS, cart_and_arm, swing
 
+pytestmark = pytest.mark.covering
+
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 METHODS = {
     "penalty": {"formulation": "penalty"},

@@ -10,6 +10,8 @@ from simulating import G
 from tangent_zoo import COORDINATES
 from unknowns import SHARES, TIME, moving, value_at
 
+pytestmark = pytest.mark.covering
+
 LENGTHS, MASSES = (0.8, 0.5), (1.0, 0.4)
 
 

@@ -12,6 +12,8 @@ from references import four_bar, pendulum, slider_crank
 from running import run
 from test_tolerance import closing_angle, loop_angles, machine_size, squeezed, squeezer, swinging, top_rotation
 
+pytestmark = pytest.mark.covering
+
 SECOND_ORDER = ["newmark", "hht", "generalised-alpha"]
 
 

@@ -23,6 +23,8 @@ from preparing import prepare
 from running import Frames, run
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 MACHINES = {
     "slider-crank": machines.slider_crank,

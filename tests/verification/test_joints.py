@@ -20,6 +20,8 @@ from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS
 from nivel.system.system import parameter_rates
 from running import run
 
+pytestmark = pytest.mark.covering
+
 KINDS = pytest.mark.parametrize("kind", machines.KINDS)
 GROUND = pytest.mark.parametrize("ground", [False, True], ids=["two-bodies", "ground"])
 H = 1e-30

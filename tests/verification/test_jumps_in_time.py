@@ -9,6 +9,8 @@ from nivel.machine.units.expression import Expression
 from nivel.system.laws.program import expression_program
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 MASS, LOW, HIGH, END, STEP = 2.0, -20.0, 100.0, 0.5, 1e-3
 COMPARISONS = (">", ">=", "<", "<=")
 

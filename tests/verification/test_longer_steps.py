@@ -9,6 +9,8 @@ from nivel.analysis.run.dynamics import RunOutcome
 from nivel.judge.after.checks.accuracy import MARGIN, error_from_finer
 from simulating import machine
 
+pytestmark = pytest.mark.covering
+
 SECTION = general(EA=2e5, GA=1e5, GJ=100.0, EI=150.0, inertia=(2e-3, 1e-3, 1e-3))
 
 

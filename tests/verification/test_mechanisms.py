@@ -13,6 +13,8 @@ from example_files import rigid_example
 from references import andrews, dyads, rssr
 from simulating import G
 
+pytestmark = pytest.mark.covering
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 

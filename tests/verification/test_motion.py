@@ -13,6 +13,8 @@ from references import pendulum as pendulum_reference
 from references import slider_crank as slider_crank_reference
 from running import run
 
+pytestmark = pytest.mark.covering
+
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 
 

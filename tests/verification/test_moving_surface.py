@@ -6,6 +6,8 @@ import pytest
 from nivel.errors import ModelError
 from simulating import G, simulate
 
+pytestmark = pytest.mark.covering
+
 MASS, STIFFNESS = 2.0, 1e6
 SIZE = [0.3, 0.2, 0.1]
 FEW = pytest.mark.parametrize(("integrator", "coordinates"), [("rk4", "absolute"), ("radau", "relative")])

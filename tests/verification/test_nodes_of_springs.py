@@ -7,6 +7,8 @@ from scipy.optimize import fsolve
 from nivel.errors import ModelError
 from simulating import machine, simulate, slide, solid
 
+pytestmark = pytest.mark.covering
+
 MASS, STIFFNESS = 2.0, np.array([4e3, 6e3, 5e3])
 ANCHORS = np.array([[-0.6, 0.8, 0.0], [0.6, 0.8, 0.0]])
 G = 9.81

@@ -16,6 +16,8 @@ from lanes import tail
 from nivel import Body, Joint, MachineRecord, SimulationSettings
 from running import run
 
+pytestmark = pytest.mark.covering
+
 SPEED, TURN = 6.0, 2.0 * np.pi
 CHOSEN = {"dop853": 1e-9, "dopri5": 1e-8, "radau": 1e-7, "adams": 1e-9, "bdf": 1e-8}
 FIXED = ("rk4", "abm4", "gear4", "generalised-alpha", "newmark", "ros2")

@@ -19,6 +19,8 @@ from stiff_machines import double_pendulum
 from test_mechanisms import EXAMPLES
 from test_stiff import closed_form, overdamped
 
+pytestmark = pytest.mark.covering
+
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 TOLERANCES = [1e-4, 1e-6, 1e-8, 1e-10]
 ASKED = pytest.mark.parametrize("tolerance", tail(TOLERANCES, [1e-4, 1e-8]))

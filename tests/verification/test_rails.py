@@ -13,6 +13,8 @@ from nivel.system.beams.nodes import with_nodes
 from simulating import machine, simulate, solid
 from unknowns import Unknowns, at_state
 
+pytestmark = pytest.mark.covering
+
 KINDS = ("point-on-beam", "keyed-on-beam", "cylindrical-on-beam", "translational-on-beam")
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 

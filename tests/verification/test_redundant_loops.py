@@ -6,6 +6,8 @@ import pytest
 from nivel import Body, Joint, JointSpringDamper, MachineRecord, SimulationSettings
 from running import run
 
+pytestmark = pytest.mark.covering
+
 METHODS = pytest.mark.parametrize("integrator", ["generalised-alpha", "radau"])
 
 

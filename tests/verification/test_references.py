@@ -8,6 +8,8 @@ from scipy.optimize import brentq
 from references import andrews, four_bar, heavy_top, one_dof, pendulum, slider_crank
 from references.solution import Solution
 
+pytestmark = pytest.mark.covering
+
 LINKAGES = pytest.mark.parametrize("machine", [slider_crank, four_bar], ids=["slider-crank", "four-bar"])
 DURATION = {slider_crank: 8.0, four_bar: 4.0}
 START = {slider_crank: 0.0, four_bar: four_bar.PRINTED_CRANK_ANGLE}

@@ -20,6 +20,8 @@ from nivel.system.elimination.topology import FREE
 from nivel.system.states.relative import arrange, tree_of
 from preparing import prepare
 
+pytestmark = pytest.mark.covering
+
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 

@@ -12,6 +12,8 @@ from nivel.system.states.relative import tree_of
 from running import run
 from simulating import G, hinge, simulate, wheel
 
+pytestmark = pytest.mark.covering
+
 MOTION = ("position", "orientation", "velocity", "angular_velocity", "acceleration", "angular_acceleration")
 
 

@@ -5,6 +5,8 @@ import pytest
 
 from simulating import simulate, solid
 
+pytestmark = pytest.mark.covering
+
 SPIN = 40.0  # rad/s: six turns in a second
 JOINTS = {
     "revolute": ({"type": "revolute", "axis": [1, 2, 2]}, "angle"),

@@ -10,6 +10,8 @@ import nivel
 from nivel import ModelError
 from simulating import G, machine, simulate, slopes, solid
 
+pytestmark = pytest.mark.covering
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CASE = Path(__file__).parent / "references" / "bicycle_whipple_linear.csv"
 

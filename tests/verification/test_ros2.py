@@ -10,6 +10,8 @@ from running import reference_run, run
 from stiff_machines import driven, elastic_pendulum, rigid_pendulum
 from test_tolerance import closing_angle
 
+pytestmark = pytest.mark.covering
+
 STEPS = 2e-3 * np.array([1, 1 / 2, 1 / 4])
 COORDINATES = pytest.mark.parametrize("coordinates", ["relative", "absolute", "independent"])
 

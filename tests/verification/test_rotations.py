@@ -13,6 +13,8 @@ from running import run
 from simulating import hinge, simulate, slopes, solid, wheel
 from simulating import machine as machine_of
 
+pytestmark = pytest.mark.covering
+
 KINDS = ["euler-angles", "rotation-vector"]
 EACH_KIND = pytest.mark.parametrize("rotations", KINDS)
 MACHINES = {

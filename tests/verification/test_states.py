@@ -14,6 +14,8 @@ from nivel.integrate.catalogue import INTEGRATORS
 from running import run
 from simulating import G, hinge, machine, simulate, slide, solid
 
+pytestmark = pytest.mark.covering
+
 TAU, OMEGA = 0.1, 7.0
 MASS, STIFFNESS, DAMPING, INTEGRAL, WANTED = 2.0, 80.0, 9.0, 60.0, 0.3
 PERIOD = 0.05

@@ -16,6 +16,8 @@ from references import stick_slip
 from simulating import G, hinge, simulate, slide, solid, wheel
 from test_friction import DRAWN, MASS, sled
 
+pytestmark = pytest.mark.covering
+
 FAULT = Path(__file__).parents[1] / "faults" / "d_static_lost.yaml"
 METHODS = pytest.mark.parametrize(
     ("integrator", "coordinates"),

@@ -8,6 +8,8 @@ from scipy.optimize import fsolve
 from beams import general
 from simulating import machine, solid
 
+pytestmark = pytest.mark.covering
+
 EI, LENGTH = 100.0, 10.0
 
 

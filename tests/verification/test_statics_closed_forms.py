@@ -10,6 +10,8 @@ from scipy.spatial.transform import Rotation
 from nivel.errors import SolveError
 from simulating import G, hinge, machine, slide, solid
 
+pytestmark = pytest.mark.covering
+
 BOTH = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 # Newton's iteration ends quadratically below a change of 1e-10; what is left is the round-off of exact tangents
 EXACT = 1e-12

@@ -7,6 +7,8 @@ import pytest
 from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, Table
 from running import run
 
+pytestmark = pytest.mark.covering
+
 MASS, DAMPING, STEP = 2.0, 1e6, 1e-3
 METHODS = pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha"])
 

@@ -24,6 +24,8 @@ from stiff_machines import (
     two_bars,
 )
 
+pytestmark = pytest.mark.covering
+
 MACHINES = {
     "pendulum": (elastic_pendulum, 98.1, rigid_pendulum, lambda angle: (0.5 * np.cos(angle), 0.5 * np.sin(angle))),
     "crank": (elastic_crank, 1e3, rigid_crank, lambda angle: (0.1 * np.cos(angle), 0.1 * np.sin(angle))),

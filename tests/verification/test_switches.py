@@ -5,6 +5,8 @@ import pytest
 
 from simulating import simulate, slide, solid
 
+pytestmark = pytest.mark.covering
+
 CHOSEN = ("dopri5", "dop853", "adams", "gear", "radau", "bdf", "generalised-alpha")
 QUARTER = np.sqrt(2.0 * 0.3 * 2.0 / 5.0)
 

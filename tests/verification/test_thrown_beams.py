@@ -7,6 +7,8 @@ import pytest
 
 from simulating import simulate
 
+pytestmark = pytest.mark.covering
+
 STEEL = {"youngs_modulus": "2.07e11 Pa", "poisson_ratio": 0.3, "density": "7801 kg/m^3"}
 
 

@@ -19,6 +19,8 @@ from references import andrews, four_bar, heavy_top, kepler, pendulum, slider_cr
 from running import run
 from test_mechanisms import EXAMPLES
 
+pytestmark = pytest.mark.covering
+
 INTEGRATORS = ["dopri5", "dop853", "adams", "gear"]
 TOLERANCES = [1e-4, 1e-6, 1e-8, 1e-10]
 MEETS = pytest.mark.parametrize("integrator", INTEGRATORS)

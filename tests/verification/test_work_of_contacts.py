@@ -6,6 +6,8 @@ import pytest
 from nivel.errors import ModelError
 from simulating import G, machine, simulate
 
+pytestmark = pytest.mark.covering
+
 MASS, STIFFNESS, MU = 2.0, 1e6, 0.3
 FLOOR = {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]}
 TOUCH = {"stiffness": STIFFNESS, "exponent": 1, "restitution": 1, "friction": MU, "friction_work": True}

@@ -26,7 +26,7 @@ NAMED = [
              "(0.5 * numbers[STIFFNESS] * stretch)", _verification("springs", "consistency")),
     Spoilt("impact: sign of the loss", "kernels/forces/impact.py", "(1.0 + x / speed * rate)", "(1.0 - x / speed * rate)",
              _verification("contact", "contact_location")),
-    Spoilt("contact: friction without its normal force", "kernels/forces/contact.py",
+    Spoilt("contact: friction without its normal force", "kernels/forces/contact_law.py",
              "numbers[FRICTION] * force * tanh", "numbers[FRICTION] * tanh", _verification("contact", "consistency")),
     Spoilt("stop: the upper one pulls", "kernels/forces/stop.py", "depth[1], rate, n[STIFFNESS]", "depth[1], -rate, n[STIFFNESS]",
              _verification("contact", "springs", "element_references", "contact_location", "residual_and_tangent")),

@@ -283,7 +283,7 @@ def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], 
 
 def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
-    families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].needed(machine, force))
     families |= dict.fromkeys(families_of(machine))
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])

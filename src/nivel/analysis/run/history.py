@@ -51,7 +51,7 @@ from nivel.judge.after.checks.friction import STILL
 from nivel.judge.before.refusals import WHOLE
 from nivel.judge.during.lockup import can_be_asked
 from nivel.kernels.elements import friction as columns
-from nivel.kernels.forces import contact, height_contact, height_way
+from nivel.kernels.forces import ground_contact, height_way
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.record import WATCH, Sampled
 from nivel.kernels.signals.sampling import sample
@@ -294,7 +294,7 @@ def _watch(system: System, *, chosen: bool) -> int:
     if last > first:
         watched.followed[1:] = first, last
         system.record.hooks.address[WATCH] = height_way.watch.address
-        noted = contact.NUMBERS + np.array([height_contact.MISSED, height_contact.SEEN])
+        noted = [ground_contact.MISSED, ground_contact.SEEN]
         system.record.elements.number[first:last, noted] = 0.0
     return count
 

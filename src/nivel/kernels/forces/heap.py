@@ -9,66 +9,54 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.analytic import real, tanh
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.core.status import OK
-from nivel.kernels.forces.contact import velocity_at
-from nivel.kernels.forces.impact import impact
-from nivel.kernels.forces.wrench import add_force_at
+from nivel.kernels.elements.patch import axis, minus
+from nivel.kernels.forces.contact_law import (
+    COLUMNS,
+    LOST,
+    NORMAL,
+    NUMBERS,
+    OUTPUT,
+    POINT,
+    POWER,
+    RUBBING,
+    STIFFNESS,
+    SUMS,
+    begin_contact,
+    meets,
+    push,
+)
+from nivel.kernels.forces.ground_contact import find_point_of_spheres
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, part, stage
 
-# columns of `columns`; then the markers of the spheres and those of the planes
-OUTPUT, SPHERES, PLANES, FIRST = 0, 1, 2, 3
+# columns of the pair; then the markers of the spheres and those of the planes
+SPHERES, PLANES, FIRST = COLUMNS, COLUMNS + 1, COLUMNS + 2
 # outputs: magnitude, power, depth, normal force, friction, power of friction, pairs that touch
-DEPTH, FORCE, RUB, LOST, TOUCHING = 2, 3, 4, 5, 6
-# columns of `number`; then a point and a normal, which are work
-STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, POINT, NORMAL = 0, 1, 2, 3, 4, 5, 8
-# CELL: size of a cell, GAP: by how much what is not in cells side by side is apart at least, TABLE_SIZE: 0 where all pairs are looked at,
-# KEPT: how many touched in the last evaluation. Behind the radii the table, of each sphere the one before it in its cell, and its cell (3);
-# places of what touched, so many of each sphere
-CELL, GAP, TABLE_SIZE, KEPT, RADII = 11, 12, 13, 14, 15
+DEPTH, FORCE, RUB, LOST_POWER, TOUCHING = 2, 3, 4, 5, 6
+# numbers of the pair; CELL: size of a cell, GAP: by how much what is not in cells side by side is apart at least, TABLE_SIZE: 0 where all
+# pairs are looked at, KEPT: how many touched in the last evaluation. Behind the radii the table, of each sphere the one before it in its
+# cell, and its cell (3); places of what touched, so many of each sphere
+CELL, GAP, TABLE_SIZE, KEPT, RADII = (NUMBERS + at for at in range(5))
 KEPT_OF_EACH = 8
 
 
 @part
-def push_apart(machine, k, place, i, j, depth):
-    """Force of surface `place` of element k between markers i and j at its point and normal, which are in its numbers."""
+def push_apart(machine, k, place, i, j, depth, t):
+    """Push at surface `place` of element k between markers i and j at its point and normal, where it touches."""
     record = record_at(machine)
-    bodies, elements, control, out = record.bodies, record.elements, record.control, record.outputs.value
-    numbers, first, followed = elements.number[k], np.int64(elements.columns[k, OUTPUT]), record.watched.followed[0]
-    this, other = record.markers.body[i], record.markers.body[j]
-    p, normal = numbers[POINT:NORMAL], numbers[NORMAL:CELL]
-    v0, v1, v2 = velocity_at(bodies, this, p)
-    u0, u1, u2 = velocity_at(bodies, other, p)
-    v0, v1, v2 = v0 - u0, v1 - u1, v2 - u2
-    away = v0 * normal[0] + v1 * normal[1] + v2 * normal[2]
-    elements.depth[k, place] = depth
-    if followed == 1:
-        elements.depth_rate[k, place] = -away
-    if not (real(depth) > 0.0 or (followed == 1 and elements.memory[k, place] > 0.0)):
-        elements.proposal[k, place] = 0.0 * depth
+    acts, rate = meets(machine, k, place, i, j, depth)
+    if not acts:
         return
-    force, stored, loss, elements.proposal[k, place] = impact(
-        depth, -away, numbers[STIFFNESS], numbers[EXPONENT], numbers[LOSS], elements.memory[k, place], followed
-    )
-    control.stored[0] += stored
-    control.power[1] += loss
-    s0, s1, s2 = v0 - away * normal[0], v1 - away * normal[1], v2 - away * normal[2]
-    squared = s0 * s0 + s1 * s1 + s2 * s2
-    x, y, z = force * normal[0], force * normal[1], force * normal[2]
-    if real(numbers[FRICTION]) > 0.0 and real(squared) > 0.0:
-        speed = np.sqrt(squared)
-        friction = numbers[FRICTION] * force * tanh(speed / numbers[TRANSITION])
-        share = friction / speed
-        x, y, z = x - share * s0, y - share * s1, z - share * s2
-        control.power[1] += friction * speed
-        out[first + RUB] += friction
-        out[first + LOST] += friction * speed
-    power = add_force_at(bodies, this, p, x, y, z)
-    out[first + 1] += power + add_force_at(bodies, other, p, -x, -y, -z)
-    out[first + FORCE] += force
-    out[first + TOUCHING] += 1.0 if real(depth) > 0.0 else 0.0
+    push(machine, k, place, i, j, depth, rate, t)
+    if real(depth) > 0.0:
+        numbers = record.elements.number[k]
+        record.outputs.value[np.int64(record.elements.columns[k, OUTPUT]) + TOUCHING] += 1.0
+        if real(numbers[TABLE_SIZE]) > 0.0:
+            keep_touch(machine, k, place)
 
 
 @leaf
@@ -139,42 +127,30 @@ def keep_touch(machine, k, place):
     numbers[KEPT] += 1.0
 
 
-@part
-def touch_plane(machine, k, place, a, j, height):
+@stage
+def touch_plane(machine, k, place, a, j, height, t):
     """Push sphere a, whose centre is so high above the plane of marker j."""
     record = record_at(machine)
-    columns, numbers, markers = record.elements.columns[k], record.elements.number[k], record.markers
-    i, A = np.int64(columns[FIRST + a]), markers.A[j]
+    numbers, markers = record.elements.number[k], record.markers
+    i = np.int64(record.elements.columns[k, FIRST + a])
     for c in range(3):
-        numbers[NORMAL + c] = A[c, 2]
-        numbers[POINT + c] = markers.r[i, c] - height * A[c, 2]
-    depth = numbers[RADII + a] - height
-    push_apart(machine, k, place, i, j, depth)
-    if real(numbers[TABLE_SIZE]) > 0.0 and real(depth) > 0.0:
-        keep_touch(machine, k, place)
+        numbers[NORMAL + c] = markers.A[j, c, 2]
+        numbers[POINT + c] = markers.r[i, c] - height * markers.A[j, c, 2]
+    push_apart(machine, k, place, i, j, numbers[RADII + a] - height, t)
 
 
-@part
-def touch_sphere(machine, k, place, a, b):
+@stage
+def touch_sphere(machine, k, place, a, b, t):
     """Push spheres a and b apart."""
     record = record_at(machine)
     columns, numbers, r = record.elements.columns[k], record.elements.number[k], record.markers.r
     i, j = np.int64(columns[FIRST + a]), np.int64(columns[FIRST + b])
-    d0, d1, d2 = r[i, 0] - r[j, 0], r[i, 1] - r[j, 1], r[i, 2] - r[j, 2]
-    distance = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
-    depth = numbers[RADII + a] + numbers[RADII + b] - distance
-    if real(distance) == 0.0:
-        d2, distance = d2 + 1.0, distance + 1.0  # any direction will do
-    numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2] = d0 / distance, d1 / distance, d2 / distance
-    for c in range(3):
-        numbers[POINT + c] = r[j, c] + (numbers[RADII + b] - 0.5 * depth) * numbers[NORMAL + c]
-    push_apart(machine, k, place, i, j, depth)
-    if real(numbers[TABLE_SIZE]) > 0.0 and real(depth) > 0.0:
-        keep_touch(machine, k, place)
+    depth = find_point_of_spheres(r[i], r[j], numbers, numbers[RADII + a], numbers[RADII + b])
+    push_apart(machine, k, place, i, j, depth, t)
 
 
 @stage
-def look_at_pair(machine, k, a, b, r, deepest):
+def look_at_pair(machine, k, a, b, r, deepest, t):
     """Sphere a, at r, beside sphere b, which comes before it: push where they touch; returns the deepest overlap so far."""
     record = record_at(machine)
     elements = record.elements
@@ -188,12 +164,12 @@ def look_at_pair(machine, k, a, b, r, deepest):
     if near > 0.0 and real(squared) < near * near:
         deepest = reach - np.sqrt(squared)
     if record.watched.followed[0] == 1 or real(squared) < real(reach) * real(reach) or elements.depth[k, place] > 0.0:
-        touch_sphere(machine, k, place, a, b)
+        touch_sphere(machine, k, place, a, b, t)
     return deepest
 
 
 @stage
-def look_around(machine, k, a, r, deepest):
+def look_around(machine, k, a, r, deepest, t):
     """Sphere a, at r, beside those before it in its cell and the cells around; returns the deepest overlap so far."""
     record = record_at(machine)
     columns, numbers = record.elements.columns[k], record.elements.number[k]
@@ -211,7 +187,7 @@ def look_around(machine, k, a, r, deepest):
         while b >= 0:
             its = cells + 3 * b
             if b < a and real(numbers[its]) == x and real(numbers[its + 1]) == y and real(numbers[its + 2]) == z:
-                deepest = look_at_pair(machine, k, a, b, r, deepest)
+                deepest = look_at_pair(machine, k, a, b, r, deepest, t)
             b = np.int64(real(numbers[before + b])) - 1
     return deepest
 
@@ -225,8 +201,8 @@ def apply(machine, number, t):
         columns, numbers = elements.columns[k], elements.number[k]
         count, planes, first = np.int64(columns[SPHERES]), np.int64(columns[PLANES]), np.int64(columns[OUTPUT])
         nothing = 0.0 * numbers[STIFFNESS]
-        for a in range(7):
-            out[first + a] = nothing
+        begin_contact(machine, k, t)
+        out[first + TOUCHING] = nothing
         # where surfaces are followed each has its own distance
         uses_cells = real(numbers[TABLE_SIZE]) > 0.0 and followed == 0
         deepest = nothing - np.inf
@@ -240,19 +216,19 @@ def apply(machine, number, t):
             r = markers.r[np.int64(columns[FIRST + a])]
             for b in range(planes):
                 j = np.int64(columns[FIRST + count + b])
-                A, o = markers.A[j], markers.r[j]
-                height = (r[0] - o[0]) * A[0, 2] + (r[1] - o[1]) * A[1, 2] + (r[2] - o[2]) * A[2, 2]
+                height = dot(minus(r, markers.r[j]), axis(markers.A[j], 2))
                 depth, place = numbers[RADII + a] - height, a * planes + a * (a - 1) // 2 + b
                 if real(depth) > real(deepest):
                     deepest = depth
                 if followed == 1 or real(depth) > 0.0 or elements.depth[k, place] > 0.0:
-                    touch_plane(machine, k, place, a, j, height)
+                    touch_plane(machine, k, place, a, j, height, t)
             if uses_cells:
-                deepest = look_around(machine, k, a, r, deepest)
+                deepest = look_around(machine, k, a, r, deepest, t)
             else:
                 for b in range(a):
-                    deepest = look_at_pair(machine, k, a, b, r, deepest)
-        force, rub = out[first + FORCE], out[first + RUB]
-        out[first] = np.sqrt(force * force + rub * rub)
-        out[first + DEPTH] = deepest
+                    deepest = look_at_pair(machine, k, a, b, r, deepest, t)
+        force, rub = numbers[SUMS], numbers[RUBBING]
+        out[first], out[first + 1] = np.sqrt(force * force + rub * rub), numbers[POWER]
+        out[first + DEPTH], out[first + FORCE], out[first + RUB] = deepest, force, rub
+        out[first + LOST_POWER] = numbers[LOST]
     return OK

@@ -7,9 +7,8 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross
 from nivel.kernels.elements.patch import axis, minus
-from nivel.kernels.forces.contact import COUNT, MARKER, NORMAL, NUMBERS, OTHER, POINT
-from nivel.kernels.forces.height_contact import BALL, END, find_point_over_ground
-from nivel.kernels.forces.round_contact import seen
+from nivel.kernels.forces.contact_law import COUNT, MARKER, NORMAL, OTHER, POINT, seen
+from nivel.kernels.forces.ground_contact import END, ball_of, find_point_over_ground
 from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
@@ -58,7 +57,7 @@ def set_pose(machine, k, theta, h):
     record = record_at(machine)
     markers, columns, n = record.markers, record.elements.columns[k], record.elements.number[k]
     memory, first = record.elements.memory[k], np.int64(columns[COUNT])
-    i, j, end = columns[MARKER], columns[OTHER], NUMBERS + END
+    i, j, end = columns[MARKER], columns[OTHER], END
     one = theta * theta * (3.0 - 2.0 * theta)
     low, high = h * theta * (1.0 - theta) * (1.0 - theta), -h * theta * theta * (1.0 - theta)
     B, o = markers.A[j], markers.r[j]
@@ -93,7 +92,7 @@ def overlap_at(machine, k, n, theta, h):
     set_pose(machine, k, theta, h)
     depth = real(find_point_over_ground(machine, k, n))
     p = seen(markers.A[columns[OTHER]], minus(numbers[POINT:NORMAL], markers.r[columns[OTHER]]))
-    ball = real(numbers[NUMBERS + BALL])
+    ball = ball_of(machine, k)
     if ball > 0.0:
         # the point of a ball was put on the ground
         m = seen(markers.A[columns[OTHER]], (numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]))

@@ -14,8 +14,8 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
-from nivel.kernels.forces.contact import COUNT, DEEPEST, NUMBERS, RADIUS
-from nivel.kernels.forces.height_contact import BALL, END, GROUND, MISSED, MISSED_AT, SEEN
+from nivel.kernels.forces.contact_law import COUNT, DEEPEST, RADIUS
+from nivel.kernels.forces.ground_contact import END, GROUND, MISSED, MISSED_AT, SEEN, ball_of
 from nivel.kernels.forces.height_field import (
     BEND,
     HIGHEST,
@@ -54,7 +54,7 @@ SLIGHT, PARABOLA = 0.5, 0.25
 @stage
 def is_plane(machine, k):
     """Whether all ground of element k is a plane."""
-    ground = record_at(machine).elements.number[k, NUMBERS + GROUND :]
+    ground = record_at(machine).elements.number[k, GROUND:]
     return real(ground[BEND]) <= PLANE * mesh_of(ground)
 
 
@@ -64,9 +64,9 @@ def meshes_within(machine, k, out, at, h):
     n = record_at(machine).elements.number[k]
     x, y, z = real(out[at + SPEED]), real(out[at + SPEED + 1]), real(out[at + SPEED + 2])
     u, v, w = real(out[at + SPIN]), real(out[at + SPIN + 1]), real(out[at + SPIN + 2])
-    arm = real(n[RADIUS]) - real(n[NUMBERS + BALL])
+    arm = real(n[RADIUS]) - ball_of(machine, k)
     speed = np.sqrt(x * x + y * y + z * z) + arm * np.sqrt(u * u + v * v + w * w)
-    return h * speed / mesh_of(n[NUMBERS + GROUND :])
+    return h * speed / mesh_of(n[GROUND:])
 
 
 @stage
@@ -74,7 +74,7 @@ def passes_nothing(machine, k, h):
     """Whether element k goes less than a mesh in a step of length h, is above all heights on its way, or over a plane."""
     record = record_at(machine)
     n, memory, first = record.elements.number[k], record.elements.memory[k], np.int64(record.elements.columns[k, COUNT])
-    end, ground = NUMBERS + END, n[NUMBERS + GROUND :]
+    end, ground = END, n[GROUND:]
     mesh, way = mesh_of(ground), max(meshes_within(machine, k, memory, first, h), meshes_within(machine, k, n, end, h))
     if way <= 1.0:
         return True
@@ -94,7 +94,7 @@ def passes_nothing(machine, k, h):
 @stage
 def way_of(machine, k, n, h):
     """(meshes along the way of point n, by how much its middle is beside the chord [m])."""
-    ground = record_at(machine).elements.number[k, NUMBERS + GROUND :]
+    ground = record_at(machine).elements.number[k, GROUND:]
     _, p = overlap_at(machine, k, n, 0.0, h)
     _, q = overlap_at(machine, k, n, 0.5, h)
     _, r = overlap_at(machine, k, n, 1.0, h)
@@ -108,7 +108,7 @@ def piece_between(machine, k, n, begin, end, beside, h):
 
     beside : how far its way is beside its chord, at most."""
     numbers = record_at(machine).elements.number[k]
-    ground, ball = numbers[NUMBERS + GROUND :], real(numbers[NUMBERS + BALL])
+    ground, ball = numbers[GROUND:], ball_of(machine, k)
     _, p = overlap_at(machine, k, n, begin, h)
     _, q = overlap_at(machine, k, n, end, h)
     around = ball + beside
@@ -207,17 +207,17 @@ def note_missed(machine, k, t, h):
     """Note the deepest overlap within the step that ends in the state last evaluated, and that at its end."""
     elements = record_at(machine).elements
     numbers = elements.number[k]
-    numbers[NUMBERS + SEEN] = max(real(numbers[NUMBERS + SEEN]), real(numbers[DEEPEST]))
+    numbers[SEEN] = max(real(numbers[SEEN]), real(numbers[DEEPEST]))
     if meshes_within(machine, k, elements.memory[k], np.int64(elements.columns[k, COUNT]), h) <= 0.5:
         return
-    write_pose(machine, k, numbers, NUMBERS + END)
+    write_pose(machine, k, numbers, END)
     if passes_nothing(machine, k, h):
         return
     own = kept(machine, k)
     for n in range(elements.columns[k, COUNT]):
         share, depth = deepest_between(machine, k, n, h)
-        if depth > real(numbers[NUMBERS + MISSED]):
-            numbers[NUMBERS + MISSED], numbers[NUMBERS + MISSED_AT] = depth, t - (1.0 - share) * h
+        if depth > real(numbers[MISSED]):
+            numbers[MISSED], numbers[MISSED_AT] = depth, t - (1.0 - share) * h
     put_back(machine, k, own)
 
 
@@ -262,7 +262,7 @@ def look_ahead(machine, k, t):
     h = t - real(memory[first + SINCE])
     if not touches or meshes_within(machine, k, memory, first, h) <= 1.0:
         return share
-    predict(elements.number[k], NUMBERS + END, memory, first, h)
+    predict(elements.number[k], END, memory, first, h)
     if passes_nothing(machine, k, h):
         return share
     own = kept(machine, k)
@@ -293,7 +293,7 @@ def watch(machine, job, t):
             if job == KEEP:
                 keep(machine, k, t)
             elif job == ARRIVE:
-                write_pose(machine, k, record.elements.number[k], NUMBERS + END)
+                write_pose(machine, k, record.elements.number[k], END)
             else:
                 share = min(share, look_ahead(machine, k, t))
         if job == AHEAD:

@@ -16,13 +16,12 @@ import numpy as np
 from nivel.kernels.algebra.analytic import maximum, minimum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
-from nivel.kernels.elements.moving_surface import SPIN as SURFACE_SPIN
-from nivel.kernels.elements.moving_surface import SPIN_RATE, find_surface, surface_at, surface_rate_at
-from nivel.kernels.elements.patch import leave_patch, middle_of, plus, tangents, write_patch
+from nivel.kernels.elements.moving_surface import find_surface
+from nivel.kernels.elements.patch import leave_patch, middle_of, plus
 from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, leave_touch, write_touch
 from nivel.kernels.elements.touch import RUB as FRICTION_FORCE
 from nivel.kernels.elements.touch import SLIP as SLIP_SPEED
-from nivel.kernels.forces.contact import velocity_at
+from nivel.kernels.forces.contact_law import place_patch, velocity_at
 from nivel.kernels.forces.hull_pair import (
     AXES,
     BOX,
@@ -305,25 +304,17 @@ def find_patch(machine, k):
     record = record_at(machine)
     markers, bodies = record.markers, record.bodies
     columns, n = record.elements.columns[k], record.elements.number[k]
-    p = middle_of_push(machine, k)
-    first, count, q = np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE])
-    i, j, sums = columns[MARKER], columns[OTHER], n[RUB:BOX]
+    i, j, sums, p = columns[MARKER], columns[OTHER], n[RUB:BOX], middle_of_push(machine, k)
     if real(sums[0]) > 0.0:
-        load, A = sums[0], markers.A[i]
+        A = markers.A[i]
         d, reach = middle_of(sums)
-        p, normal = plus(markers.r[i], turned(A, d)), turned(A, (-n[NORMAL], -n[NORMAL + 1], -n[NORMAL + 2]))
-        t, u = tangents(markers.A[j], normal)
+        d, normal = turned(A, d), turned(A, (-n[NORMAL], -n[NORMAL + 1], -n[NORMAL + 2]))
+        p = plus(markers.r[i], d)
         v, w = velocity_at(bodies, markers.body[i], p), velocity_at(bodies, markers.body[j], p)
         pdot = 0.5 * (v[0] + w[0]), 0.5 * (v[1] + w[1]), 0.5 * (v[2] + w[2])
-        o = 0.0 * load
-        over, change, spin, spin_rate = (o, o, o), (o, o, o), o, o
-        if columns[SURFACE] != NONE:
-            moving, frame = n[MOVING:], columns[SURFACE + 2]
-            over, change = surface_at(machine, frame, moving, p), surface_rate_at(machine, frame, moving, p, pdot)
-            spin, spin_rate = o + moving[SURFACE_SPIN], o + moving[SPIN_RATE]
-        write_patch(machine, first, count, q, p, pdot, normal, t, u, load, reach, over, change, spin, spin_rate)
+        place_patch(machine, columns[PATCH:], n[MOVING:], i, j, sums[0], d, reach, normal, pdot)
     else:
-        leave_patch(machine, first, count, q)
+        leave_patch(machine, np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE]))
     for a in range(6):
         sums[a] = 0.0 * n[FIELD]
     return p

@@ -1,28 +1,29 @@
-"""Bushings and contacts in numbers."""
+"""Bushings and contacts in numbers: of each pair of shapes the family that finds its points, and the numbers of this."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.elements.touch import LOST
+from nivel.kernels.elements.touch import DEPTH, LOST, RATE
 from nivel.kernels.forces import (
     bushing,
-    contact,
-    ellipsoid_contact,
+    contact_law,
     friction_work,
-    height_contact,
+    ground_contact,
     height_pose,
     hull_contact,
     round_contact,
     surface_distance,
 )
 from nivel.kernels.record.function import OUTPUT
+from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
@@ -34,17 +35,14 @@ from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.ellipsoids import numbers_of_ellipsoids, numbers_over_plane
 from nivel.system.forces.friction_works import WORK, add_friction_work
 from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.height_fields import numbers_of_heights
-from nivel.system.forces.hulls import hull_of, part_of, row_of
+from nivel.system.forces.hulls import hull_of, part_of, polytope_of, row_of
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
 
-# Points of a shape that may touch, where they are more than one.
-POINTS = {contact.BOX: 8, contact.CYLINDER: 8, contact.CAPSULE: 2}
 MOST_CORNERS = 1000
 
 
@@ -63,7 +61,7 @@ def add_bushing(builder: SystemBuilder, force: Bushing) -> None:
 
 
 def add_contact(builder: SystemBuilder, force: Contact) -> None:
-    """A shape against a plane, two spheres, or two hulls."""
+    """A shape against ground, or two shapes."""
     first = force_outputs(
         builder,
         force.name,
@@ -86,85 +84,144 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     if force.foundation_modulus is not None:
         _add_hulls(builder, force, first)
         return
-    more: list[float] = []
-    several, family = False, contact.apply
-    if force.bodies is not None:
-        bodies = [builder.machine.body_named[name] for name in force.bodies]
-        markers = [_shape_marker(builder, body) for body in bodies]
-        if all(isinstance(body.shape, Sphere) for body in bodies):
-            kind, size = contact.SPHERES, [_radius(body) for body in bodies]
-            curvature = sum(1.0 / radius for radius in size)
-        elif any(isinstance(body.shape, Ellipsoid) for body in bodies):
-            kind, size, curvature, family = contact.ROUND, [], 0.0, ellipsoid_contact.apply
-            more = numbers_of_ellipsoids(force, bodies, sum(_ball(body) for body in bodies))
-        else:
-            kind, size, curvature, family = contact.ROUND, [], 0.0, round_contact.apply
-            more, several = _round_numbers(force, bodies)
-    else:
-        assert force.body is not None  # the record was checked
-        assert force.plane is not None
-        body = builder.machine.body_named[force.body]
-        markers = [_shape_marker(builder, body), builder.end(force.plane)]
-        kind, size, curvature = contact.ROUND, [], 0.0
-        if isinstance(body.shape, Ellipsoid):
-            family, more = ellipsoid_contact.apply, numbers_over_plane(body.shape)
-        else:
-            kind, size = _shape(contact, body)
-            curvature = 1.0 / size[0]
-    stiffness = force.stiffness if force.materials is None else hertzian(force.materials, curvature)
+    family, bodies = family_of(builder.machine, force), _bodies(builder.machine, force)
+    markers = [_shape_marker(builder, body) for body in bodies]
+    if force.plane is not None:
+        markers.append(builder.end(force.plane))
+    points = PAIRS[family](force, bodies)
     law = NONE
     if force.law is not None:
-        symbols = {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
+        symbols = {"depth": (OUTPUT, first + DEPTH, 0), "rate": (OUTPUT, first + RATE, 0)}
         # every point that touches asks for it
         law = builder.function(force.law, symbols, switching=False)
-    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
-    numbers = [stiffness or 0.0, force.exponent, loss, 0.0 if force.sticks else force.friction]
-    numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
-    numbers.append(0.0 if force.bodies is not None else _ball(builder.machine.body_named[str(force.body)]))
-    numbers += [0.0] * (contact.NUMBERS - len(numbers))
-    numbers += more
-    points = 2 if several else POINTS.get(kind, 1)
-    corners: list[float] = []
-    if kind == contact.HULL:
-        touching = builder.machine.body_named[str(force.body)]
-        corners = (_corners(touching) if force.heights is None else _corners_of_parts(touching)).ravel().tolist()
-        points = len(corners) // 3
-    if force.heights is not None:
-        ground = numbers_of_heights(force.heights)
-        ball = size[0] if kind in (contact.SPHERE, contact.CAPSULE) else 0.0
-        numbers += [
-            float(kind),
-            float(len(ground)),
-            ball,
-            *[0.0] * (height_contact.GROUND - height_contact.END),
-            *ground,
-        ]
-        kind, family = contact.ROUND, height_contact.apply
-    numbers += corners
     patch = [NONE, 0, 0]
     if force.sticks:
-        patch = add_patch(builder, force, (markers[0], markers[1]), first, points > 1)
+        patch = add_patch(builder, force, (markers[0], markers[1]), first, points.count > 1)
     frame = markers[1] if force.bodies is None else builder.frame(force.bodies[1])
-    columns = [first, kind, *markers, law, points, *patch, *_surface(builder, force, frame)]
-    memory = points + (height_pose.KEPT if family is height_contact.apply else 0)
-    builder.elements.add(family, columns, numbers, memory, tuple(range(points)))
+    columns = [first, *markers, points.count, law, *patch, *_surface(builder, force, frame), *points.columns]
+    numbers = law_numbers(force, _stiffness(builder.machine, force), points.radius)
+    memory = points.count + (height_pose.KEPT if family is ground_contact.apply_over_heights else 0)
+    builder.elements.add(family, columns, numbers + points.numbers, memory, tuple(range(points.count)))
+
+
+def law_numbers(force: Contact | Contacts, stiffness: float | None, radius: float) -> list[float]:
+    """Numbers of `nivel.kernels.forces.contact_law`, with a ball of this radius [m] about the marker of the shape."""
+    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
+    sticks = isinstance(force, Contact) and force.sticks
+    friction, transition = 0.0 if sticks else force.friction, force.friction_transition_speed or 1.0
+    numbers = [stiffness or 0.0, force.exponent, loss, friction, transition, radius]
+    return numbers + [0.0] * (contact_law.NUMBERS - len(numbers))
+
+
+def family_of(machine: MachineRecord, force: Contact) -> Family:
+    """What finds the points of a contact."""
+    shapes = [body.shape for body in _bodies(machine, force)]
+    if force.foundation_modulus is not None:
+        return hull_contact.apply
+    if force.heights is not None:
+        return ground_contact.apply_over_heights
+    if any(isinstance(shape, Ellipsoid) for shape in shapes):
+        return round_contact.apply_to_ellipsoids
+    if force.bodies is None:
+        return ground_contact.apply
+    if all(isinstance(shape, Sphere) for shape in shapes):
+        return ground_contact.apply_to_spheres
+    return round_contact.apply
+
+
+@dataclass(frozen=True)
+class Points:
+    """Points of a pair: how many, radius [m] of the balls that hold both shapes, and what its family has behind the law."""
+
+    count: int
+    radius: float
+    columns: list[int]
+    numbers: list[float]
+
+
+def _over_plane(force: Contact, bodies: Sequence[Body]) -> Points:
+    kind, count, size = _ground_shape(bodies[0], _corners)
+    return Points(count, _ball(bodies[0]), [kind], size)
+
+
+def _over_heights(force: Contact, bodies: Sequence[Body]) -> Points:
+    assert force.heights is not None
+    kind, count, size = _ground_shape(bodies[0], _corners_of_parts)
+    work = [0.0] * (ground_contact.GROUND - contact_law.NUMBERS)
+    numbers = [*work, *numbers_of_heights(force.heights)]
+    return Points(count, _ball(bodies[0]), [kind, contact_law.NUMBERS + len(numbers)], numbers + size)
+
+
+def _of_spheres(force: Contact, bodies: Sequence[Body]) -> Points:
+    radii = [_ball(body) for body in bodies]
+    return Points(1, sum(radii), [], radii)
+
+
+def _of_round(force: Contact, bodies: Sequence[Body]) -> Points:
+    # a sphere before a capsule: it has one point
+    first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
+    if first is None:
+        first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Capsule))
+    own, other = bodies[first].shape, bodies[1 - first]
+    assert isinstance(own, Sphere | Capsule)  # the record was checked
+    half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
+    kind, numbers = _distance_numbers(other, part_of(force, bodies, 1 - first))
+    core = other.shape.radius if isinstance(other.shape, Capsule) else 0.0
+    balls = own.radius + half + _ball(other)
+    return Points(2 if half > 0.0 else 1, balls, [], [float(first), own.radius, half, core, float(kind), *numbers])
+
+
+def _of_ellipsoid(force: Contact, bodies: Sequence[Body]) -> Points:
+    first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Ellipsoid))
+    own, core, kind, balls = bodies[first].shape, 0.0, round_contact.POLYTOPE, math.inf
+    assert isinstance(own, Ellipsoid)
+    # the half-space below z = 0: a face alone
+    numbers = [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    if force.bodies is not None:
+        other, balls = bodies[1 - first], sum(_ball(body) for body in bodies)
+        match other.shape:
+            case Ellipsoid():
+                kind, numbers = round_contact.ELLIPSOID, list(other.shape.semi_axes)
+            case Sphere():
+                core, numbers = other.shape.radius, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+            case Capsule():
+                ends = [0.0, 0.0, -0.5 * length(other.shape), 0.0, 0.0, 0.5 * length(other.shape)]
+                core, numbers = other.shape.radius, [2.0, 0.0, 1.0, *ends, *ends]
+            case _:
+                numbers = polytope_of(other, part_of(force, bodies, 1 - first))
+    return Points(1, balls, [], [float(first), *own.semi_axes, float(kind), core, *numbers])
+
+
+# by what finds the points
+PAIRS: Final[dict[Family, Callable[[Contact, Sequence[Body]], Points]]] = {
+    ground_contact.apply: _over_plane,
+    ground_contact.apply_to_spheres: _of_spheres,
+    ground_contact.apply_over_heights: _over_heights,
+    round_contact.apply: _of_round,
+    round_contact.apply_to_ellipsoids: _of_ellipsoid,
+}
+
+
+def _bodies(machine: MachineRecord, force: Contact) -> list[Body]:
+    """The bodies that touch: one on ground, or two."""
+    return [machine.body_named[name] for name in force.bodies or (str(force.body),)]
+
+
+def _stiffness(machine: MachineRecord, force: Contact) -> float | None:
+    """K of a force K depth^n; None with a law of its own, and of a foundation."""
+    if force.materials is None:
+        return force.stiffness
+    shapes = [body.shape for body in _bodies(machine, force)]
+    return hertzian(force.materials, sum(1.0 / shape.radius for shape in shapes if isinstance(shape, Sphere)))
 
 
 def tangent_stiffness(machine: MachineRecord, force: Contact | Contacts | Stop, load: float) -> float | None:
     """About the stiffness [N/m or N m/rad] of a contact at one point or an end stop under a `load` [N or N m], or of a foundation over a
     whole side of the smaller body; None with a law of its own."""
-    if isinstance(force, Stop | Contacts):
-        return force.exponent * load / (load / force.stiffness) ** (1.0 / force.exponent)
-    if force.foundation_modulus is not None:
-        hulls = [hull_of(machine.body_named[name]) for name in force.bodies or ()]
-        sides = [sorted(np.ptp(hull.corners, axis=0)) for hull in hulls]
+    if isinstance(force, Contact) and force.foundation_modulus is not None:
+        sides = [sorted(np.ptp(hull_of(body).corners, axis=0)) for body in _bodies(machine, force)]
         return force.foundation_modulus * min(float(side[1] * side[2]) for side in sides)
-    stiffness = force.stiffness
-    if force.materials is not None:
-        names = force.bodies or (force.body,)
-        shapes = [machine.body_named[name].shape for name in names if name is not None]
-        curvature = sum(1.0 / shape.radius for shape in shapes if isinstance(shape, Sphere))
-        stiffness = hertzian(force.materials, curvature)
+    stiffness = _stiffness(machine, force) if isinstance(force, Contact) else force.stiffness
     # F = K d^n: dF/dd = n F/d
     return None if stiffness is None else force.exponent * load / (load / stiffness) ** (1.0 / force.exponent)
 
@@ -225,24 +282,20 @@ def _ball(body: Body) -> float:
     raise ValueError(f"body {body.name} has no shape that can touch")
 
 
-def _radius(body: Body) -> float:
-    assert isinstance(body.shape, Sphere)  # the record was checked
-    return body.shape.radius
-
-
-def _shape(contact: Any, body: Body) -> tuple[int, list[float]]:
-    """Kind and sizes of a body's shape for the contact kernel."""
+def _ground_shape(body: Body, corners: Callable[[Body], NDArray[np.float64]]) -> tuple[int, int, list[float]]:
+    """Kind, number of points and numbers of a shape for `nivel.kernels.forces.ground_contact`; `corners` of an extrusion or a mesh."""
     match body.shape:
         case Sphere():
-            return contact.SPHERE, [body.shape.radius]
+            return ground_contact.SPHERE, 1, [body.shape.radius]
         case Box():
-            return contact.BOX, [0.5 * side for side in box_size(body.shape)]
+            return ground_contact.BOX, 8, [0.5 * side for side in box_size(body.shape)]
         case Cylinder():
-            return contact.CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+            return ground_contact.CYLINDER, 8, [body.shape.radius, 0.5 * length(body.shape)]
         case Capsule():
-            return contact.CAPSULE, [body.shape.radius, 0.5 * length(body.shape)]
+            return ground_contact.CAPSULE, 2, [body.shape.radius, 0.5 * length(body.shape)]
         case Extrusion() | Mesh():
-            return contact.HULL, [1.0]  # its size is that of its corners
+            found = corners(body)
+            return ground_contact.HULL, len(found), found.ravel().tolist()
     raise ValueError(f"body {body.name} has no shape that can touch")
 
 
@@ -276,23 +329,6 @@ def _corners_of_parts(body: Body) -> NDArray[np.float64]:
     return np.unique(np.concatenate([each.corners + each.middle for each in parts]).round(9), axis=0)
 
 
-def _round_numbers(force: Contact, bodies: Sequence[Body]) -> tuple[list[float], bool]:
-    """Numbers of `nivel.kernels.forces.round_contact` for two bodies of which one is a sphere or a capsule, and whether it lies on two
-    points."""
-    # a sphere before a capsule: it has one point
-    first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
-    if first is None:
-        first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Capsule))
-    own, other = bodies[first].shape, bodies[1 - first]
-    assert isinstance(own, Sphere | Capsule)  # the record was checked
-    half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
-    core, (kind, numbers) = 0.0, _distance_numbers(other, part_of(force, bodies, 1 - first))
-    if isinstance(other.shape, Capsule):
-        core = other.shape.radius
-    ball = own.radius + half + _ball(other)
-    return [float(first), own.radius, half, core, ball, float(kind), *numbers], half > 0.0
-
-
 def _distance_numbers(body: Body, part: int | None) -> tuple[int, list[float]]:
     """Kind and numbers of a shape for `nivel.kernels.forces.surface_distance`, in the axes of its marker."""
     match body.shape:
@@ -303,12 +339,7 @@ def _distance_numbers(body: Body, part: int | None) -> tuple[int, list[float]]:
         case Capsule():
             return surface_distance.SEGMENT, [0.5 * length(body.shape)]
         case Extrusion() | Mesh():
-            hull = hull_of(body, part)
-            corners, faces = hull.corners + hull.middle, hull.faces.copy()
-            faces[:, 3] += faces[:, :3] @ hull.middle
-            ends = corners[hull.edges].reshape(-1, 6)
-            counts = [float(len(each)) for each in (corners, faces, ends)]
-            return surface_distance.HULL, [*counts, *corners.ravel(), *faces.ravel(), *ends.ravel()]
+            return surface_distance.HULL, polytope_of(body, part)
     raise ValueError(f"body {body.name} has no shape that can touch")
 
 
@@ -329,9 +360,7 @@ KINDS = (
     ForceKind(
         Contact,
         add_contact,
-        (
-            *(contact.apply, hull_contact.apply, round_contact.apply, ellipsoid_contact.apply, height_contact.apply),
-            friction_work.apply,
-        ),
+        (*PAIRS, hull_contact.apply, friction_work.apply),
+        lambda machine, force: (family_of(machine, force), *([friction_work.apply] * force.friction_work)),
     ),
 )

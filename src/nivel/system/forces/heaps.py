@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.forces import friction_work, heap
+from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.shape import Sphere
 from nivel.machine.forces import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
+from nivel.system.forces.contacts import law_numbers
 from nivel.system.forces.friction_works import WORK, add_friction_work
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
-from nivel.system.forces.restitution import damping_of_restitution
 
 # From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.
 MANY, CELL = 128, 1.25
@@ -37,7 +38,7 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
         *((WORK,) if force.friction_work else ()),
     )
     if force.friction_work:
-        add_friction_work(builder, force.name, first + heap.LOST)
+        add_friction_work(builder, force.name, first + heap.LOST_POWER)
     names = spheres_between(builder.machine, force)
     markers, radii = [], []
     for name in names:
@@ -46,8 +47,7 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
         markers.append(builder.place((name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), np.eye(3))))
         radii.append(shape.radius)
     planes = [builder.end(plane) for plane in force.planes]
-    numbers = [force.stiffness, force.exponent, damping_of_restitution(force.restitution), force.friction]
-    numbers += [force.friction_transition_speed or 1.0, *[0.0] * (heap.CELL - heap.POINT)]
+    numbers = law_numbers(force, force.stiffness, 0.0)
     cell, size = CELL * 2.0 * max(radii), 0
     if len(names) >= MANY:
         size = 1 << (2 * len(names) - 1).bit_length()
@@ -55,8 +55,9 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
     if size:
         numbers += [0.0] * (size + (4 + heap.KEPT_OF_EACH) * len(names))
     places = len(names) * len(planes) + len(names) * (len(names) - 1) // 2
-    columns = [first, len(names), len(planes), *markers, *planes]
-    builder.elements.add(heap.apply, columns, [float(each) for each in numbers], places, tuple(range(places)))
+    law = [first, NONE, NONE, 0, NONE, NONE, 0, 0, NONE, 0, NONE]
+    columns = [*law, len(names), len(planes), *markers, *planes]
+    builder.elements.add(heap.apply, columns, [float(number) for number in numbers], places, tuple(range(places)))
 
 
 KINDS = (ForceKind(Contacts, add_contacts, (heap.apply, friction_work.apply)),)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.forces import height_contact
+from nivel.kernels.forces import ground_contact
 from nivel.kernels.forces.height_field import CUBIC, OVERSHOOT
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import Elements
@@ -33,7 +33,7 @@ def numbers_of_heights(field: HeightField) -> list[float]:
 def rows_over_heights(elements: Elements) -> tuple[int, int]:
     """First element of contacts with ground that has heights, and one past the last."""
     for address, (first, last) in zip(elements.address, elements.span, strict=True):
-        if FAMILIES.get(int(address)) is height_contact.apply:
+        if FAMILIES.get(int(address)) is ground_contact.apply_over_heights:
             return int(first), int(last)
     return 0, 0
 

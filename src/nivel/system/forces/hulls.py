@@ -13,6 +13,7 @@ from nivel.kernels.forces.hull_pair import NUMBERS
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
+from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces import Contact
 
 Array = NDArray[np.float64]
@@ -156,6 +157,23 @@ def row_of(hulls: tuple[Hull, Hull], force: Contact, patch: list[int]) -> tuple[
     return [*counts, *patch, *first.edges.ravel().tolist(), *second.edges.ravel().tolist()], [
         float(each) for each in numbers
     ]
+
+
+def polytope_of(body: Body, part: int | None) -> list[float]:
+    """Counts of corners, faces and edges, then these, in the axes of the body's marker."""
+    hull = hull_of(body, part)
+    # a box and a cylinder have their marker in the middle, a cylinder z along it
+    is_centred = isinstance(body.shape, Box | Cylinder)
+    shift = np.zeros(3) if is_centred else hull.middle
+    axes = np.eye(3)
+    if isinstance(body.shape, Cylinder):
+        axes = frame_from_axes(np.eye(3)["xyz".index(body.shape.along or "x")])
+    corners, faces = hull.corners @ axes + shift, hull.faces.copy()
+    faces[:, :3] = faces[:, :3] @ axes
+    faces[:, 3] += faces[:, :3] @ shift
+    ends = corners[hull.edges].reshape(-1, 6)
+    counts = [float(len(each)) for each in (corners, faces, ends)]
+    return [*counts, *corners.ravel().tolist(), *faces.ravel().tolist(), *ends.ravel().tolist()]
 
 
 def _fault(body: Body, said: str) -> ModelError:

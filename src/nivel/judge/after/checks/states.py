@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
-from nivel.kernels.forces import contact, height_contact
+from nivel.kernels.forces import ground_contact
 from nivel.machine.forces.element import Acts, Holds
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
@@ -186,11 +186,11 @@ def passed_over(run: Run) -> Iterator[Contradiction]:
     elements = run.prepared.motion.system.record.elements
     names = [force.name for force in run.machine.forces if getattr(force, "heights", None) is not None]
     first, last = rows_over_heights(elements)
-    for name, numbers in zip(names, elements.number[first:last, contact.NUMBERS :], strict=True):
-        missed, seen = float(numbers[height_contact.MISSED]), max(float(numbers[height_contact.SEEN]), 0.0)
+    for name, numbers in zip(names, elements.number[first:last], strict=True):
+        missed, seen = float(numbers[ground_contact.MISSED]), max(float(numbers[ground_contact.SEEN]), 0.0)
         if missed > DEEPER * seen + PLACE * run.scales.size:
             said = f"touches by {number(missed)} m between two steps, which do not see it,"
-            yield Contradiction(name, float(numbers[height_contact.MISSED_AT]), said, 1)
+            yield Contradiction(name, float(numbers[ground_contact.MISSED_AT]), said, 1)
 
 
 def look_at_sides(run: Run) -> list[Contradiction]:

@@ -1,0 +1,271 @@
+"""Law of contacts: what acts at a point where two surfaces touch, and what a contact reports.
+
+A pair of shapes (`ground_contact`, `round_contact`, `heap`) finds its points: place, normal from the
+other body to this one, overlap, and where friction sticks the velocity of the point itself. The law is the same for all of them. Normal
+force: `nivel.kernels.forces.impact`, or a law of the user, which works from outside and never pulls. Friction of every point:
+μ N tanh(v/v_s) against the sliding velocity of the bodies there; or that of a patch of all points, which sticks:
+`nivel.kernels.elements.patch`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import maximum, real, tanh
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.elements.moving_surface import NUMBERS as SURFACE_NUMBERS
+from nivel.kernels.elements.moving_surface import SPIN, SPIN_RATE, find_surface, surface_at, surface_rate_at
+from nivel.kernels.elements.patch import axis, leave_patch, middle_of, minus, plus, tangents, write_patch
+from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, RUB, SLIP, leave_touch, write_touch
+from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.wrench import add_force_at
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.record import NONE, record_at
+from nivel.native.function import stage
+
+# columns of `columns`; MARKER, OTHER: of both shapes, or NONE in a heap; COUNT: points that may touch; LAW: of the normal force, or NONE;
+# PATCH: first friction of a patch, or NONE, AXES: how many it has, COORDINATE: the first of these; SURFACE: the columns of a surface that
+# moves over its body; then those of the pair. A law reads overlap and rate of its point among the outputs.
+OUTPUT, MARKER, OTHER, COUNT, LAW, PATCH, AXES, COORDINATE, SURFACE, COLUMNS = 0, 1, 2, 3, 4, 5, 6, 7, 8, 11
+# columns of `number`. RADIUS: of a ball about the marker that holds the shape. Then work: a point, its normal, velocity of this body
+# relative to the other there and that of the point itself; sums over the points (force, moments of first and second order about the marker,
+# force times velocity of the point; friction on the first body; sum of the sizes of friction, power lost, power of the moving surface,
+# power), deepest overlap, its rate, fastest slip, and the moving surface; then the numbers of the pair.
+STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, RADIUS, POINT, NORMAL, SPEED, OWN_SPEED, SUMS = (
+    0, 1, 2, 3, 4, 5, 6, 9, 12, 15, 18,
+)  # fmt: skip
+RUBBED, RUBBING, LOST, GIVEN, POWER, DEEPEST, DEEPEST_RATE, SLIDING, MOVING = 26, 29, 30, 31, 32, 33, 34, 35, 36
+NUMBERS = MOVING + SURFACE_NUMBERS
+
+
+@stage
+def seen(A, d):
+    """Aᵀ d."""
+    return dot(axis(A, 0), d), dot(axis(A, 1), d), dot(axis(A, 2), d)
+
+
+@stage
+def begin_contact(machine, k, t):
+    """Clear the sums of contact k, and find its moving surface."""
+    elements = record_at(machine).elements
+    columns, numbers = elements.columns[k], elements.number[k]
+    for a in range(SUMS, MOVING):
+        numbers[a] = 0.0 * numbers[STIFFNESS]
+    numbers[DEEPEST] = numbers[DEEPEST] - np.inf
+    if columns[SURFACE] != NONE:
+        find_surface(machine, columns[SURFACE:], numbers[MOVING:NUMBERS], t)
+
+
+@stage
+def is_apart(machine, k, gap, rate):
+    """Whether all points of contact k were apart in the accepted state: then a `gap` between bounds of both bodies, which closes at this
+    rate, stands for that of all points."""
+    record = record_at(machine)
+    elements, followed = record.elements, record.watched.followed[0]
+    count, numbers = elements.columns[k, COUNT], elements.number[k]
+    if followed == 1:
+        for n in range(count):
+            if elements.memory[k, n] > 0.0:
+                return False
+    numbers[DEEPEST], numbers[DEEPEST_RATE] = -gap, rate
+    for n in range(count):
+        elements.depth[k, n], elements.proposal[k, n] = -gap, 0.0 * gap
+        if followed == 1:
+            elements.depth_rate[k, n] = rate
+    return True
+
+
+@stage
+def velocity_at(bodies, b, p):
+    """Velocity of the point of body b that is at p."""
+    R, V, w = bodies.R[b], bodies.Rdot[b], bodies.omega[b]
+    u0, u1, u2 = p[0] - R[0], p[1] - R[1], p[2] - R[2]
+    return V[0] + w[1] * u2 - w[2] * u1, V[1] + w[2] * u0 - w[0] * u2, V[2] + w[0] * u1 - w[1] * u0
+
+
+@stage
+def meets(machine, k, n, i, j, depth):
+    """Note the overlap of surface n of contact k, between markers i and j, at the point and normal in its numbers, where the relative
+    velocity is left; returns (whether the law acts there, rate of the overlap)."""
+    record = record_at(machine)
+    bodies, body, elements, followed = record.bodies, record.markers.body, record.elements, record.watched.followed[0]
+    numbers = elements.number[k]
+    p, normal = numbers[POINT:NORMAL], numbers[NORMAL:SPEED]
+    v = minus(velocity_at(bodies, body[i], p), velocity_at(bodies, body[j], p))
+    numbers[SPEED], numbers[SPEED + 1], numbers[SPEED + 2] = v
+    rate = -dot(v, normal)
+    elements.depth[k, n] = depth
+    if followed == 1:
+        elements.depth_rate[k, n] = rate
+    acts = real(depth) > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0)
+    if not acts:
+        elements.proposal[k, n] = 0.0 * depth
+    return acts, rate
+
+
+@stage
+def needs_speed(machine, k, n, depth):
+    """Whether the law needs the velocity of point n of contact k itself: friction sticks, and the point touches."""
+    record = record_at(machine)
+    elements = record.elements
+    acts = real(depth) > 0.0 or (record.watched.followed[0] == 1 and elements.memory[k, n] > 0.0)
+    return elements.columns[k, PATCH] != NONE and acts
+
+
+@stage
+def note_speed(machine, k, v):
+    """Leave the velocity of the point of contact k itself in the numbers."""
+    numbers = record_at(machine).elements.number[k]
+    numbers[OWN_SPEED], numbers[OWN_SPEED + 1], numbers[OWN_SPEED + 2] = v
+
+
+@stage
+def note_mean_speed(machine, k):
+    """Leave the mean of the velocities of both bodies at the point of contact k as that of the point itself."""
+    record = record_at(machine)
+    bodies, body, columns = record.bodies, record.markers.body, record.elements.columns[k]
+    p = record.elements.number[k, POINT:NORMAL]
+    v, u = velocity_at(bodies, body[columns[MARKER]], p), velocity_at(bodies, body[columns[OTHER]], p)
+    note_speed(machine, k, (0.5 * (v[0] + u[0]), 0.5 * (v[1] + u[1]), 0.5 * (v[2] + u[2])))
+
+
+@stage
+def press(machine, k, n, depth, t):
+    """Push at point n of contact k, where it touches; returns the force."""
+    elements = record_at(machine).elements
+    columns, numbers = elements.columns[k], elements.number[k]
+    i, j = np.int64(columns[MARKER]), np.int64(columns[OTHER])
+    acts, rate = meets(machine, k, n, i, j, depth)
+    if real(depth) > real(numbers[DEEPEST]):
+        numbers[DEEPEST], numbers[DEEPEST_RATE] = depth, rate
+    return push(machine, k, n, i, j, depth, rate, t) if acts else 0.0 * depth
+
+
+@stage
+def law_force(machine, k, depth, rate, t):
+    """The user's normal force at an overlap and its rate; none where the surfaces are apart, or where it would pull."""
+    record = record_at(machine)
+    out, first = record.outputs.value, record.elements.columns[k, OUTPUT]
+    force = 0.0 * depth
+    if real(depth) > 0.0:
+        out[first + DEPTH], out[first + RATE] = depth, rate
+        force = maximum(evaluate_function(machine, record.elements.columns[k, LAW], t), force)
+    return force
+
+
+@stage
+def normal_force(machine, k, n, depth, rate, t):
+    """Force along the normal at surface n of contact k, with its energy and what damping loses."""
+    record = record_at(machine)
+    elements, control, numbers = record.elements, record.control, record.elements.number[k]
+    if elements.columns[k, LAW] != NONE:
+        force = law_force(machine, k, depth, rate, t)
+        elements.proposal[k, n] = 0.0 * force + (1.0 if real(depth) > 0.0 else 0.0)
+        control.power[0] -= force * rate
+        return force
+    force, stored, loss, elements.proposal[k, n] = impact(
+        depth,
+        rate,
+        numbers[STIFFNESS],
+        numbers[EXPONENT],
+        numbers[LOSS],
+        elements.memory[k, n],
+        record.watched.followed[0],
+    )
+    control.stored[0] += stored
+    control.power[1] += loss
+    return force
+
+
+@stage
+def creep_friction(machine, k, force):
+    """Friction on the first body at the point in the numbers of contact k under a normal force, with its powers; noted in the sums."""
+    record = record_at(machine)
+    control, columns, numbers = record.control, record.elements.columns[k], record.elements.number[k]
+    normal, v, o = numbers[NORMAL:SPEED], numbers[SPEED:OWN_SPEED], 0.0 * force
+    out, over = dot(v, normal), (o, o, o)
+    s = v[0] - out * normal[0], v[1] - out * normal[1], v[2] - out * normal[2]
+    if columns[SURFACE] != NONE:
+        over = surface_at(machine, columns[SURFACE + 2], numbers[MOVING:NUMBERS], numbers[POINT:NORMAL])
+        up = dot(over, normal)
+        over = over[0] - up * normal[0], over[1] - up * normal[1], over[2] - up * normal[2]
+        s = minus(s, over)
+    squared = dot(s, s)
+    speed = np.sqrt(squared) if real(squared) > 0.0 else 0.0 * squared
+    if real(speed) > real(numbers[SLIDING]):
+        numbers[SLIDING] = speed
+    if not (real(numbers[FRICTION]) > 0.0 and real(speed) > 0.0):
+        return o, o, o
+    friction = numbers[FRICTION] * force * tanh(speed / numbers[TRANSITION])
+    share = -friction / speed
+    s = share * s[0], share * s[1], share * s[2]
+    given, lost = dot(s, over), friction * speed
+    control.power[0] += given
+    control.power[1] += lost
+    numbers[RUBBING] += friction
+    numbers[LOST] += lost
+    numbers[GIVEN] += given
+    return s
+
+
+@stage
+def push(machine, k, n, i, j, depth, rate, t):
+    """Forces at surface n of contact k on the bodies of markers i and j, at the point in its numbers, which are added to the sums; returns
+    the normal force."""
+    record = record_at(machine)
+    bodies, markers, columns = record.bodies, record.markers, record.elements.columns[k]
+    numbers = record.elements.number[k]
+    p, normal, sums = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[SUMS:RUBBED]
+    force = normal_force(machine, k, n, depth, rate, t)
+    rub = creep_friction(machine, k, force)
+    x, y, z = force * normal[0] + rub[0], force * normal[1] + rub[1], force * normal[2] + rub[2]
+    power = add_force_at(bodies, markers.body[i], p, x, y, z)
+    numbers[POWER] += power + add_force_at(bodies, markers.body[j], p, -x, -y, -z)
+    d = minus(p, markers.r[i])
+    sums[0] += force
+    for a in range(3):
+        sums[1 + a] += force * d[a]
+        numbers[RUBBED + a] += rub[a]
+    if columns[PATCH] != NONE:
+        sums[4] += force * dot(d, d)
+        for a in range(3):
+            sums[5 + a] += force * numbers[OWN_SPEED + a]
+    return force
+
+
+@stage
+def place_patch(machine, columns, moving, i, j, load, d, reach, normal, pdot):
+    """The patch of a contact between markers i and j: its columns from PATCH on, its moving surface, its load, its middle from the first
+    marker, radius of gyration, normal and velocity of the middle."""
+    markers = record_at(machine).markers
+    first, count, q, frame = np.int64(columns[0]), np.int64(columns[1]), np.int64(columns[2]), columns[5]
+    t, u = tangents(markers.A[j], normal)
+    p, o = plus(markers.r[i], d), 0.0 * load
+    over, change, spin, spin_rate = (o, o, o), (o, o, o), o, o
+    if columns[3] != NONE:
+        over, change = surface_at(machine, frame, moving, p), surface_rate_at(machine, frame, moving, p, pdot)
+        spin, spin_rate = o + moving[SPIN], o + moving[SPIN_RATE]
+    write_patch(machine, first, count, q, p, pdot, normal, t, u, load, reach, over, change, spin, spin_rate)
+
+
+@stage
+def report_contact(machine, k):
+    """Patch and outputs of contact k, from its sums."""
+    record = record_at(machine)
+    columns, numbers, out = record.elements.columns[k], record.elements.number[k], record.outputs.value
+    first, force, friction, sums = columns[OUTPUT], numbers[SUMS], numbers[RUBBING], numbers[SUMS:RUBBED]
+    i, j, normal = columns[MARKER], columns[OTHER], (numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2])
+    out[first] = np.sqrt(force * force + friction * friction)
+    out[first + 1], out[first + DEPTH], out[first + FORCE] = numbers[POWER], numbers[DEEPEST], force
+    out[first + RATE], out[first + RUB], out[first + SLIP] = numbers[DEEPEST_RATE], friction, numbers[SLIDING]
+    if real(force) > 0.0:
+        d, reach = middle_of(sums)
+        if columns[PATCH] != NONE:
+            pdot = sums[5] / force, sums[6] / force, sums[7] / force
+            place_patch(machine, columns[PATCH:], numbers[MOVING:NUMBERS], i, j, force, d, reach, normal, pdot)
+        p = plus(record.markers.r[i], d)
+        write_touch(machine, first, p, normal, numbers[RUBBED:RUBBING], numbers[LOST], numbers[GIVEN])
+    else:
+        if columns[PATCH] != NONE:
+            leave_patch(machine, np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE]))
+        leave_touch(machine, first)

@@ -1,0 +1,307 @@
+"""Points of shapes on ground, which is a plane or has heights, and of two spheres.
+
+A sphere and a capsule touch with the balls about their centre and their ends, a box and a hull with their corners. A cylinder touches with
+four points of each rim, the lowest one and those a quarter turn on, so it rolls on exact circles and stands on four feet. Of a ball the
+force acts on the ground. Over heights each force is along the normal of the nearest place of the ground, and friction is across the mean of
+these normals, weighted by the forces.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.moving_surface import times
+from nivel.kernels.elements.patch import axis, minus, plus
+from nivel.kernels.forces.contact_law import (
+    COLUMNS,
+    COUNT,
+    MARKER,
+    NORMAL,
+    NUMBERS,
+    OTHER,
+    POINT,
+    RADIUS,
+    SPEED,
+    SUMS,
+    begin_contact,
+    is_apart,
+    needs_speed,
+    note_mean_speed,
+    note_speed,
+    press,
+    report_contact,
+    seen,
+    velocity_at,
+)
+from nivel.kernels.forces.height_field import HIGHEST, from_heights, surface
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.native.function import leaf, stage
+
+# columns of the pair. KIND: of the shape; SHAPE: where its numbers begin, behind those of ground with heights
+KIND, SHAPE = COLUMNS, COLUMNS + 1
+# kinds, and numbers of the shape: radius; half lengths; radius and half length; corners in its axes, three numbers each; radius and half
+# length
+SPHERE, BOX, CYLINDER, HULL, CAPSULE = 0, 1, 2, 3, 4
+# numbers of ground with heights, at first work of `nivel.kernels.forces.height_way`; END: a pose, MISSED: the deepest overlap [m] that
+# fixed steps have passed, MISSED_AT [s], and SEEN: the deepest at their ends
+END, MISSED, MISSED_AT, SEEN, GROUND = (NUMBERS + at for at in (0, 18, 19, 20, 21))
+# A cylinder whose axis is as near to the normal, by the square of the sine, stands.
+UPRIGHT = 1e-3
+# A shape is far from a plane if its ball is by this share of its radius: then the distance of the ball stands for that of all its points.
+FAR = 0.5
+
+
+@leaf
+def end_sign(n, count):
+    """1 of the first half of `count` points along z, -1 of the others."""
+    return 1.0 if 2 * n < count else -1.0
+
+
+@stage
+def rim_direction(A, n, normal):
+    """Cosine and sine from the x axis of point n of a rim: the direction that points most against the normal, and its quarter turns."""
+    c, s = -dot(normal, axis(A, 0)), -dot(normal, axis(A, 1))
+    length = np.sqrt(c * c + s * s)
+    if real(length) > 1e-12:
+        c, s = c / length, s / length
+    else:
+        c, s = 0.0 * length + 1.0, 0.0 * length
+    quarter = n % 4
+    if quarter == 1:
+        return -s, c
+    if quarter == 2:
+        return -c, -s
+    return (s, -c) if quarter == 3 else (c, s)
+
+
+@stage
+def shape_point(kind, A, r, size, n, normal, p):
+    """p := point n of a shape of this kind at r, in global axes; of a cylinder over ground with this normal."""
+    o = 0.0 * r[0]
+    x, y, z = o, o, o
+    if kind == BOX:
+        x = o + (size[0] if n % 2 == 0 else -size[0])
+        y = o + (size[1] if (n // 2) % 2 == 0 else -size[1])
+        z = o + size[2] * end_sign(n, 8)
+    elif kind == CYLINDER:
+        c, s = rim_direction(A, n, normal)
+        x, y, z = size[0] * c, size[0] * s, o + size[1] * end_sign(n, 8)
+    elif kind == HULL:
+        x, y, z = o + size[3 * n], o + size[3 * n + 1], o + size[3 * n + 2]
+    elif kind == CAPSULE:
+        z = o + size[1] * end_sign(n, 2)
+    for a in range(3):
+        p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
+
+
+@stage
+def ball_radius(kind, size):
+    """Radius of the balls about the points of a shape, 0 of points."""
+    return size[0] if kind in (SPHERE, CAPSULE) else 0.0 * size[0]
+
+
+@stage
+def speed_of_rim_point(machine, i, j, p, normal):
+    """Velocity of the point of a rim itself, at p, of the cylinder of marker i that rolls on the plane of marker j."""
+    record = record_at(machine)
+    markers, bodies = record.markers, record.bodies
+    w, W, a = bodies.omega[markers.body[i]], bodies.omega[markers.body[j]], axis(markers.A[i], 2)
+    sigma = dot(a, normal)
+    if not real(sigma * sigma) < 1.0 - UPRIGHT:
+        return velocity_at(bodies, markers.body[i], p)
+    # the axis and the direction to the lowest point of a rim turn with this velocity
+    turning, t = cross(minus(w, W), a), cross(a, normal)
+    spin = -sigma / (1.0 - sigma * sigma) * dot(t, turning)
+    across = cross(a, turning)
+    v = plus(W, (across[0] + spin * a[0], across[1] + spin * a[1], across[2] + spin * a[2]))
+    return plus(markers.rdot[i], cross(v, minus(p, markers.r[i])))
+
+
+@stage
+def is_above(machine, k, highest):
+    """Whether the ball around the shape of contact k is far above this height over the plane: then its distance stands for all points."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j, radius = columns[MARKER], columns[OTHER], numbers[RADIUS]
+    n, d = axis(markers.A[j], 2), minus(markers.r[i], markers.r[j])
+    gap = dot(n, d) - radius - highest
+    if not real(gap) > FAR * real(radius):
+        return False
+    speed = minus(minus(markers.rdot[i], markers.rdot[j]), cross(record.bodies.omega[markers.body[j]], d))
+    return is_apart(machine, k, gap, -dot(n, speed))
+
+
+@stage
+def find_point_over_plane(machine, k, n):
+    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j, kind = columns[MARKER], columns[OTHER], columns[KIND]
+    p, normal, size = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[NUMBERS:]
+    for a in range(3):
+        normal[a] = markers.A[j, a, 2]
+    shape_point(kind, markers.A[i], markers.r[i], size, n, normal, p)
+    height, radius = dot(minus(p, markers.r[j]), normal), ball_radius(kind, size)
+    if kind in (SPHERE, CAPSULE):
+        for a in range(3):
+            p[a] -= height * normal[a]
+    return radius - height
+
+
+@stage
+def speed_of_ball_point(machine, i, j, z, normal):
+    """Velocity of the point itself below a ball of the body of marker i, whose centre is z along its z axis, on the plane of marker j."""
+    record = record_at(machine)
+    markers, bodies = record.markers, record.bodies
+    arm = times(z, axis(markers.A[i], 2))
+    d = minus(plus(markers.r[i], arm), markers.r[j])
+    own = plus(markers.rdot[i], cross(bodies.omega[markers.body[i]], arm))
+    W = bodies.omega[markers.body[j]]
+    out, turning = dot(normal, minus(minus(own, markers.rdot[j]), cross(W, d))), cross(W, normal)
+    return minus(own, plus(times(out, normal), times(dot(normal, d), turning)))
+
+
+@stage
+def speed_over_plane(machine, k, n):
+    """Velocity of point n of contact k itself: of a corner that of the body; what rolls passes it on."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j, kind, p = columns[MARKER], columns[OTHER], columns[KIND], numbers[POINT:NORMAL]
+    normal = numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]
+    if kind == SPHERE:
+        return speed_of_ball_point(machine, i, j, 0.0 * p[0], normal)
+    if kind == CAPSULE:
+        return speed_of_ball_point(machine, i, j, numbers[NUMBERS + 1] * end_sign(n, 2), normal)
+    if kind == CYLINDER:
+        return speed_of_rim_point(machine, i, j, p, normal)
+    return velocity_at(record.bodies, markers.body[i], p)
+
+
+@family
+def apply(machine, number, t):
+    """All contacts of a shape with a plane."""
+    elements = record_at(machine).elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        begin_contact(machine, k, t)
+        if not is_above(machine, k, 0.0):
+            for n in range(elements.columns[k, COUNT]):
+                depth = find_point_over_plane(machine, k, n)
+                if needs_speed(machine, k, n, depth):
+                    note_speed(machine, k, speed_over_plane(machine, k, n))
+                press(machine, k, n, depth, t)
+        report_contact(machine, k)
+    return OK
+
+
+@stage
+def find_point_of_spheres(r, o, numbers, radius, other):
+    """Point and normal between two spheres at r and o, left in the numbers of their contact; returns the overlap."""
+    d = minus(r, o)
+    distance = np.sqrt(dot(d, d))
+    depth = radius + other - distance
+    if real(distance) == 0.0:
+        d, distance = (d[0], d[1], d[2] + 1.0), distance + 1.0  # any direction will do
+    for a in range(3):
+        numbers[NORMAL + a] = d[a] / distance
+        numbers[POINT + a] = o[a] + (other - 0.5 * depth) * numbers[NORMAL + a]
+    return depth
+
+
+@stage
+def speed_between_spheres(machine, k):
+    """Velocity of the point itself between the two spheres of contact k."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j = columns[MARKER], columns[OTHER]
+    normal, o = numbers[NORMAL:SPEED], markers.r[j]
+    d, speed = minus(markers.r[i], o), minus(markers.rdot[i], markers.rdot[j])
+    # p - o = s n, s half of the way between both surfaces
+    out, distance, s = dot(normal, speed), dot(normal, d), dot(normal, minus(numbers[POINT:NORMAL], o))
+    a, b = s / distance, (0.5 - s / distance) * out
+    return plus(markers.rdot[j], plus(times(a, speed), times(b, normal)))
+
+
+@family
+def apply_to_spheres(machine, number, t):
+    """All contacts of two spheres."""
+    record = record_at(machine)
+    elements, markers = record.elements, record.markers
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        columns, numbers = elements.columns[k], elements.number[k]
+        r, o = markers.r[columns[MARKER]], markers.r[columns[OTHER]]
+        begin_contact(machine, k, t)
+        depth = find_point_of_spheres(r, o, numbers, numbers[NUMBERS], numbers[NUMBERS + 1])
+        if needs_speed(machine, k, 0, depth):
+            note_speed(machine, k, speed_between_spheres(machine, k))
+        press(machine, k, 0, depth, t)
+        report_contact(machine, k)
+    return OK
+
+
+@stage
+def normal_below(ground, B, o, c):
+    """Normal of the ground below c, global axes."""
+    d = seen(B, minus(c, o))
+    _, hx, hy, _, _, _ = surface(ground, d[0], d[1])
+    n = minus(axis(B, 2), plus(times(hx, axis(B, 0)), times(hy, axis(B, 1))))
+    return times(1.0 / np.sqrt(1.0 + hx * hx + hy * hy), n)
+
+
+@stage
+def ball_of(machine, k):
+    """Radius of the balls about the points of contact k, 0 of points."""
+    elements = record_at(machine).elements
+    columns = elements.columns[k]
+    return real(ball_radius(columns[KIND], elements.number[k, columns[SHAPE] :]))
+
+
+@stage
+def find_point_over_ground(machine, k, n):
+    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j, kind, size = columns[MARKER], columns[OTHER], columns[KIND], numbers[columns[SHAPE] :]
+    p, normal, ground = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[GROUND:]
+    r, A, o, B = markers.r[i], markers.A[i], markers.r[j], markers.A[j]
+    below = axis(B, 2)
+    if kind == CYLINDER:
+        # the rim is lowest against the normal below its middle
+        below = normal_below(ground, B, o, plus(r, times(size[1] * end_sign(n, 8), axis(A, 2))))
+    shape_point(kind, A, r, size, n, below, p)
+    distance, n0, n1, n2, _, _, _ = from_heights(ground, seen(B, minus(p, o)))
+    radius = ball_radius(kind, size)
+    for a in range(3):
+        normal[a] = B[a, 0] * n0 + B[a, 1] * n1 + B[a, 2] * n2
+    if real(radius) > 0.0:
+        # the force acts on the ground
+        for a in range(3):
+            p[a] -= distance * normal[a]
+    return radius - distance
+
+
+@family
+def apply_over_heights(machine, number, t):
+    """All contacts with ground whose height varies."""
+    elements = record_at(machine).elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        numbers = elements.number[k]
+        begin_contact(machine, k, t)
+        if not is_above(machine, k, numbers[GROUND + HIGHEST]):
+            o = 0.0 * numbers[SUMS]
+            total = o, o, o
+            for n in range(elements.columns[k, COUNT]):
+                depth = find_point_over_ground(machine, k, n)
+                if needs_speed(machine, k, n, depth):
+                    note_mean_speed(machine, k)
+                total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
+            squared = total[0] * total[0] + total[1] * total[1] + total[2] * total[2]
+            if real(squared) > 0.0:
+                size = np.sqrt(squared)
+                for a in range(3):
+                    numbers[NORMAL + a] = total[a] / size
+        report_contact(machine, k)
+    return OK

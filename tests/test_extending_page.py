@@ -267,7 +267,7 @@ class Hose(Volume):
 
 
 def test_a_component_outside_the_package_may_be_a_node(vessel, folder):
-    register_component(ComponentKind(Hose, None, (), slopes={}, nodes=volume_nodes))
+    register_component(ComponentKind(Hose, None, (), nodes=volume_nodes))
     try:
         (folder / "hose.yaml").write_text(FILES["vessel.yaml"].replace("type: volume", "type: hose"), encoding="utf-8")
         hose = nivel.load(folder / "hose.yaml")

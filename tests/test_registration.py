@@ -17,7 +17,6 @@ from nivel.judge.after.report import every_check
 from nivel.judge.during.failure import FAILURES
 from nivel.judge.during.stop import Status
 from nivel.kernels.core import status
-from nivel.kernels.hydraulics.tangent import OTHERS
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
@@ -28,7 +27,6 @@ from nivel.native.entry import Entry
 from nivel.results.pages import MAKERS, page_maker
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS
-from nivel.system.hydraulics.tangent import slopes_by_family
 from nivel.system.joints.joints import JOINTS
 from settings_keywords import kind_of
 
@@ -100,12 +98,9 @@ def test_components_have_the_types_that_the_builder_knows():
     assert {record.model_fields["type"].default for record in COMPONENT_RECORDS} == set(COMPONENTS)
 
 
-def test_every_slope_by_hand_has_one_number():
-    """The first families have numbers, each its own, and all kinds of components agree on what adds the slopes of a family."""
-    adding = slopes_by_family()
-    for kind in COMPONENTS.values():
-        assert all(adding[family] == slopes for family, slopes in (kind.slopes or {}).items())
-    assert sorted(slopes for slopes in adding.values() if isinstance(slopes, int)) == list(range(OTHERS))
+def test_components_of_gas_alone_have_no_slopes_by_hand():
+    without = {word for word, kind in COMPONENTS.items() if not kind.has_slopes}
+    assert without == {word for word, kind in COMPONENTS.items() if not kind.words.liquids}
 
 
 @pytest.mark.parametrize("page", MAKERS)

@@ -14,6 +14,7 @@ from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.kernels.hydraulics.phase import SLOPES
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.c_function import output as c_output
@@ -35,7 +36,6 @@ from nivel.system.beams.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
 from nivel.system.hydraulics.elements import families as families_of_circuits
 from nivel.system.hydraulics.elements import families_of
-from nivel.system.hydraulics.tangent import slopes_by_family
 from nivel.system.joints.joints import JOINTS
 
 # in these equations every machine is assembled
@@ -148,6 +148,7 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         twins.append(entry_of(RESIDUAL))
     if integrator.needs == "accelerations" and path.dependent:
         modules.append(path.dependent)
+    slopes = [SLOPES.get(family) for family in families_of(machine)] if integrator.needs == "circuits" else []
     own = _motions(machine) if methods.coordinates == "relative" else []
     twins += [motion.twin for motion in own if twins]
     if methods.coordinates == "relative":
@@ -157,7 +158,7 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         *assembly_entries(machine),
         entry_of(f"{path.module}:evaluate"),
         *_entries(modules),
-        *(motion.code for motion in own),
+        *(each.code for each in (*own, *slopes) if each is not None),
         *twins,
     ]
 
@@ -249,7 +250,7 @@ def all_entries() -> list[Entry]:
     residuals = [module for module in (*(path.residual for path in paths), *over_steps) if module]
     twins = [twin for module in dict.fromkeys((*residuals, *WITH_DERIVATIVES)) for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
-    slopes = [each for each in slopes_by_family().values() if isinstance(each, Family)]
+    slopes = [each for each in SLOPES.values() if each is not None]
     entries = [*_entries(module for module in modules if module), *(each.code for each in (*families, *slopes)), *twins]
     return [*dict.fromkeys(entries)]
 

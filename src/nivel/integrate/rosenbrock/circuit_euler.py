@@ -35,7 +35,7 @@ from nivel.integrate.rosenbrock.extrapolated_euler import (
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.piston import a_stop_is_met, pushing_stops
-from nivel.kernels.hydraulics.tangent import GUIDE, find_slopes, slope_by_mass
+from nivel.kernels.hydraulics.tangent import find_slopes, slope_by_mass
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.circuit_shift import advance_circuit, factorise_circuit, soften
@@ -108,8 +108,8 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
     """Fill WHOLE and HALVES from the state y, last evaluated. Returns a status, and what becomes of the step."""
     y, middle, other = run.y, run.trial, run.stages[OTHER]
     record_at(machine).circuit.tangent.travel[:, :] = 0.0
-    guides = record_at(machine).circuit.tangent.family[GUIDE]
-    pushing = pushing_stops(machine, guides) if guides != NONE else 0
+    pistons = record_at(machine).circuit.tangent.pistons[0]
+    pushing = pushing_stops(machine, pistons) if pistons != NONE else 0
     find_slopes(machine, t)
     run.counter[EVALUATIONS] += 1
     run.counter[FACTORISATIONS] += 2
@@ -127,7 +127,7 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
     if not is_state(machine, middle) or call_evaluate(evaluate, machine, t + 0.5 * h, middle, run.stages[RATE]) != OK:
         return OK, NO_STATE
     outcome = EXTRAPOLATED
-    if guides != NONE and a_stop_is_met(machine, guides, pushing):
+    if pistons != NONE and a_stop_is_met(machine, pistons, pushing):
         outcome = PLAIN
         run.counter[FACTORISATIONS] += 1
         status = renew_slopes(machine, t + 0.5 * h, 0.5 * h)

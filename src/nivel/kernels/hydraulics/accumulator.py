@@ -17,9 +17,9 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.nitrogen import gas_state, newton_step, on_adiabat
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_flow_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import ramp, root_flow, step
+from nivel.kernels.hydraulics.tangent import add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose, lose_between, transfer
 from nivel.kernels.hydraulics.volume import (
     EXPONENT,
@@ -54,7 +54,7 @@ def share_of_gas(room, pressure):
     return min(1.0, (room[PRECHARGE] / pressure) ** (1.0 / room[EXPONENT]))
 
 
-@called(Phase.VOLUMES)
+@called(Phase.VOLUMES, slow=True)
 @family
 def charge(machine, number, t):
     """Put P among the constants of each volume."""
@@ -74,7 +74,7 @@ def charge(machine, number, t):
     return OK
 
 
-@called(Phase.FLOWS)
+@called(Phase.FLOWS, slow=True)
 @family
 def exchange_heat(machine, number, t):
     """Rates of P, and the heat that leaves the gas."""
@@ -117,7 +117,7 @@ def room_by_theta(room, theta, pressure):
     return room[GAS] * room[NITROGEN] / (rho * rho) * falling * heat_at_rest / theta
 
 
-@called(Phase.VOLUMES)
+@called(Phase.VOLUMES, slow=True)
 @family
 def charge_nitrogen(machine, number, t):
     """Put θ among the constants of each volume, and the pressure of its precharge's density."""
@@ -138,7 +138,7 @@ def charge_nitrogen(machine, number, t):
     return OK
 
 
-@called(Phase.FLOWS)
+@called(Phase.FLOWS, slow=True)
 @family
 def warm_nitrogen(machine, number, t):
     """Rates of θ, and the heat that leaves the gas."""
@@ -189,6 +189,7 @@ def beyond(difference, friction):
     return ramp(difference - friction, width) - ramp(-difference - friction, width)
 
 
+@slopes_of(rub)
 @family
 def add_slopes_of_inlets(machine, number, t):
     """Slopes of the flows through such inlets, as secants from F on."""

@@ -26,7 +26,7 @@ OUTPUT, FROM, TO, FLOW, CONDUCTANCE, COOLANT = 0, 1, 2, 3, 4, 5
 STILL = 1e-6
 
 
-@called(Phase.FLOWS)
+@called(Phase.FLOWS, slow=True)
 @family
 def apply(machine, number, t):
     """Heat of all coolers, taken from the liquid behind them."""

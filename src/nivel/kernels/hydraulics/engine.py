@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.rotary import SETTING
 from nivel.kernels.hydraulics.rotary import TORQUE as OF_TORQUE
-from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column
+from nivel.kernels.hydraulics.tangent import add_by_pressure, add_flow_by_column
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -27,7 +27,7 @@ MOST = 8
 INERTIA, PEAK, DROOP, DRAG, FIRST_RATIO = 0, 1, 2, 3, 4
 
 
-@called(Phase.STROKES)
+@called(Phase.STROKES, slow=True)
 @family
 def turn(machine, number, t):
     """Speeds, before what they turn."""
@@ -80,6 +80,7 @@ def drive(machine, number, t):
     return OK
 
 
+@slopes_of(drive)
 @family
 def add_slopes(machine, number, t):
     """Slopes of speeds, and of the flows that they make; those of losses are left out."""

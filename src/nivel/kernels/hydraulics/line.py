@@ -15,10 +15,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.pipe import loss, slope_of_loss
-from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column
 from nivel.kernels.hydraulics.smooth import magnitude_within
+from nivel.kernels.hydraulics.tangent import add_by_pressure, add_flow_by_column
 from nivel.kernels.hydraulics.transfer import lose_between, transfer
 from nivel.kernels.hydraulics.viscosity import thickening
 from nivel.kernels.record.hook import family
@@ -73,6 +73,7 @@ def apply(machine, number, t):
     return OK
 
 
+@slopes_of(apply)
 @family
 def add_slopes(machine, number, t):
     """Slopes of flows and of what their friction remembers."""

@@ -8,13 +8,13 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import maximum_within, ramp, step
 from nivel.kernels.hydraulics.spool import clipped
+from nivel.kernels.hydraulics.tangent import add_by_pressure
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.native.function import leaf, stage
+from nivel.native.function import stage
 
 # columns of `columns`: STATE, then for each of MOST valves the output that is its position, and nodes A, B, T
 STATE, FIRST = 0, 1
@@ -58,8 +58,9 @@ def apply(machine, number, t):
     return OK
 
 
-@leaf
-def add_slopes(machine, number):
+@slopes_of(apply)
+@family
+def add_slopes(machine, number, t):
     """Slopes of the signals with pressures; what positions of valves change in them is left out."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
@@ -85,3 +86,4 @@ def add_slopes(machine, number):
             add_by_pressure(circuit, row, drain, share * (1.0 - to_a - to_b))
             highest = maximum_within(highest, load, ROUNDED)
         row[own] -= 1.0 / n[LAG]
+    return OK

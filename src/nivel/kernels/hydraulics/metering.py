@@ -14,9 +14,9 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import root_flow
+from nivel.kernels.hydraulics.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose_between, transfer
 from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.function import table_value
@@ -100,6 +100,7 @@ def apply(machine, number, t):
     return OK
 
 
+@slopes_of(apply)
 @family
 def add_slopes(machine, number, t):
     """Slopes of all flows, those with pressures as secants."""

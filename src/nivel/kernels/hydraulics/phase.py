@@ -35,13 +35,28 @@ class Phase(IntEnum):
 
 
 PHASES: dict[Family, Phase] = {}
+# what adds the slopes of a family to those of `nivel.kernels.hydraulics.tangent`; None: they are none, or slow beside steps
+SLOPES: dict[Family, Family | None] = {}
 
 
-def called(phase: Phase) -> Callable[[Family], Family]:
-    """Decorator above `@family`: the phase in which it is called."""
+def called(phase: Phase, *, slow: bool = False) -> Callable[[Family], Family]:
+    """Decorator above `@family`: the phase in which it is called. slow : steps over circuits need no slopes of it."""
 
     def state(family: Family) -> Family:
         PHASES[family] = phase
+        if slow:
+            SLOPES[family] = None
         return family
+
+    return state
+
+
+def slopes_of(family: Family) -> Callable[[Family], Family]:
+    """Decorator above `@family`: a function that adds the slopes of another one. Special integrators of circuits take machines all of
+    whose families have one, or are slow."""
+
+    def state(slopes: Family) -> Family:
+        SLOPES[family] = slopes
+        return slopes
 
     return state

@@ -13,8 +13,8 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_flow_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
+from nivel.kernels.hydraulics.tangent import add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose_between, transfer
 from nivel.kernels.hydraulics.viscosity import thickening
 from nivel.kernels.record.hook import family
@@ -80,8 +80,9 @@ def apply(machine, number, t):
     return OK
 
 
-@leaf
-def add_slopes(machine, number):
+@slopes_of(apply)
+@family
+def add_slopes(machine, number, t):
     """Slopes of flows through pipes, as secants."""
     record = record_at(machine)
     elements, circuit, value = record.elements, record.circuit, record.outputs.value
@@ -93,3 +94,4 @@ def add_slopes(machine, number):
         secant = n[RESISTANCE] * g * (1.0 + sixth) ** 0.125
         add_flow_by_pressure(circuit, a, b, a, 1.0 / secant)
         add_flow_by_pressure(circuit, a, b, b, -1.0 / secant)
+    return OK

@@ -13,9 +13,9 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact, meet, part, slopes_of_impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, step
+from nivel.kernels.hydraulics.tangent import add_by_pressure, softness
 from nivel.kernels.hydraulics.transfer import DELIVERED
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -128,20 +128,25 @@ def press(machine, number, t):
     return OK
 
 
-@leaf
-def add_slopes_of_rooms(machine, number):
-    """Slopes of the pressures of chambers with the strokes of their pistons, where `by_stroke` is -∂p/∂V of the node."""
+@slopes_of(displace)
+@family
+def add_slopes_of_rooms(machine, number, t):
+    """Slopes of the pressures of chambers with the strokes of their pistons."""
     record = record_at(machine)
-    elements, coordinates, tangent = record.elements, record.coordinates, record.circuit.tangent
+    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    tangent = circuit.tangent
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         q = index[COORDINATE]
         _, area = swept(n, coordinates.value[q] - n[ORIGIN])
-        tangent.by_stroke[index[NODE], tangent.number[q]] += area
+        if circuit.node[index[NODE], 1] != NONE:
+            tangent.by_stroke[index[NODE], tangent.number[q]] -= softness(circuit, index[NODE]) * area
+    return OK
 
 
-@leaf
-def add_slopes_of_pressing(machine, number):
+@slopes_of(press)
+@family
+def add_slopes_of_pressing(machine, number, t):
     """Slopes of the forces of pressures on pistons."""
     record = record_at(machine)
     elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
@@ -151,10 +156,12 @@ def add_slopes_of_pressing(machine, number):
         q = index[COORDINATE]
         _, area = swept(n, coordinates.value[q] - n[ORIGIN])
         add_by_pressure(circuit, tangent.effort[tangent.number[q]], index[NODE], area)
+    return OK
 
 
-@leaf
-def add_slopes_of_guides(machine, number):
+@slopes_of(guide)
+@family
+def add_slopes_of_guides(machine, number, t):
     """Slopes of the friction of pistons and of their end stops."""
     record = record_at(machine)
     elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
@@ -183,6 +190,7 @@ def add_slopes_of_guides(machine, number):
             )
             row[states + c] -= by_depth
             row[states + count + c] -= by_rate
+    return OK
 
 
 @leaf

@@ -17,10 +17,10 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.rotary import END
-from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import slope_of_step, step
+from nivel.kernels.hydraulics.tangent import add_by_pressure
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -169,6 +169,7 @@ def add_slopes_of_sought(machine, index, n, t):
         add_by_pressure(circuit, row, index[SENSED], slope / n[RANGE])
 
 
+@slopes_of(regulate)
 @family
 def add_slopes(machine, number, t):
     """Slopes of all states of settings."""

@@ -18,7 +18,7 @@ OUTPUT, NODE, STATE, TEMPERATURE = 0, 1, 2, 3
 AREA = 0
 
 
-@called(Phase.PRESSURES)
+@called(Phase.PRESSURES, slow=True)
 @family
 def apply(machine, number, t):
     """Level and volume of the liquid in each."""

@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, root_flow, slope_of_step, step
 from nivel.kernels.hydraulics.spool import FIRST_FACTOR, FIRST_NODE, NODES, clipped, slope_of_poppet
+from nivel.kernels.hydraulics.tangent import add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose_between, transfer
 from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.function import evaluate_function
@@ -88,7 +88,8 @@ def slope_of_opening(index, n, u):
     return -slope_of_step(size / n[WIDTH]) / n[WIDTH] * u / size
 
 
-@leaf
+@slopes_of(apply)
+@family
 def add_slopes(machine, number, t):
     """Slopes of all flows, those with pressures as secants."""
     record = record_at(machine)
@@ -117,3 +118,4 @@ def add_slopes(machine, number, t):
             for i in range(NODES):
                 if slope != 0.0 and valve[FIRST_NODE + i] != NONE:
                     add_flow_by_pressure(circuit, a, b, valve[FIRST_NODE + i], slope * factors[FIRST_FACTOR + i])
+    return OK

@@ -17,16 +17,16 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, slope_of_step, step
 from nivel.kernels.hydraulics.spool import clipped
+from nivel.kernels.hydraulics.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose_between, transfer
 from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.native.function import leaf, stage
+from nivel.native.function import stage
 
 # machines: columns of `columns`; SPEED: function, or NONE; outputs: flow, torque, power, setting
 OUTPUT, FROM, TO, SPEED, COORDINATE = 0, 1, 2, 3, 4
@@ -115,7 +115,7 @@ def turn(machine, number, t):
     return OK
 
 
-@called(Phase.FLOWS)
+@called(Phase.FLOWS, slow=True)
 @family
 def supply(machine, number, t):
     """Sources of flow: ideal pumps; SPEED is the flow. Outputs: flow, power."""
@@ -133,8 +133,9 @@ def supply(machine, number, t):
     return OK
 
 
-@leaf
-def add_slopes_of_settings(machine, number):
+@slopes_of(set_displacement)
+@family
+def add_slopes_of_settings(machine, number, t):
     """Slopes of the displacements that are states."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
@@ -155,9 +156,11 @@ def add_slopes_of_settings(machine, number):
         add_by_pressure(circuit, row, index[HIGH], -slope)
         if lacking <= spare:
             add_by_pressure(circuit, row, index[SENSED], slope)
+    return OK
 
 
-@leaf
+@slopes_of(turn)
+@family
 def add_slopes(machine, number, t):
     """Slopes of the flows and torques of pumps and motors."""
     record = record_at(machine)
@@ -188,3 +191,4 @@ def add_slopes(machine, number, t):
         row[rate] -= ratio * ratio * (n[VISCOUS] + dry * SLOW * SLOW / (omega * omega + SLOW * SLOW) ** 1.5)
         add_by_pressure(circuit, row, b, -ratio * swept)
         add_by_pressure(circuit, row, a, ratio * swept)
+    return OK

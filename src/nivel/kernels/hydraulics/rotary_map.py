@@ -16,7 +16,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.rotary import (
     COORDINATE,
     FLOW,
@@ -31,8 +31,8 @@ from nivel.kernels.hydraulics.rotary import (
     TORQUE,
     turning,
 )
-from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within
+from nivel.kernels.hydraulics.tangent import add_by_pressure, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose_between, transfer
 from nivel.kernels.hydraulics.viscosity import thickness
 from nivel.kernels.record.hook import family
@@ -113,6 +113,7 @@ def lose_by_map(machine, number, t):
     return OK
 
 
+@slopes_of(lose_by_map)
 @family
 def add_slopes(machine, number, t):
     """Slopes of leaks and friction with pressures, for C and c as they are."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
-from nivel.kernels.hydraulics.slopes import add_by_pressure
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import slope_of_step, step
+from nivel.kernels.hydraulics.tangent import add_by_pressure
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -86,8 +86,9 @@ def lift(machine, number, t):
     return OK
 
 
-@leaf
-def add_slopes_of_spools(machine, number):
+@slopes_of(move)
+@family
+def add_slopes_of_spools(machine, number, t):
     """Slopes of the positions and speeds of spools, for commands that do not depend on the state."""
     record = record_at(machine)
     elements, tangent = record.elements, record.circuit.tangent
@@ -104,6 +105,7 @@ def add_slopes_of_spools(machine, number):
             tangent.slopes[own, speed] += 1.0
             tangent.slopes[speed, own] -= omega * omega
             tangent.slopes[speed, speed] -= 2.0 * n[DAMPING] * omega
+    return OK
 
 
 @leaf
@@ -112,7 +114,8 @@ def slope_of_poppet(machine, index, n, t):
     return slope_of_step(opening_pressure(machine, index, n, t) / n[RANGE]) / n[RANGE]
 
 
-@leaf
+@slopes_of(lift)
+@family
 def add_slopes_of_poppets(machine, number, t):
     """Slopes of the positions of poppets that are states."""
     record = record_at(machine)
@@ -128,3 +131,4 @@ def add_slopes_of_poppets(machine, number, t):
         for i in range(NODES):
             if slope != 0.0 and index[FIRST_NODE + i] != NONE:
                 add_by_pressure(circuit, tangent.slopes[own], index[FIRST_NODE + i], slope * n[FIRST_FACTOR + i])
+    return OK

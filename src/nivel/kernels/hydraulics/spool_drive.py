@@ -22,7 +22,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, step
 from nivel.kernels.hydraulics.spool import clipped
 from nivel.kernels.record.function import evaluate_function, table_value
@@ -137,6 +137,7 @@ def switch(machine, number, t):
     return OK
 
 
+@slopes_of(drive)
 @family
 def add_slopes(machine, number, t):
     """Slopes of the inputs, positions and speeds of spools, for commands that do not depend on the state."""
@@ -167,6 +168,7 @@ def add_slopes(machine, number, t):
     return OK
 
 
+@slopes_of(switch)
 @family
 def add_slopes_of_switches(machine, number, t):
     """Slopes of the energies of valves that switch."""

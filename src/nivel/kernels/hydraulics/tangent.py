@@ -1,26 +1,21 @@
-"""Derivatives of a circuit by hand, component by component: each touches a few pressures and states, so that all together cost less than
-one evaluation.
+"""Derivatives of a circuit by hand, family by family: each touches a few pressures and states, so that all together cost less than one
+evaluation.
 
     ẋ = g(x, s, ṡ, t)        e = e(x, s, ṡ)
 
 x are the states of the circuit, s the coordinates on which its pistons and motors act with the efforts e. Restrictions have secants in
 place of tangents (see `nivel.kernels.hydraulics.smooth`). Left out are what changes slowly against a step: densities in flows, areas of
-telescopes, cushions, commands that depend on the motion.
+telescopes, cushions, commands that depend on the motion. What adds the slopes of a family stands beside it
+(`nivel.kernels.hydraulics.phase.slopes_of`).
 """
 
 from __future__ import annotations
 
-from nivel.kernels.hydraulics import load_signal, pipe, piston, restriction, rotary, spool
 from nivel.kernels.hydraulics.fluid import DENSITY
 from nivel.kernels.hydraulics.volume import GIVE, MASS, RATE
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
-
-# Numbers of families in `CircuitTangent.family`; a component states those of its families in `slopes` of its `ComponentKind`. Families from
-# OTHERS on have a family of their own that adds their slopes; the addresses of these are the last ones of the hooks, in the same order.
-DISPLACE, GUIDE, PRESS, MOVE, LIFT, SIGNAL, SETTING, TURN, RESTRICT, PIPE = range(10)
-OTHERS = 10
 
 
 @leaf
@@ -37,49 +32,53 @@ def slope_by_mass(circuit, node):
 
 
 @leaf
-def find_node_slopes(machine):
-    """Slopes of the pressures of volumes with masses and strokes."""
-    circuit = record_at(machine).circuit
-    tangent = circuit.tangent
-    tangent.by_stroke[:, :] = 0.0
-    if tangent.family[DISPLACE] != NONE:
-        piston.add_slopes_of_rooms(machine, tangent.family[DISPLACE])
-    for node in range(circuit.node.shape[0]):
-        if circuit.node[node, 1] == NONE:
-            continue
-        soft = softness(circuit, node)
-        tangent.by_mass[node] = slope_by_mass(circuit, node)
+def add_by_pressure(circuit, row, node, slope):
+    """Add to a row of slopes `slope` times that of the pressure of a node: it follows from a mass and from pistons, or is a state."""
+    tangent, state = circuit.tangent, circuit.node[node, 1]
+    if state != NONE:
+        row[tangent.unknown[state]] += slope * tangent.by_mass[node]
+        first = tangent.state.shape[0]
         for c in range(tangent.coordinate.shape[0]):
-            tangent.by_stroke[node, c] *= -soft
+            row[first + c] += slope * tangent.by_stroke[node, c]
+    elif tangent.signal[node] != NONE:
+        row[tangent.signal[node]] += slope
+
+
+@leaf
+def add_flow_by_pressure(circuit, a, b, node, slope):
+    """The mass flow from node a to node b grows by `slope` [kg/s/Pa] with the pressure of a node."""
+    tangent = circuit.tangent
+    if circuit.node[a, 1] != NONE:
+        add_by_pressure(circuit, tangent.slopes[tangent.unknown[circuit.node[a, 1]]], node, -slope)
+    if circuit.node[b, 1] != NONE:
+        add_by_pressure(circuit, tangent.slopes[tangent.unknown[circuit.node[b, 1]]], node, slope)
+
+
+@leaf
+def add_flow_by_column(circuit, a, b, column, slope):
+    """The mass flow from node a to node b grows by `slope` with what a column of slopes stands for."""
+    tangent = circuit.tangent
+    if circuit.node[a, 1] != NONE:
+        tangent.slopes[tangent.unknown[circuit.node[a, 1]], column] -= slope
+    if circuit.node[b, 1] != NONE:
+        tangent.slopes[tangent.unknown[circuit.node[b, 1]], column] += slope
 
 
 @leaf
 def find_slopes(machine, t):
-    """Fill `slopes` of the rates of states, and `effort`, in the state last evaluated."""
-    tangent = record_at(machine).circuit.tangent
-    family = tangent.family
+    """Fill `slopes` of the rates of states, and `effort`, in the state last evaluated.
+
+    Addresses of what adds them are the last ones of the hooks. Chambers are the first family, and give `by_stroke`.
+    """
+    record = record_at(machine)
+    circuit, address = record.circuit, record.hooks.address
+    tangent = circuit.tangent
     tangent.slopes[:, :] = 0.0
     tangent.effort[:, :] = 0.0
-    find_node_slopes(machine)
-    if family[GUIDE] != NONE:
-        piston.add_slopes_of_guides(machine, family[GUIDE])
-    if family[PRESS] != NONE:
-        piston.add_slopes_of_pressing(machine, family[PRESS])
-    if family[MOVE] != NONE:
-        spool.add_slopes_of_spools(machine, family[MOVE])
-    if family[LIFT] != NONE:
-        spool.add_slopes_of_poppets(machine, family[LIFT], t)
-    if family[SIGNAL] != NONE:
-        load_signal.add_slopes(machine, family[SIGNAL])
-    if family[SETTING] != NONE:
-        rotary.add_slopes_of_settings(machine, family[SETTING])
-    if family[TURN] != NONE:
-        rotary.add_slopes(machine, family[TURN], t)
-    if family[RESTRICT] != NONE:
-        restriction.add_slopes(machine, family[RESTRICT], t)
-    if family[PIPE] != NONE:
-        pipe.add_slopes(machine, family[PIPE])
-    address = record_at(machine).hooks.address
-    behind = address.shape[0] - family.shape[0]
-    for k in range(OTHERS, family.shape[0]):
-        call_family(address[behind + k], machine, family[k], t)
+    tangent.by_stroke[:, :] = 0.0
+    for node in range(circuit.node.shape[0]):
+        if circuit.node[node, 1] != NONE:
+            tangent.by_mass[node] = slope_by_mass(circuit, node)
+    behind = address.shape[0] - tangent.family.shape[0]
+    for k in range(tangent.family.shape[0]):
+        call_family(address[behind + k], machine, tangent.family[k], t)

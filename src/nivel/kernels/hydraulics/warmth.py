@@ -19,7 +19,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.hydraulics.fluid import AROUND, EXPANSION, HEAT_CAPACITY, START
-from nivel.kernels.hydraulics.phase import Phase, called
+from nivel.kernels.hydraulics.phase import Phase, called, slopes_of
 from nivel.kernels.hydraulics.transfer import WARMTH, lose
 from nivel.kernels.hydraulics.volume import VOLUME, find_pressure, give_pressure
 from nivel.kernels.record.function import evaluate_function
@@ -86,6 +86,7 @@ def warm(machine, number, t):
     return OK
 
 
+@slopes_of(warm)
 @family
 def add_slopes(machine, number, t):
     """Slopes of the temperatures with themselves; heat is slow beside steps."""

@@ -14,7 +14,8 @@ class CircuitTangent(NamedTuple):
     Columns of slopes: the X states, the C coordinates, their C rates.
     """
 
-    family: U1  # number of each family of a circuit among those of `Elements`, or NONE, in the order of `hydraulics.tangent`
+    family: U1  # of each family with slopes its number among those of `Elements`; what adds them are the last ones of the hooks
+    pistons: U1  # (1,) number of the family of pistons and their end stops, or NONE
     state: U1  # (X,) of each among the states of elements
     unknown: U1  # (states of elements,) number among the X, or NONE
     coordinate: U1  # (C,) of each among the coordinates of the machine

@@ -26,6 +26,7 @@ def filled_room(room: Sequence[float]) -> list[float]:
 
 def tangent_tables(
     family: Index,
+    pistons: Index,
     state: Index,
     unknown: Index,
     coordinate: Index,
@@ -39,6 +40,7 @@ def tangent_tables(
     size, width = states + count, states + 2 * count
     return CircuitTangent(
         family=family,
+        pistons=pistons,
         state=state,
         unknown=unknown,
         coordinate=coordinate,
@@ -62,7 +64,7 @@ def tangent_tables(
 def no_tangent() -> CircuitTangent:
     """For methods that do not need it: all arrays empty."""
     none = index_array([], 1)
-    return tangent_tables(none, none, none, none, none, none, index_array([], 2), 0)
+    return tangent_tables(none, none, none, none, none, none, none, index_array([], 2), 0)
 
 
 @dataclass(frozen=True)

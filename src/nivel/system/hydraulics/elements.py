@@ -53,7 +53,7 @@ def families_of(machine: MachineRecord) -> list[Family]:
 
 def without_slopes(machine: MachineRecord) -> list[Component]:
     """The components of a machine whose derivatives are not known by hand."""
-    return [each for each in machine.hydraulics if COMPONENTS[each.type].slopes is None]
+    return [each for each in machine.hydraulics if not COMPONENTS[each.type].has_slopes]
 
 
 def has_slopes(machine: MachineRecord) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from nivel.kernels.hydraulics.phase import PHASES
+from nivel.kernels.hydraulics.phase import PHASES, SLOPES
 from nivel.kernels.record.hook import Family
 from nivel.machine.hydraulics import Component
 from nivel.system.builder import SystemBuilder
@@ -20,9 +20,8 @@ class ComponentKind:
 
     words : its record. add(builder, record) : gives the tables of a machine its numbers; None where its node is all there is of it.
     families : kernels that it may need, each with a phase (`nivel.kernels.hydraulics.phase`). symbol(data) : what is drawn of it, from its
-    record as JSON; None: a box with its type. slopes : its families with derivatives by hand, and what adds these: a number in
-    `nivel.kernels.hydraulics.tangent`, or a family; None where some of its families have none, so that special integrators of circuits do
-    not take machines with it. nodes(builder, record, swept) : its nodes, those that its words name.
+    record as JSON; None: a box with its type. nodes(builder, record, swept) : its nodes, those that its words name. present(builder,
+    record) : gives numbers of what is known with the pressures.
 
     Raises ValueError where a family states no phase, and where words name nodes that nothing makes.
     """
@@ -31,7 +30,6 @@ class ComponentKind:
     add: Callable[[SystemBuilder, Any], None] | None
     families: tuple[Family, ...]
     symbol: Callable[[Mapping[str, Any]], Symbol] | None = None
-    slopes: Mapping[Family, int | Family] | None = None
     nodes: NodeMaker | None = None
     present: Callable[[SystemBuilder, Any], None] | None = None
 
@@ -44,6 +42,11 @@ class ComponentKind:
                 raise ValueError(
                     f"{family.module}.{name} states no phase; write `@called(Phase.FLOWS)` above its `@family`"
                 )
+
+    @property
+    def has_slopes(self) -> bool:
+        """Whether special integrators of circuits take machines with it."""
+        return all(family in SLOPES for family in self.families)
 
     @property
     def type(self) -> str:

@@ -9,14 +9,13 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.hydraulics import piston, pump_control, rotary, spool, spool_drive, volume, warmth
-from nivel.kernels.hydraulics.tangent import OTHERS
+from nivel.kernels.hydraulics import piston, pump_control, rotary, spool, spool_drive, volume
+from nivel.kernels.hydraulics.phase import SLOPES
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Hooks, Record
 from nivel.system.elimination.factor_plan import minimum_degree
 from nivel.system.hydraulics.circuit import tangent_tables
-from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.system import System
 
 Index = NDArray[np.uint32]
@@ -32,34 +31,28 @@ STATES: dict[Family, int] = {
 COORDINATES: dict[Family, int] = {piston.guide: piston.COORDINATE, rotary.turn: rotary.COORDINATE}
 
 
-def slopes_by_family() -> dict[Family, int | Family]:
-    """What adds the slopes of each family with derivatives by hand."""
-    of_kinds = {family: adding for kind in COMPONENTS.values() for family, adding in (kind.slopes or {}).items()}
-    return {**of_kinds, warmth.warm: warmth.add_slopes}
-
-
 def slope_hooks(record: Record) -> int:
     """How many hooks, the last ones, add slopes of circuits."""
-    return max(0, len(record.circuit.tangent.family) - OTHERS)
+    return len(record.circuit.tangent.family)
 
 
 def with_circuit_tangent(system: System) -> System:
     """The system with room for the derivatives of its circuits, in relative coordinates."""
     record = system.record
-    adding = slopes_by_family()
-    own = [FAMILIES[int(address)] for address in record.elements.address]
-    numbered = np.full(OTHERS, NONE, dtype=np.uint32)
-    others: list[tuple[int, int]] = []
-    for number, family in enumerate(own):
-        slopes = adding.get(family)
-        if isinstance(slopes, Family):
-            others.append((number, slopes.address))
-        elif slopes is not None:
-            numbered[slopes] = number
-    numbers = np.array([*numbered, *(number for number, _ in others)], dtype=np.uint32)
-    address = np.array([*record.hooks.address, *(address for _, address in others)], dtype=np.uint64)
-    circuit = record.circuit._replace(tangent=_tables(system, numbers))
-    return replace(system, record=record._replace(circuit=circuit, hooks=Hooks(address)))
+    adding = [
+        (number, slopes.address)
+        for number, family in enumerate(_families(record))
+        if (slopes := SLOPES.get(family)) is not None
+    ]
+    address = np.array([*record.hooks.address, *(address for _, address in adding)], dtype=np.uint64)
+    tangent = _tables(system, np.array([number for number, _ in adding], dtype=np.uint32))
+    return replace(
+        system, record=record._replace(circuit=record.circuit._replace(tangent=tangent), hooks=Hooks(address))
+    )
+
+
+def _families(record: Record) -> list[Family]:
+    return [FAMILIES[int(address)] for address in record.elements.address]
 
 
 def _tables(system: System, family: Index) -> CircuitTangent:
@@ -68,8 +61,11 @@ def _tables(system: System, family: Index) -> CircuitTangent:
     state = _in_order(system)
     coordinate = np.unique([q for q in _coordinates(record) if q != NONE]).astype(np.uint32)
     unknown = _numbers(state, len(record.elements.state))
+    own = _families(record)
+    pistons = own.index(piston.guide) if piston.guide in own else NONE
     return tangent_tables(
         family,
+        np.array([pistons], dtype=np.uint32),
         state,
         unknown,
         coordinate,
@@ -96,7 +92,7 @@ def _in_order(system: System) -> Index:
 
 def _rows(record: Record, family: Family) -> Iterator[tuple[int, list[int]]]:
     """Number and columns of each element of a family; none where the machine does not have it."""
-    own = [FAMILIES[int(address)] for address in record.elements.address]
+    own = _families(record)
     if family in own:
         for k in range(*record.elements.span[own.index(family)].tolist()):
             yield k, record.elements.columns[k].tolist()

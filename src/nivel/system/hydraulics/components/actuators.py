@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from nivel.kernels.hydraulics import piston, restriction, spool
-from nivel.kernels.hydraulics.tangent import DISPLACE, GUIDE, LIFT, PRESS, RESTRICT
 from nivel.machine.hydraulics import HydraulicCylinder, RotaryActuator, TelescopicCylinder
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
@@ -13,9 +12,7 @@ from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppe
 
 # difference of pressure at which the check valve beside a cushion opens, and from there to fully open [Pa]
 CHECK, CHECK_OF_GAS = (0.5e5, 3e5), (0.05e5, 0.2e5)
-OF_PISTONS = {piston.displace: DISPLACE, piston.guide: GUIDE, piston.press: PRESS}
-WITH_SEALS = {**OF_PISTONS, restriction.apply: RESTRICT}
-WITH_CUSHIONS = {**OF_PISTONS, spool.lift: LIFT, restriction.apply: RESTRICT}
+OF_PISTONS = (piston.displace, piston.guide, piston.press)
 
 
 def add_seal(builder: SystemBuilder, component: HydraulicCylinder | RotaryActuator) -> None:
@@ -49,8 +46,12 @@ def add_cylinder(builder: SystemBuilder, component: HydraulicCylinder) -> None:
 
 KINDS = (
     ComponentKind(
-        HydraulicCylinder, add_cylinder, tuple(WITH_CUSHIONS), symbols.cylinder, WITH_CUSHIONS, chamber_nodes
+        HydraulicCylinder,
+        add_cylinder,
+        (*OF_PISTONS, spool.lift, restriction.apply),
+        symbols.cylinder,
+        chamber_nodes,
     ),
-    ComponentKind(TelescopicCylinder, None, tuple(OF_PISTONS), symbols.telescope, OF_PISTONS, chamber_nodes),
-    ComponentKind(RotaryActuator, add_seal, tuple(WITH_SEALS), symbols.rotary, WITH_SEALS, chamber_nodes),
+    ComponentKind(TelescopicCylinder, None, OF_PISTONS, symbols.telescope, chamber_nodes),
+    ComponentKind(RotaryActuator, add_seal, (*OF_PISTONS, restriction.apply), symbols.rotary, chamber_nodes),
 )

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from nivel.kernels.hydraulics import restriction, spool
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
-from nivel.kernels.hydraulics.tangent import LIFT, RESTRICT
 from nivel.machine.hydraulics import (
     BrakeValve,
     CartridgeValve,
@@ -29,7 +28,7 @@ from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import inner_nodes
 from nivel.system.hydraulics.restrictions import add_flow, add_poppet, rated
 
-SLOPES = {spool.lift: LIFT, restriction.apply: RESTRICT}
+FAMILIES = (spool.lift, restriction.apply)
 Opening = tuple[int, int]
 
 
@@ -238,7 +237,7 @@ def add_brake(builder: SystemBuilder, component: BrakeValve) -> None:
 
 
 KINDS = tuple(
-    ComponentKind(words, add, tuple(SLOPES), symbol, SLOPES, nodes)
+    ComponentKind(words, add, FAMILIES, symbol, nodes)
     for words, add, symbol, nodes in (
         (FlowControl, add_flow_control, symbols.flow_control, inner_nodes("M")),
         (FlowDivider, add_divider, symbols.divider, inner_nodes("M", "N")),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from nivel.kernels.hydraulics import cooler, restriction
-from nivel.kernels.hydraulics.tangent import RESTRICT
 from nivel.machine.hydraulics import Cooler
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
@@ -22,6 +21,4 @@ def add_cooler(builder: SystemBuilder, component: Cooler) -> None:
     builder.elements.add(cooler.apply, columns)
 
 
-KINDS = (
-    ComponentKind(Cooler, add_cooler, (restriction.apply, cooler.apply), symbols.cooler, {restriction.apply: RESTRICT}),
-)
+KINDS = (ComponentKind(Cooler, add_cooler, (restriction.apply, cooler.apply), symbols.cooler),)

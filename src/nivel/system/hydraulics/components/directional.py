@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import load_signal, restriction, spool, spool_drive
-from nivel.kernels.hydraulics.tangent import MOVE, RESTRICT, SIGNAL
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import DirectionalValve, LoadSensing, Section, SpoolValve
 from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
@@ -102,13 +101,8 @@ def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
     builder.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)
 
 
-OF_SPOOLS = {
-    spool.move: MOVE,
-    spool_drive.switch: spool_drive.add_slopes_of_switches,
-    restriction.apply: RESTRICT,
-}
-OF_SIGNALS = {load_signal.apply: SIGNAL}
+OF_SPOOLS = (spool.move, spool_drive.switch, restriction.apply)
 KINDS = (
-    ComponentKind(DirectionalValve, add_directional, tuple(OF_SPOOLS), symbols.directional, OF_SPOOLS),
-    ComponentKind(LoadSensing, add_load_signal, tuple(OF_SIGNALS), symbols.shuttle, OF_SIGNALS, signal_nodes),
+    ComponentKind(DirectionalValve, add_directional, OF_SPOOLS, symbols.directional),
+    ComponentKind(LoadSensing, add_load_signal, (load_signal.apply,), symbols.shuttle, signal_nodes),
 )

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from nivel.kernels.hydraulics import engine, pump_control, restriction, rotary, rotary_map
-from nivel.kernels.hydraulics.tangent import RESTRICT, SETTING, TURN
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Engine, FlowSource, HydraulicMotor, Pump
 from nivel.machine.units.linear_function import linear
@@ -194,23 +193,10 @@ def add_engine(builder: SystemBuilder, component: Engine) -> None:
     builder.elements.add(engine.drive, columns, numbers)
 
 
-SLOPES = {
-    rotary.set_displacement: SETTING,
-    rotary.turn: TURN,
-    rotary_map.lose_by_map: rotary_map.add_slopes,
-    pump_control.regulate: pump_control.add_slopes,
-    restriction.apply: RESTRICT,
-}
+OF_MACHINES = (rotary.set_displacement, rotary.turn, rotary_map.lose_by_map, pump_control.regulate, restriction.apply)
 KINDS = (
-    ComponentKind(Pump, add_machine, tuple(SLOPES), symbols.pump, SLOPES),
-    ComponentKind(HydraulicMotor, add_machine, tuple(SLOPES), symbols.motor, SLOPES),
-    ComponentKind(FlowSource, add_flow_source, (rotary.supply,), symbols.pump, {}),  # a given flow has no slopes
-    ComponentKind(
-        Engine,
-        add_engine,
-        (engine.turn, engine.drive),
-        symbols.engine,
-        {engine.drive: engine.add_slopes},
-        present=present_engine,
-    ),
+    ComponentKind(Pump, add_machine, OF_MACHINES, symbols.pump),
+    ComponentKind(HydraulicMotor, add_machine, OF_MACHINES, symbols.motor),
+    ComponentKind(FlowSource, add_flow_source, (rotary.supply,), symbols.pump),
+    ComponentKind(Engine, add_engine, (engine.turn, engine.drive), symbols.engine, present=present_engine),
 )

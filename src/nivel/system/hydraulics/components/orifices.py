@@ -7,7 +7,6 @@ import math
 from nivel.kernels.hydraulics import gas_line, line, pipe, restriction
 from nivel.kernels.hydraulics.fluid import DENSITY, MODULUS, VISCOSITY
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
-from nivel.kernels.hydraulics.tangent import PIPE, RESTRICT
 from nivel.machine.hydraulics import Line, Orifice, Pipe, Tube
 from nivel.machine.hydraulics.restrictions import AIR_VISCOSITY
 from nivel.system.builder import SystemBuilder
@@ -124,14 +123,8 @@ def add_tube(builder: SystemBuilder, component: Tube) -> None:
 
 
 KINDS = (
-    ComponentKind(Tube, add_tube, (gas_line.apply,), symbols.pipe, None, tube_nodes),
-    ComponentKind(Line, add_line, (line.apply,), symbols.pipe, {line.apply: line.add_slopes}, line_nodes),
-    ComponentKind(Orifice, add_orifice, (restriction.apply,), symbols.orifice, {restriction.apply: RESTRICT}),
-    ComponentKind(
-        Pipe,
-        add_pipe,
-        (pipe.apply, line.apply),
-        symbols.pipe,
-        {pipe.apply: PIPE, line.apply: line.add_slopes},
-    ),
+    ComponentKind(Tube, add_tube, (gas_line.apply,), symbols.pipe, tube_nodes),
+    ComponentKind(Line, add_line, (line.apply,), symbols.pipe, line_nodes),
+    ComponentKind(Orifice, add_orifice, (restriction.apply,), symbols.orifice),
+    ComponentKind(Pipe, add_pipe, (pipe.apply, line.apply), symbols.pipe),
 )

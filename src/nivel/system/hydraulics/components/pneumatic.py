@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from nivel.kernels.hydraulics import ejector, restriction, spool
-from nivel.kernels.hydraulics.tangent import LIFT, RESTRICT
 from nivel.machine.hydraulics import Ejector, QuickExhaust, SoftStart
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import composed_symbols as symbols
@@ -11,7 +10,7 @@ from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.restrictions import add_flow, add_poppet, rated
 
 JET_RATIO = 0.5  # b of jets that do not say
-SLOPES = {spool.lift: LIFT, restriction.apply: RESTRICT}
+FAMILIES = (spool.lift, restriction.apply)
 
 
 def add_quick_exhaust(builder: SystemBuilder, component: QuickExhaust) -> None:
@@ -51,6 +50,6 @@ def add_ejector(builder: SystemBuilder, component: Ejector) -> None:
 
 KINDS = (
     ComponentKind(Ejector, add_ejector, (restriction.apply, ejector.apply), symbols.ejector),
-    ComponentKind(QuickExhaust, add_quick_exhaust, tuple(SLOPES), symbols.quick_exhaust, SLOPES),
-    ComponentKind(SoftStart, add_soft_start, tuple(SLOPES), symbols.soft_start, SLOPES),
+    ComponentKind(QuickExhaust, add_quick_exhaust, FAMILIES, symbols.quick_exhaust),
+    ComponentKind(SoftStart, add_soft_start, FAMILIES, symbols.soft_start),
 )

@@ -6,7 +6,6 @@ import math
 
 from nivel.kernels.hydraulics import restriction, spool
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
-from nivel.kernels.hydraulics.tangent import LIFT, RESTRICT
 from nivel.machine.hydraulics import CheckValve, Compensator, CounterbalanceValve, ReducingValve, ReliefValve
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
@@ -15,7 +14,7 @@ from nivel.system.hydraulics.nodes import inner_nodes
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow, add_poppet, rated
 
 BORE_COEFFICIENT = 0.65  # discharge coefficient of orifices in pilot lines
-SLOPES = {spool.lift: LIFT, restriction.apply: RESTRICT}
+FAMILIES = (spool.lift, restriction.apply)
 
 
 def add_check(builder: SystemBuilder, component: CheckValve) -> None:
@@ -92,7 +91,7 @@ def add_compensator(builder: SystemBuilder, component: Compensator) -> None:
 
 
 KINDS = tuple(
-    ComponentKind(words, add, tuple(SLOPES), symbol, SLOPES, nodes)
+    ComponentKind(words, add, FAMILIES, symbol, nodes)
     for words, add, symbol, nodes in (
         (CheckValve, add_check, symbols.check, None),
         (ReliefValve, add_relief, symbols.relief, None),

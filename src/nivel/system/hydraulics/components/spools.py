@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.kernels.hydraulics import metering, restriction, spool, spool_drive
-from nivel.kernels.hydraulics.tangent import LIFT, MOVE, RESTRICT
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Section, SpoolValve, Switching
 from nivel.machine.hydraulics.spool_valve import Edge, ends_of
@@ -220,13 +219,9 @@ def _add_section_spool(builder: SystemBuilder, component: Section) -> int:
     return output
 
 
-OF_VALVES = {
-    spool_drive.drive: spool_drive.add_slopes,
-    spool_drive.switch: spool_drive.add_slopes_of_switches,
-    metering.apply: metering.add_slopes,
-}
-OF_SECTIONS = {spool.move: MOVE, spool.lift: LIFT, restriction.apply: RESTRICT}
+OF_VALVES = (spool_drive.drive, spool_drive.switch, metering.apply)
+OF_SECTIONS = (spool.move, spool.lift, restriction.apply)
 KINDS = (
-    ComponentKind(SpoolValve, add_spool_valve, tuple(OF_VALVES), symbols.spool_valve, OF_VALVES),
-    ComponentKind(Section, add_section, tuple(OF_SECTIONS), symbols.section, OF_SECTIONS, inner_nodes("M", "C")),
+    ComponentKind(SpoolValve, add_spool_valve, OF_VALVES, symbols.spool_valve),
+    ComponentKind(Section, add_section, OF_SECTIONS, symbols.section, inner_nodes("M", "C")),
 )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import accumulator, reservoir, restriction
-from nivel.kernels.hydraulics.tangent import RESTRICT
 from nivel.kernels.hydraulics.volume import THETA
 from nivel.machine.hydraulics import Accumulator, Reservoir, Tank, Volume
 from nivel.system.builder import SystemBuilder
@@ -83,16 +82,8 @@ OF_ACCUMULATORS = (
     accumulator.rub,
 )
 KINDS = (
-    ComponentKind(Reservoir, None, (reservoir.apply,), None, {}, reservoir_nodes, present=add_reservoir),
-    ComponentKind(Volume, None, (), slopes={}, nodes=volume_nodes),
-    ComponentKind(Tank, None, (), symbols.source, {}, tank_nodes),
-    ComponentKind(
-        Accumulator,
-        add_inlet,
-        OF_ACCUMULATORS,
-        symbols.accumulator,
-        # heat is slow beside steps
-        {restriction.apply: RESTRICT, accumulator.rub: accumulator.add_slopes_of_inlets},
-        accumulator_nodes,
-    ),
+    ComponentKind(Reservoir, None, (reservoir.apply,), None, reservoir_nodes, present=add_reservoir),
+    ComponentKind(Volume, None, (), nodes=volume_nodes),
+    ComponentKind(Tank, None, (), symbols.source, tank_nodes),
+    ComponentKind(Accumulator, add_inlet, OF_ACCUMULATORS, symbols.accumulator, accumulator_nodes),
 )

@@ -41,7 +41,7 @@ def built(machine: str) -> Iterator[str]:
                 link(Path(folder), level)
             for system in units(machine):
                 link_unit(Path(folder), system)
-        sources = {entry.name: fingerprint(entry.name.partition(":")[0]) for entry in entries}
+        sources = {entry.name: fingerprint(entry.name) for entry in entries}
         manifest = {"version": __version__, "levels": levels(machine), "entries": sources}
         (shipped.FOLDER / shipped.MANIFEST).write_text(json.dumps(manifest, indent=1), encoding="utf-8")
         (shipped.FOLDER / "NOTICE").write_text(notice(), encoding="utf-8")

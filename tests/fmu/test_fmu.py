@@ -454,7 +454,7 @@ def test_the_binary_of_a_wheel_needs_no_compiler(tmp_path, monkeypatch, ball_mac
     monkeypatch.setattr(shipped, "FOLDER", tmp_path / "shipped")
     shipped.FOLDER.mkdir()
     shipped_library.link_unit(tmp_path, f"{platform.machine()}-linux")
-    sources = {entry.name: fingerprint(entry.name.partition(":")[0]) for entry in entries}
+    sources = {entry.name: fingerprint(entry.name) for entry in entries}
     monkeypatch.setattr(shipped, "manifest", lambda: {"levels": [], "entries": sources})
     (shipped.FOLDER / "NOTICE").write_text("of Numba", encoding="utf-8")
     monkeypatch.setenv("CC", "no-such-compiler")

@@ -31,7 +31,7 @@ def folder(tmp_path, monkeypatch):
         path.write_bytes(store.read(path))
     command = ["cc", "-shared", "-o", tmp_path / shipped.file_of(level), *targets.values(), "-Wl,--no-undefined", "-lm"]
     subprocess.run(command, check=True)
-    sources = {entry.name: fingerprint("toy_entries") for entry in ENTRIES}
+    sources = {entry.name: fingerprint(entry.name) for entry in ENTRIES}
     (tmp_path / shipped.MANIFEST).write_text(json.dumps({"levels": [level], "entries": sources}))
     monkeypatch.setattr(shipped, "FOLDER", tmp_path)
     _forget()

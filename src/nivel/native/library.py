@@ -48,8 +48,7 @@ def object_code(entry: Entry) -> bytes:
 def object_codes_for(entries: Sequence[Entry], target: tuple[str, str, str]) -> dict[str, bytes]:
     """Object files by symbol, for another processor or system: what LLVM compiles for. Raises CompilationError."""
     paths = {
-        entry: store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name.partition(":")[0]), *target)
-        for entry in entries
+        entry: store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name), *target) for entry in entries
     }
     codes = {entry.symbol: store.read(path) for entry, path in paths.items()}
     missing = [entry for entry in entries if codes[entry.symbol] is None]
@@ -93,7 +92,7 @@ def _path(entry: Entry) -> Any:
             f"`{entry.name}` stands in the program that runs; put it into a module beside it, which the program imports"
         )
         raise workers.CompilationError(message, "InProgramError")
-    return store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name.partition(":")[0]))
+    return store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name))
 
 
 def _job(entry: Entry) -> dict[str, Any]:
@@ -102,7 +101,7 @@ def _job(entry: Entry) -> dict[str, Any]:
 
 def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str, str] | None]]) -> dict[str, Any]:
     """What a worker is told: the files to write, each with what LLVM compiles for (processor, features, system), or for this one."""
-    sources = fingerprint(entry.name.partition(":")[0])
+    sources = fingerprint(entry.name)
     return {"entry": entry.name, "symbol": entry.symbol, "sources": sources, "targets": targets}
 
 

@@ -31,7 +31,7 @@ def address_in_library(entry: Entry) -> int | None:
 
 def fits(entry: Entry) -> bool:
     """Whether the library has this entry, of its present sources."""
-    return _library() is not None and manifest()["entries"].get(entry.name) == fingerprint(entry.name.partition(":")[0])
+    return _library() is not None and manifest()["entries"].get(entry.name) == fingerprint(entry.name)
 
 
 @cache
@@ -61,7 +61,7 @@ def unit_for(system: str, entries: Iterable[Entry]) -> Path | None:
     """The binary of FMUs for a system, `x86_64-linux`, that came with the library and has these entries, of their present sources."""
     path = FOLDER / unit_file_of(system)
     made = manifest()["entries"]
-    has_all = all(made.get(entry.name) == fingerprint(entry.name.partition(":")[0]) for entry in entries)
+    has_all = all(made.get(entry.name) == fingerprint(entry.name) for entry in entries)
     return path if has_all and path.exists() else None
 
 

@@ -1,8 +1,12 @@
-"""Sources on which machine code depends: the text of all modules that an entry's module imports, directly or not."""
+"""Sources on which machine code depends.
+
+Of rooms that hold nothing but compiled code (`WHOLE`) it is the text of a module and of all modules that it imports. Elsewhere a kernel
+stands beside records, descriptions and pictures: there it is the text of the compiled function, of everything of its module that this
+names, directly or not, and of what these import.
+"""
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import re
 import sysconfig
@@ -10,45 +14,70 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
+from nivel.native.outline import Need, either, outline_of
+
 _IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)|import[ \t]+([\w.]+))", re.MULTILINE
 )
-_NAME = re.compile(r"\w+")
+_NAME = re.compile(r"(\w+)(?:[ \t]+as[ \t]+\w+)?")
+_COMMENT = re.compile(r"#[^\n]*")
 PACKAGE = Path(__file__).resolve().parent.parent
 # of Numba's side of this package, what is only about finding, keeping and loading machine code does not change it
 PASSIVE = (
-    *(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources", "shipped", "processor")),
+    *(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources", "outline", "shipped", "processor")),
     # and what is said of integrators, beside their steps, does not either
     "nivel.integrate.facts",
 )
+WHOLE = ("nivel.kernels", "nivel.integrate", "nivel.motion", "nivel.native")
+TRANSLATION = "nivel.native.with_numba.translate"
 
 
 @cache
-def fingerprint(module: str) -> str:
-    """A digest of the text of `modules`."""
+def fingerprint(entry: str) -> str:
+    """A digest of the `parts` of an entry, or of all of a module."""
     digest = hashlib.sha256()
-    for name, path in sorted(modules(module).items()):
-        digest.update(f"{name}\0".encode() + path.read_bytes())
+    for name, text in sorted(parts(entry).items()):
+        digest.update(f"{name}\0".encode() + text)
     return digest.hexdigest()
 
 
 def look_again() -> None:
     """Forget what was read: files may have changed."""
-    for function in (fingerprint, _imported, _file):
+    for function in (fingerprint, _imported, outline_of, file_of):
         function.cache_clear()
 
 
-def modules(module: str) -> dict[str, Path]:
-    """A module, all modules that it imports but installed ones, and what translates them; by name, with their files."""
-    found: dict[str, Path] = {}
-    to_read = [module, "nivel.native.with_numba.translate"]
+def parts(entry: str) -> dict[str, bytes]:
+    """What an entry `module:function` depends on, and what translates it: by module its text, or what is needed of that."""
+    module, _, path = entry.partition(":")
+    out: dict[str, bytes] = {}
+    needed: dict[str, dict[str, str]] = {}
+    seen: set[Need] = set()
+    to_read = [Need(module, path.partition(".")[0]), Need(TRANSLATION)]
     while to_read:
-        name = to_read.pop()
-        if name in found or name.startswith(PASSIVE) or (path := _file(name)) is None:
+        need = to_read.pop()
+        if need in seen or need.module.startswith(PASSIVE) or (file := _own_file(need.module)) is None:
             continue
-        found[name] = path
-        to_read += [each for each in _imported(path) if _is_own(each.partition(".")[0])]
-    return found
+        seen.add(need)
+        if _is_whole(need.module):
+            if need.module not in out:
+                out[need.module] = file.read_bytes()
+                to_read += _imported(file)
+        elif not need.name or file_of(f"{need.module}.{need.name}") is None:
+            texts, needs = outline_of(file).definition(need)
+            needed.setdefault(need.module, {}).update(texts)
+            to_read += needs
+    return out | {name: "\n".join(texts[key] for key in sorted(texts)).encode() for name, texts in needed.items()}
+
+
+def modules(entry: str) -> dict[str, Path]:
+    """The files of the modules on which an entry depends, by their names."""
+    return {name: file for name in parts(entry) if (file := file_of(name)) is not None}
+
+
+def _is_whole(module: str) -> bool:
+    """Whether a module holds nothing but compiled code."""
+    return any(module == room or module.startswith(f"{room}.") for room in WHOLE)
 
 
 @cache
@@ -56,7 +85,7 @@ def _is_own(package: str) -> bool:
     """Whether this is nivel, or neither Python's own nor installed: somebody's kernels."""
     if package == "nivel":
         return True
-    path = _file(package)
+    path = file_of(package)
     if path is None:
         return False
     folder = path.parent.parent if path.name == "__init__.py" else path.parent
@@ -66,40 +95,28 @@ def _is_own(package: str) -> bool:
     return not any(Path(sysconfig.get_path(each)) in path.parents for each in ("stdlib", "platstdlib"))
 
 
+def _own_file(module: str) -> Path | None:
+    """The file of a module; None for what is none, compiled, of Python or installed."""
+    return file_of(module) if _is_own(module.partition(".")[0]) else None
+
+
 @cache
-def _imported(path: Path) -> tuple[str, ...]:
-    """Names that the module imports; of `from a import b` both a and a.b, which may be a module."""
-    text = path.read_text(encoding="utf-8")
-    if not path.is_relative_to(PACKAGE):
-        return tuple(imports(text))
+def _imported(path: Path) -> tuple[Need, ...]:
+    """What a module of a whole room imports."""
+    needs: list[Need] = []
     # parsing all of nivel would take a third of a second
-    names: list[str] = []
-    for package, what, plain in _IMPORT.findall(text):
-        names += [plain] if plain else [package, *(f"{package}.{each}" for each in _NAME.findall(what))]
-    return tuple(names)
-
-
-def imports(text: str) -> list[str]:
-    """The same of any text. Raises ImportError where it imports relatively to its package."""
-    names: list[str] = []
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Import):
-            names += [each.name for each in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            if node.level:
-                raise ImportError(
-                    f"line {node.lineno}: modules of kernels import by full names, not from `{'.' * node.level}`"
-                )
-            names += [str(node.module), *(f"{node.module}.{each.name}" for each in node.names)]
-    return names
+    for package, what, plain in _IMPORT.findall(path.read_text(encoding="utf-8")):
+        names = _NAME.findall(_COMMENT.sub("", what))
+        needs += [Need(plain)] if plain else [need for name in names for need in either(Need(package, name))]
+    return tuple(needs)
 
 
 @cache
-def _file(module: str) -> Path | None:
+def file_of(module: str) -> Path | None:
     """The file of a module; None for what is none, and for compiled ones."""
     parent, _, last = module.rpartition(".")
     if parent:
-        above = _file(parent)
+        above = file_of(parent)
         if above is None or above.name != "__init__.py":
             return None
         folder = above.parent

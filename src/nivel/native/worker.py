@@ -51,17 +51,27 @@ class Seen:
     def __init__(self) -> None:
         self._digests: dict[Path, bytes] = {}
 
-    def check(self, module: str, expected: str) -> None:
-        """Raise SourcesChangedError where the sources of a module are not those that were asked for, or not those in memory."""
+    def check(self, entry: str, expected: str) -> None:
+        """Raise SourcesChangedError where the sources of an entry are not those that were asked for, or not those in memory."""
         from nivel.native import sources
 
         sources.look_again()
-        changed = sources.fingerprint(module) != expected
-        for path in sources.modules(module).values():
-            digest = hashlib.sha256(path.read_bytes()).digest()
-            changed |= self._digests.setdefault(path, digest) != digest
+        changed = sources.fingerprint(entry) != expected
+        for path in sources.modules(entry).values():
+            changed |= self._digest(path) != hashlib.sha256(path.read_bytes()).digest()
+        for name in [name for name in sys.modules if name.startswith("nivel.")]:
+            if path := sources.file_of(name):
+                self._digest(path)  # a later job may need what stands in it
         if changed:
-            raise SourcesChangedError(f"sources of {module} were edited while it was compiled; start the program again")
+            raise SourcesChangedError(
+                f"sources of {entry.partition(':')[0]} were edited while it was compiled; start the program again"
+            )
+
+    def _digest(self, path: Path) -> bytes:
+        """Digest of a file as it was when it was first looked at."""
+        if path not in self._digests:
+            self._digests[path] = hashlib.sha256(path.read_bytes()).digest()
+        return self._digests[path]
 
 
 seen = Seen()
@@ -78,7 +88,7 @@ def _compile(job: dict[str, Any]) -> None:
         machine = translate.target_machine(*(job["target"] or translate.host()))
         store.write(Path(job["path"]), object_code_of_law(job["text"], job["file"], signature, machine))
         return
-    seen.check(job["entry"].partition(":")[0], job["sources"])
+    seen.check(job["entry"], job["sources"])
     entry = entry_of(job["entry"])
     module = translate.linked(entry.py_func, entry.signature, job["symbol"])
     if any(processor for _, processor in job["targets"]):
@@ -87,7 +97,7 @@ def _compile(job: dict[str, Any]) -> None:
         (path, translate.optimised(module, translate.target_machine(*(processor or translate.host()))))
         for path, processor in job["targets"]
     ]
-    seen.check(job["entry"].partition(":")[0], job["sources"])
+    seen.check(job["entry"], job["sources"])
     for path, code in codes:
         store.write(Path(path), code)
 

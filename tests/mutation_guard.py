@@ -92,6 +92,9 @@ COVER = {
         "integrate/test_multistep_weights.py", "integrate/test_multistep.py", "integrate/test_orders.py",
         *_verification("stiff", "newton_convergence"),
     ),
+    "elements/forces/": (
+        *_verification("springs", "everyday_forces", "element_references", "motors", "drives", "loads"), *STATES,
+    ),
     "integrate/newmark/": (*IMPLICIT, *_verification(
         "implicit_tolerance", "energy_momentum", "stiff_springs", "newton_policy", "implicit_penalties", "stiff_dampers", "jams",
     )),

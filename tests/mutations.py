@@ -7,7 +7,7 @@ from dataclasses import dataclass
 # decorators of what is compiled
 COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family")
 # folders of the package whose functions are changed
-FOLDERS = ("kernels", "integrate")
+FOLDERS = ("kernels", "elements", "integrate")
 SIGNS = {ast.Add: "-", ast.Sub: "+"}
 OPERATORS = {
     ast.Mult: "/",

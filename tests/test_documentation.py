@@ -24,6 +24,7 @@ from nivel import (
     SimulationSettings,
 )
 from nivel.cli.failures import fault_line
+from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.mass_file import KEY as MASS_PROPERTIES
@@ -38,7 +39,8 @@ from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.core.orientation import SEQUENCES, Orientation
 from nivel.machine.core.record import field_words
-from nivel.machine.forces import FORCES, HeightField, Material
+from nivel.machine.forces.contact import Material
+from nivel.machine.forces.height_field import HeightField
 from nivel.machine.joints.joint import JointType
 from nivel.machine.laws.python_law import KEYS as LAW_KEYS
 from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
@@ -166,7 +168,7 @@ def test_every_key_has_its_row(title, record):
     assert not set(field_words(record)) - first_column(title) - {"name"}
 
 
-@pytest.mark.parametrize("force", FORCES, ids=lambda force: force.__name__)
+@pytest.mark.parametrize("force", FORCES.records, ids=lambda force: force.__name__)
 def test_every_key_of_a_force_has_its_row_with_its_default(force):
     """The type stands in the heading of the table."""
     cells = {word: row for row in force_table(force) for word in code(row[0])}

@@ -20,12 +20,11 @@ from scipy.special import ellipj
 import nivel
 from lanes import tail
 from nivel import MachineRecord
+from nivel.elements.forces import FORCES
 from nivel.looks.circuit.drawing import circuit_diagram
-from nivel.machine.forces import FORCES as WORDS
 from nivel.machine.hydraulics import COMPONENT_OF, Volume
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_WORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS, Joint
-from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS, register_component
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import volume_nodes
@@ -59,8 +58,7 @@ def cart(folder):
     yield nivel.load(folder / "cart.yaml")
     del sys.modules["maxwell"]
     # other tests speak of the package's own forces
-    WORDS.remove(FORCES.pop("maxwell").words)
-    MachineRecord.model_rebuild(force=True)
+    FORCES.withdraw("maxwell")
 
 
 def withdraw_words(word):
@@ -115,8 +113,8 @@ def test_its_units_are_checked_and_its_state_is_shown(cart):
 
 def test_a_word_is_taken_once(cart):
     with pytest.raises(ValueError, match="maxwell"):
-        importlib.import_module("maxwell").register_force(
-            sys.modules["maxwell"].ForceKind(sys.modules["maxwell"].Maxwell, None, ())
+        importlib.import_module("maxwell").FORCES.register(
+            sys.modules["maxwell"].Kind(sys.modules["maxwell"].Maxwell, None, ())
         )
 
 
@@ -286,7 +284,7 @@ def test_nodes_that_words_name_are_made():
 
 def test_a_component_states_the_phase_of_its_kernels(vessel):
     kind = COMPONENTS["capillary"]
-    maxwell = importlib.import_module("nivel.kernels.forces.spring").apply
+    maxwell = importlib.import_module("nivel.elements.forces.springs").resist
     with pytest.raises(ValueError, match=r"Phase\.FLOWS"):
         replace(kind, families=(maxwell,))
     with pytest.raises(ValueError, match="already"):

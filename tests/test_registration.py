@@ -11,13 +11,13 @@ import pytest
 
 import nivel.integrate
 from nivel.cli.run import command as run_command
+from nivel.elements.forces import FORCES
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.judge.after.report import every_check
 from nivel.judge.during.failure import FAILURES
 from nivel.judge.during.stop import Status
 from nivel.kernels.core import status
-from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings.run import SimulationSettings
@@ -25,7 +25,6 @@ from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.native.entry import Entry
 from nivel.results.pages import MAKERS, page_maker
-from nivel.system.forces import FORCES
 from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.joints.joints import JOINTS
 from settings_keywords import kind_of
@@ -90,8 +89,13 @@ def test_an_integrator_loads_no_other_family_than_those_before_it():
         _ = INTEGRATORS["no such integrator"]
 
 
-def test_forces_have_the_types_that_the_builder_knows():
-    assert {record.model_fields["type"].default for record in RECORDS} == set(FORCES)
+def test_forces_are_found_by_their_words_without_being_imported():
+    for word, module in FORCES.homes.items():
+        assert FORCES[word].add.__module__ == module
+    script = "import sys; from nivel.elements.forces import FORCES; FORCES['stop']; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
+    assert "nivel.elements.forces.actuators" in loaded
+    assert not {"numba", "nivel.elements.forces.springs", "nivel.machine.machine_record"} & {*loaded}
 
 
 def test_components_have_the_types_that_the_builder_knows():

@@ -23,6 +23,14 @@ if TYPE_CHECKING:
     from nivel.api import load as load
     from nivel.api import open_result as open_result
     from nivel.api import sweep as sweep
+    from nivel.elements.forces.actuators import Motor as Motor
+    from nivel.elements.forces.actuators import Servo as Servo
+    from nivel.elements.forces.actuators import Stop as Stop
+    from nivel.elements.forces.bushing import Bushing as Bushing
+    from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
+    from nivel.elements.forces.springs import SpringDamper as SpringDamper
+    from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
+    from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.errors import ModelError as ModelError
     from nivel.errors import NivelError as NivelError
     from nivel.errors import SolveError as SolveError
@@ -31,28 +39,20 @@ if TYPE_CHECKING:
     from nivel.machine.bodies.body import Body as Body
     from nivel.machine.control import Block as Block
     from nivel.machine.core.marker import Marker as Marker
-    from nivel.machine.forces import BeltDrive as BeltDrive
-    from nivel.machine.forces import Brake as Brake
-    from nivel.machine.forces import Bushing as Bushing
-    from nivel.machine.forces import Clutch as Clutch
-    from nivel.machine.forces import Contact as Contact
-    from nivel.machine.forces import Freewheel as Freewheel
-    from nivel.machine.forces import Friction as Friction
-    from nivel.machine.forces import JointSpringDamper as JointSpringDamper
-    from nivel.machine.forces import Motor as Motor
-    from nivel.machine.forces import PairForce as PairForce
-    from nivel.machine.forces import PointForce as PointForce
-    from nivel.machine.forces import Rope as Rope
-    from nivel.machine.forces import Servo as Servo
-    from nivel.machine.forces import Shaft as Shaft
-    from nivel.machine.forces import SpringDamper as SpringDamper
-    from nivel.machine.forces import SpringNode as SpringNode
-    from nivel.machine.forces import SpringSeries as SpringSeries
-    from nivel.machine.forces import Stop as Stop
-    from nivel.machine.forces import ThreeAxisSpring as ThreeAxisSpring
-    from nivel.machine.forces import Torque as Torque
-    from nivel.machine.forces import TorsionalSpringDamper as TorsionalSpringDamper
-    from nivel.machine.forces import TransmissionLoss as TransmissionLoss
+    from nivel.machine.forces.belt_drive import BeltDrive as BeltDrive
+    from nivel.machine.forces.clutch import Brake as Brake
+    from nivel.machine.forces.clutch import Clutch as Clutch
+    from nivel.machine.forces.contact import Contact as Contact
+    from nivel.machine.forces.freewheel import Freewheel as Freewheel
+    from nivel.machine.forces.friction import Friction as Friction
+    from nivel.machine.forces.load import PointForce as PointForce
+    from nivel.machine.forces.load import Torque as Torque
+    from nivel.machine.forces.pair_force import PairForce as PairForce
+    from nivel.machine.forces.rope import Rope as Rope
+    from nivel.machine.forces.shaft import Shaft as Shaft
+    from nivel.machine.forces.spring_node import SpringNode as SpringNode
+    from nivel.machine.forces.spring_series import SpringSeries as SpringSeries
+    from nivel.machine.forces.transmission_loss import TransmissionLoss as TransmissionLoss
     from nivel.machine.joints.coupling import Belt as Belt
     from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
     from nivel.machine.joints.coupling import Gear as Gear
@@ -89,44 +89,44 @@ _HOME = {
     "Belt": "nivel.machine.joints.coupling",
     "Block": "nivel.machine.control",
     "Body": "nivel.machine.bodies.body",
-    "Bushing": "nivel.machine.forces",
-    "Contact": "nivel.machine.forces",
+    "Bushing": "nivel.elements.forces.bushing",
+    "Contact": "nivel.machine.forces.contact",
     "Driver": "nivel.machine.joints.driver",
     "Event": "nivel.machine.signals.event",
     "Expression": "nivel.machine.laws.time_function",
-    "BeltDrive": "nivel.machine.forces",
-    "Brake": "nivel.machine.forces",
-    "Clutch": "nivel.machine.forces",
-    "Freewheel": "nivel.machine.forces",
-    "Shaft": "nivel.machine.forces",
-    "TransmissionLoss": "nivel.machine.forces",
-    "Friction": "nivel.machine.forces",
+    "BeltDrive": "nivel.machine.forces.belt_drive",
+    "Brake": "nivel.machine.forces.clutch",
+    "Clutch": "nivel.machine.forces.clutch",
+    "Freewheel": "nivel.machine.forces.freewheel",
+    "Shaft": "nivel.machine.forces.shaft",
+    "TransmissionLoss": "nivel.machine.forces.transmission_loss",
+    "Friction": "nivel.machine.forces.friction",
     "FunctionCoupling": "nivel.machine.joints.coupling",
     "Gear": "nivel.machine.joints.coupling",
     "Input": "nivel.machine.signals.input",
     "Joint": "nivel.machine.joints.joint",
-    "JointSpringDamper": "nivel.machine.forces",
+    "JointSpringDamper": "nivel.elements.forces.springs",
     "LinearCoupling": "nivel.machine.joints.coupling",
     "MachineRecord": "nivel.machine.machine_record",
     "Marker": "nivel.machine.core.marker",
-    "Motor": "nivel.machine.forces",
-    "PairForce": "nivel.machine.forces",
-    "PointForce": "nivel.machine.forces",
+    "Motor": "nivel.elements.forces.actuators",
+    "PairForce": "nivel.machine.forces.pair_force",
+    "PointForce": "nivel.machine.forces.load",
     "PythonLaw": "nivel.machine.laws.time_function",
     "Rack": "nivel.machine.joints.coupling",
-    "Rope": "nivel.machine.forces",
+    "Rope": "nivel.machine.forces.rope",
     "Sensor": "nivel.machine.signals.sensor",
-    "Servo": "nivel.machine.forces",
+    "Servo": "nivel.elements.forces.actuators",
     "SimulationSettings": "nivel.machine.settings.run",
-    "SpringDamper": "nivel.machine.forces",
-    "SpringNode": "nivel.machine.forces",
-    "SpringSeries": "nivel.machine.forces",
+    "SpringDamper": "nivel.elements.forces.springs",
+    "SpringNode": "nivel.machine.forces.spring_node",
+    "SpringSeries": "nivel.machine.forces.spring_series",
     "State": "nivel.machine.signals.state",
-    "Stop": "nivel.machine.forces",
+    "Stop": "nivel.elements.forces.actuators",
     "Table": "nivel.machine.laws.time_function",
-    "Torque": "nivel.machine.forces",
-    "ThreeAxisSpring": "nivel.machine.forces",
-    "TorsionalSpringDamper": "nivel.machine.forces",
+    "Torque": "nivel.machine.forces.load",
+    "ThreeAxisSpring": "nivel.elements.forces.springs",
+    "TorsionalSpringDamper": "nivel.elements.forces.springs",
     "Comparison": "nivel.results.comparison.comparison",
     "Result": "nivel.results.result",
     "load_study": "nivel.studies",

@@ -23,6 +23,7 @@ from nivel.analysis.plan.compilation import (
 from nivel.analysis.plan.plan import Plan, methods_of, plan_run
 from nivel.analysis.plan.settings import waiting_time
 from nivel.analysis.progress.listener import Listener
+from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
@@ -32,7 +33,6 @@ from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.control import Block
 from nivel.machine.core.marker import Marker
-from nivel.machine.forces import Force
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver

@@ -9,6 +9,7 @@ from html import escape
 from os import PathLike
 from typing import Any, Self, TypeVar
 
+from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
 from nivel.files.known import Known
@@ -27,7 +28,6 @@ from nivel.machine.control import ControlBlock
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry
-from nivel.machine.forces import Force
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver

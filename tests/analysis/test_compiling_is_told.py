@@ -13,7 +13,7 @@ class Entry:
 
 @pytest.fixture
 def two_missing(monkeypatch):
-    entries = [Entry("nivel.kernels.output.observe:observe"), Entry("nivel.kernels.forces.spring:apply.twin")]
+    entries = [Entry("nivel.kernels.output.observe:observe"), Entry("nivel.elements.forces.springs:resist.twin")]
     monkeypatch.setattr(compilation.library, "missing", lambda _: entries)
     monkeypatch.setattr(compilation.library, "build", lambda missing, done: [done(each.name) for each in missing])
     return entries

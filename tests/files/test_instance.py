@@ -7,14 +7,14 @@ from base_machine import FULL, write_files
 from pydantic import BaseModel
 
 from nivel import Body, Driver, Expression, Joint, Marker, PointForce, PythonLaw, Sensor, Table
+from nivel.elements.forces import FORCES
 from nivel.files import read_machine
 from nivel.files.instance import MENTIONS, renamed
 from nivel.files.substitution import NotRepresentableError
-from nivel.machine.forces import FORCES
 from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
-RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, FunctionCoupling, Driver, *FORCES, Sensor)
+RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, FunctionCoupling, Driver, *FORCES.records, Sensor)
 TEXTS = {
     "name",
     "units",

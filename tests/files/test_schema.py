@@ -3,11 +3,11 @@
 import pytest
 
 from nivel import Beam, Body, Joint, MachineRecord, Sensor, SimulationSettings
+from nivel.elements.forces import FORCES
 from nivel.files import schema
 from nivel.files.outline import FILE_WORDS
 from nivel.machine.bodies.shape import Box
 from nivel.machine.core.record import field_words
-from nivel.machine.forces import FORCES
 from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
@@ -28,7 +28,7 @@ def test_sections_are_mappings_by_name():
         assert SCHEMA["properties"][section]["type"] == ["object", "null"]
 
 
-@pytest.mark.parametrize("record", [Beam, Body, Joint, Sensor, *FORCES], ids=lambda record: record.__name__)
+@pytest.mark.parametrize("record", [Beam, Body, Joint, Sensor, *FORCES.records], ids=lambda record: record.__name__)
 def test_elements_have_the_keys_of_their_records_but_no_name(record):
     its = definition(record)
     assert set(its["properties"]) == set(field_words(record)) - {"name"} | OF_FILES.get(record.__name__, set())
@@ -37,7 +37,8 @@ def test_elements_have_the_keys_of_their_records_but_no_name(record):
 
 
 @pytest.mark.parametrize(
-    ("section", "records"), [("forces", FORCES), ("couplings", (Gear, Belt, Rack, LinearCoupling, FunctionCoupling))]
+    ("section", "records"),
+    [("forces", FORCES.records), ("couplings", (Gear, Belt, Rack, LinearCoupling, FunctionCoupling))],
 )
 def test_elements_of_several_types_are_told_apart_by_the_type(section, records):
     choices = SCHEMA["properties"][section]["additionalProperties"]["oneOf"]

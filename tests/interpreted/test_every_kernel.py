@@ -705,7 +705,7 @@ def test_circuits_with_derivatives_by_hand_and_flexible_bodies():
 def kernels():
     """(file, first line) → name of all functions that are compiled."""
     found = {}
-    for package in ("kernels", "motion", "integrate"):
+    for package in ("kernels", "elements", "motion", "integrate"):
         for path in sorted((Path(nivel.__file__).parent / package).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.FunctionDef) and any(_name(each) in COMPILERS for each in node.decorator_list):

@@ -17,9 +17,11 @@ from nivel import (
     Stop,
     TorsionalSpringDamper,
 )
+from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
 from nivel.machine.beams.section import Material as BeamMaterial
-from nivel.machine.forces import FORCES, GlobalPoint, Material
+from nivel.machine.core.between import GlobalPoint
+from nivel.machine.forces.contact import Material
 
 LINE = {"markers": ("tip", "eye")}
 POINTS = {"bodies": ("rod", "crank"), "points": ((0, 0, 0), (1, 0, 0))}
@@ -35,9 +37,9 @@ STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}
 
 
 def test_every_force_has_a_type_of_its_own_and_outputs():
-    types = [force.model_fields["type"].default for force in FORCES]
+    types = [force.model_fields["type"].default for force in FORCES.records]
     assert len(set(types)) == len(types) == 26
-    assert all({"magnitude", "power"} <= set(force.outputs) for force in FORCES)
+    assert all({"magnitude", "power"} <= set(force.outputs) for force in FORCES.records)
 
 
 @pytest.mark.parametrize(

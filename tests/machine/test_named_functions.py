@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
+from nivel import PointForce
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.machine.forces import PointForce
 from nivel.machine.units.arithmetic import render
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.interpolation import differentiated, pieces

@@ -8,9 +8,9 @@ from typing import Annotated
 import numpy as np
 import pytest
 
+from nivel import PointForce
 from nivel.errors import ModelError
 from nivel.machine.core.record import Record
-from nivel.machine.forces import PointForce
 from nivel.machine.laws.time_function import ForceComponent, PythonLaw, SpringForce, TimeFunction, varying
 from nivel.machine.units.tree import Number
 

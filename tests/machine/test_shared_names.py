@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from nivel import PointForce, Torque
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.machine.forces import PointForce, Torque
 from nivel.machine.laws.table import Table
 from nivel.machine.parameters import resolve
 from nivel.machine.units.arithmetic import bind, evaluate

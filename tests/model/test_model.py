@@ -6,8 +6,8 @@ import pytest
 
 import nivel
 from example_files import EXAMPLES, RIGID
+from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
-from nivel.machine.forces import FORCES
 from nivel.machine.uses.references import SECTIONS
 
 LEG = """
@@ -175,7 +175,9 @@ def test_faults_say_what_to_write(message, crank):
     assert message in str(caught.value)
 
 
-@pytest.mark.parametrize("record", [nivel.Body, nivel.Joint, nivel.Sensor, *FORCES], ids=lambda record: record.__name__)
+@pytest.mark.parametrize(
+    "record", [nivel.Body, nivel.Joint, nivel.Sensor, *FORCES.records], ids=lambda record: record.__name__
+)
 def test_help_says_what_each_field_takes_in_words(record):
     text = str(inspect.signature(record))
     assert "Annotated" not in text

@@ -11,6 +11,8 @@ from typing import Final
 
 import numpy as np
 
+from nivel.elements.forces.actuators import Motor, Stop
+from nivel.elements.forces.springs import JointSpringDamper
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.notes import Notes
@@ -19,8 +21,7 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
-from nivel.machine.forces import Friction, JointSpringDamper, Stop
-from nivel.machine.forces.motor import Motor
+from nivel.machine.forces.friction import Friction
 from nivel.machine.joints.joint import JOINT_COORDINATES, Joint
 from nivel.machine.laws.time_function import Expression
 from nivel.machine.machine_record import MachineRecord

@@ -12,8 +12,8 @@ from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
 from nivel.machine.control import Block
+from nivel.machine.core.between import Ends
 from nivel.machine.core.record import Record, entry
-from nivel.machine.forces import Ends
 from nivel.machine.joints.coupling import FunctionCoupling, LinearCoupling, Rack
 from nivel.machine.joints.driver import MOTIONS, Driver
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table

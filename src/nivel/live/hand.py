@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from nivel.machine.forces import Hand
+from nivel.machine.forces.hand import Hand
 from nivel.machine.laws.time_function import Expression
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input

@@ -18,6 +18,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
+from nivel.elements.forces import Force
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -32,7 +33,6 @@ from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import entry, restated
 from nivel.machine.core.usual import GRAVITY, SIZE
-from nivel.machine.forces import Force
 from nivel.machine.given import Field, ManyNames, ManyRecords, OneRecord, Usual
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling

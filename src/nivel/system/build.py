@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.forces import FORCES
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
 from nivel.kernels.elements import friction
@@ -56,7 +57,6 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
-from nivel.system.forces import FORCES
 from nivel.system.hydraulics.elements import add_circuits, add_components, add_ledger, sensed_and_acting
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.joints.driver_rows import add_drivers

@@ -8,11 +8,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from nivel.elements.rows import Row
+from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
+from nivel.kernels.record.hook import Family
 from nivel.machine.control.part import PartFunction
+from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.marker import Marker
-from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.laws.symbols import find_symbol, is_output
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
@@ -23,7 +26,6 @@ from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import Placed, seen_from
 from nivel.system.joints.parallel_axes import Directions
 from nivel.system.laws.functions import FunctionTable, Signal
-from nivel.system.signals.state_facts import Coupled, StateFact
 from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
 
 GROUND = "ground"
@@ -72,6 +74,10 @@ class SystemBuilder:
     _named: dict[str, int] = field(default_factory=dict)
     _frames: dict[str, int] = field(default_factory=dict)
     _tips: dict[tuple[str, int], int] = field(default_factory=dict)
+
+    def add(self, family: Family, row: Row, memory: int = 0, surfaces: tuple[int, ...] = ()) -> None:
+        """Give a row to a family, which keeps `memory` numbers from state to state. surfaces : those of these that are about a surface."""
+        self.elements.add(family, row.columns, row.numbers, memory, surfaces)
 
     def body(self, name: str) -> int:
         """Index of a body or the ground."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
 
-from nivel.system.signals.state_facts import StateFact
+from nivel.elements.states import StateFact
 
 
 @dataclass(frozen=True)

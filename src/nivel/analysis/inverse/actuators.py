@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.forces.actuators import Motor
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Motor
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.inverse import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown

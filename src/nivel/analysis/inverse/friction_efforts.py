@@ -10,7 +10,8 @@ import numpy as np
 
 from nivel.analysis.inverse.actuators import Actuation
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Friction, holds_by_capacity
+from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.sticking import holds_by_capacity
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result

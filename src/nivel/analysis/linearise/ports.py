@@ -15,10 +15,10 @@ from nivel.analysis.assembly.user_frames import frame_place, frame_velocity
 from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.pressures import pressure_states
 from nivel.analysis.linearise.reduction import Ports
+from nivel.elements.forces.actuators import Motor
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import SENSE
 from nivel.kernels.signals import sensor
-from nivel.machine.forces import Motor
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.layout import reported
 

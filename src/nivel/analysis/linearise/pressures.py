@@ -14,7 +14,7 @@ import numpy as np
 
 from nivel.analysis.linearise.eigenvalues import Eigen
 from nivel.analysis.linearise.reduction import StateSpace
-from nivel.system.signals.state_facts import StateFact
+from nivel.elements.states import StateFact
 from nivel.system.system import Array
 
 # a state of a volume makes its pressure if it makes this share of it at least, for its size

@@ -10,6 +10,7 @@ from time import perf_counter
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
+from nivel.elements.forces import FORCES
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
@@ -23,7 +24,7 @@ from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.machine.control import UnitBlock
 from nivel.machine.control.unit_output import CFacts, UnitFacts
-from nivel.machine.forces import is_sticking
+from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.hydraulics import Actuator
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
@@ -33,7 +34,6 @@ from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
 from nivel.system.beams.beams import ELASTIC, family_of
 from nivel.system.beams.beams import FAMILIES as BEAMS
-from nivel.system.forces import FORCES
 from nivel.system.hydraulics.elements import families as families_of_circuits
 from nivel.system.hydraulics.elements import families_of
 from nivel.system.joints.joints import JOINTS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from nivel.machine.forces import Contact
+from nivel.machine.forces.contact import Contact
 from nivel.machine.machine_record import MachineRecord
 
 TRANSITION: Final = 1e-3  # [m/s] where no `friction_transition_speed` is given

@@ -19,7 +19,8 @@ from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.errors import Fault, ModelError, SolveError
-from nivel.machine.forces import Contact, Contacts
+from nivel.machine.forces.contact import Contact
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.system.system import Array

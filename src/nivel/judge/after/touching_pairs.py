@@ -12,7 +12,8 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.core.vectors import cross
-from nivel.machine.forces import Contact, Contacts
+from nivel.machine.forces.contact import Contact
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.system.forces.heaps import spheres_between

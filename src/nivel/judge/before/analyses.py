@@ -13,7 +13,10 @@ from nivel.errors import Fault, ModelError
 from nivel.judge.before.refusals import refuse_rolling
 from nivel.machine.control.order import PartOf, parts_of
 from nivel.machine.control.unit import UnitBlock
-from nivel.machine.forces import Contact, Friction, TransmissionLoss, holds_by_capacity
+from nivel.machine.forces.contact import Contact
+from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.sticking import holds_by_capacity
+from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings

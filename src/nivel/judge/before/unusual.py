@@ -27,7 +27,7 @@ from nivel.machine.bodies.solids import (
 )
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
-from nivel.machine.forces import Contact
+from nivel.machine.forces.contact import Contact
 from nivel.machine.given import Shown, Usual
 from nivel.machine.hydraulics import Actuator, Component, Volume
 from nivel.machine.hydraulics.machines import RotaryMachine

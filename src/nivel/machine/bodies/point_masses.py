@@ -7,11 +7,15 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from nivel.elements.forces import FORCES
+from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
-from nivel.machine.forces import FORCES, Between, PointForce, Rope, SpringNode
+from nivel.machine.forces.load import PointForce
+from nivel.machine.forces.rope import Rope
+from nivel.machine.forces.spring_node import SpringNode
 from nivel.machine.joints.joint import JOINT_WORDS
 
 if TYPE_CHECKING:
@@ -31,9 +35,9 @@ def point_mass_faults(machine: Any, index: Index) -> Faults:
         return
     for at, joint in enumerate(elements(machine, "joints")):
         yield from _of_joint(joint, index, ("joints", at))
-    turning = [kind.model_fields["type"].default for kind in FORCES if kind.turns]
     for at, force in enumerate(elements(machine, "forces")):
-        if entry(force, "type") in turning:
+        kind = FORCES.get(str(entry(force, "type")))
+        if kind is not None and kind.record.turns:
             for place, body in _bodies(force, index):
                 if body in index.point_masses:
                     yield ("forces", at, *place), f"`{body}`: {_TURN}; a {entry(force, 'type')} cannot act on it"

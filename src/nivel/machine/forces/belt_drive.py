@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Damping, NotNegativeForce, NotNegativeLength, PositiveNumber, Truth
-from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
+from nivel.machine.core.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
 from nivel.machine.units.quantity import PositiveLength, Quantity
 from nivel.machine.uses.coordinate_reference import CoordinateReference

@@ -7,8 +7,8 @@ from typing import ClassVar, Literal
 
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeRate, PositiveNumber
+from nivel.machine.core.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.uses.coordinate_reference import CoordinateReference

@@ -19,9 +19,9 @@ from nivel.machine.core.coefficient import (
     Pressure,
     Restitution,
 )
+from nivel.machine.core.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Record
-from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
 from nivel.machine.forces.height_field import HeightField
 from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions

@@ -9,10 +9,10 @@ from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Exponent, NotNegativeNumber, PositiveNumber, PositiveSpeed, Restitution
+from nivel.machine.core.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.core.marker import ManyMarkers
 from nivel.machine.core.record import GROUND, BodyName
 from nivel.machine.forces.contact import FRICTION_MODELS, HERTZ, FrictionModel, friction_model_of
-from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.given import Field, ManyNames, Maybe
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import listed

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from nivel.machine.core.checked import Problem
-from nivel.machine.forces.element import ForceElement
+from nivel.machine.core.element import ForceElement
 from nivel.machine.given import Field
 from nivel.machine.units.quantity import Scalar
 from nivel.machine.uses.coordinate_reference import CoordinateReference

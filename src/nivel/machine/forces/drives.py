@@ -16,7 +16,7 @@ from nivel.machine.core.coefficient import (
     Torques,
     TorsionalDamping,
 )
-from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.core.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.laws.time_function import OneFunction, varying

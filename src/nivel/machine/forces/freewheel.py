@@ -7,8 +7,8 @@ from typing import ClassVar, Literal
 
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import CoordinateDamping, PositiveCoordinateStiffness, PositiveEffort
+from nivel.machine.core.element import OUTPUTS, Acts, Holds, Inequalities
 from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.element import OUTPUTS, Acts, Holds, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 

@@ -17,7 +17,7 @@ from nivel.machine.core.coefficient import (
     PositiveSpeed,
     StiffnessPerLoad,
 )
-from nivel.machine.forces.element import OUTPUTS, ForceElement, Holds, Inequalities
+from nivel.machine.core.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
 from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeNumber
-from nivel.machine.forces.element import ForceElement
+from nivel.machine.core.element import ForceElement
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import ANY, Quantity, listed

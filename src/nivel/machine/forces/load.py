@@ -8,8 +8,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.element import ForceElement
 from nivel.machine.core.record import GROUND, BodyName, Name
-from nivel.machine.forces.element import ForceElement
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import ForceComponent, ThreeFunctions, TorqueComponent
 from nivel.machine.units.quantity import Position, listed

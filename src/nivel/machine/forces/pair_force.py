@@ -7,9 +7,9 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.forces.between import Between
-from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.core.element import OUTPUTS
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import ForceComponent, SpringForce, ThreeFunctions
 from nivel.machine.units.quantity import listed

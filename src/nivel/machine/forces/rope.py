@@ -7,12 +7,12 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Damping, NotNegativeNumber, PositiveNumber, Stiffness
+from nivel.machine.core.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.core.marker import ManyMarkers, Marker
 from nivel.machine.core.record import BodyName
-from nivel.machine.forces.between import End, GlobalPoint
-from nivel.machine.forces.element import OUTPUTS, Acts, ForceElement, Inequalities
 from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Direction, Length, Position, PositiveLength, Quantity, Velocity, listed

@@ -10,8 +10,8 @@ from nivel.machine.core.coefficient import (
     NotNegativeValue,
     PositiveCoordinateStiffness,
 )
+from nivel.machine.core.element import OUTPUTS, Acts, Inequalities
 from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.element import OUTPUTS, Acts, Inequalities
 from nivel.machine.given import Field
 
 

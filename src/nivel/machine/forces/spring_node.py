@@ -7,12 +7,12 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeLength, Truth
+from nivel.machine.core.element import OUTPUTS, ForceElement
 from nivel.machine.core.marker import ManyMarkers
 from nivel.machine.core.record import BodyName
-from nivel.machine.forces.between import End, GlobalPoint
-from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber
 from nivel.machine.units.quantity import Position, Quantity, listed
 

@@ -7,10 +7,10 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Damping, NotNegativeLength, Stiffness, Truth
-from nivel.machine.forces.between import Between
-from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.core.element import OUTPUTS
 from nivel.machine.given import Field, ManyNumbers, Maybe
 from nivel.machine.units.quantity import listed
 

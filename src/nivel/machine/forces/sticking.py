@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.clutch import Brake, Clutch
 from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.freewheel import Freewheel
 from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.transmission_loss import TransmissionLoss

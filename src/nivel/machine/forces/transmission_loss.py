@@ -7,8 +7,8 @@ from typing import Annotated, ClassVar, Literal
 
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Share
+from nivel.machine.core.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.core.record import Name
-from nivel.machine.forces.element import OUTPUTS, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Quantity
 from nivel.machine.uses.coordinate_reference import CoordinateReference

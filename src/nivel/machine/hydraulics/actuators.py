@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.machine.core.between import Ends
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Damping,
@@ -24,7 +25,6 @@ from nivel.machine.core.coefficient import (
     Volume,
 )
 from nivel.machine.core.record import Name, entry
-from nivel.machine.forces.between import Ends
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.hydraulics.component import Component, Rating
 from nivel.machine.hydraulics.usual import DIAMETER, HEAT_TRANSFER, PISTON_SPEED, PRESSURE, STROKE, VOLUME, WALL_MODULUS

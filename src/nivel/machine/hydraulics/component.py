@@ -9,8 +9,8 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Pressure, Share, SonicConductance, VolumeFlow
+from nivel.machine.core.element import Inequalities
 from nivel.machine.core.record import Name, entry, unknown_word
-from nivel.machine.forces.element import Inequalities
 from nivel.machine.given import Field, Maybe, Usual
 from nivel.machine.hydraulics.usual import DIFFERENCE, FLOW, POWER, PRESSURE
 from nivel.machine.units.quantity import fault, shown

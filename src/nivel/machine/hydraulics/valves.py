@@ -16,8 +16,8 @@ from nivel.machine.core.coefficient import (
     Volume,
     VolumeFlow,
 )
+from nivel.machine.core.element import Acts, Inequalities
 from nivel.machine.core.record import entry
-from nivel.machine.forces.element import Acts, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.hydraulics.component import Rated
 from nivel.machine.hydraulics.usual import BORE, DIFFERENCE, FLOW, LAG, PRESSURE, VOLUME

@@ -12,10 +12,10 @@ from difflib import get_close_matches
 from functools import lru_cache
 from typing import Any, Final, Literal
 
+from nivel.elements.forces import FORCES
 from nivel.machine.control import BLOCK_TYPES
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
-from nivel.machine.forces import FORCES
 from nivel.machine.hydraulics import COMPONENT_OF
 from nivel.machine.hydraulics.signals import signals_of
 from nivel.machine.joints.joint import JOINT_COORDINATES
@@ -43,9 +43,6 @@ VARYING_KEYS: Final = (
     "rate",
     "update",
 )  # keys of what may use symbols
-
-
-_OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
 
 
 @dataclass(frozen=True)
@@ -138,7 +135,8 @@ def states_of(force: Any) -> tuple[str, ...]:
 
 def outputs_of(force: Any) -> tuple[str, ...]:
     """What a force reports, states and what it is not asked for left out."""
-    names = _OUTPUTS.get(str(entry(force, "type")), ())
+    kind = FORCES.get(str(entry(force, "type")))
+    names = () if kind is None else kind.record.outputs
     hidden = {"bristle"} if entry(force, "friction_work") else {"bristle", "friction_work"}
     return tuple(name for name in names if name not in hidden)
 

@@ -9,8 +9,8 @@ from typing import Any, Final
 from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
-from nivel.machine.forces import Contact, Contacts
-from nivel.machine.forces.contact import HULLS, ROUND, SHAPES_ON_PLANE
+from nivel.machine.forces.contact import HULLS, ROUND, SHAPES_ON_PLANE, Contact
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nivel.elements.forces.bushing import apply as bushing
+from nivel.elements.states import Coupled
 from nivel.kernels.forces.beam import apply as beam_family
-from nivel.kernels.forces.bushing import apply as bushing
 from nivel.kernels.forces.elastic_beam import apply as elastic_beam
 from nivel.kernels.record.beam_record import BeamTangent, SharedMass
 from nivel.kernels.record.hook import FAMILIES as COMPILED
@@ -21,7 +22,6 @@ from nivel.system.beams.gradient_beams import FAMILIES as OF_GRADIENTS
 from nivel.system.beams.gradient_beams import add_gradient_beam, family_of_gradients
 from nivel.system.beams.segments import add_segments
 from nivel.system.builder import GROUND, SystemBuilder
-from nivel.system.signals.state_facts import Coupled
 from nivel.system.tables import index_array
 
 MOST_NODES = 4

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nivel.elements.states import Coupled
 from nivel.kernels.forces.ancf_beam import apply as ancf_beam
 from nivel.kernels.forces.ancf_cable import apply as ancf_cable
 from nivel.kernels.record.beam_record import PointInertia
@@ -29,7 +30,6 @@ from nivel.system.beams.gradient_elements import (
     vectors_of_node,
 )
 from nivel.system.builder import SystemBuilder
-from nivel.system.signals.state_facts import Coupled
 from nivel.system.tables import index_array
 
 FAMILIES = ancf_cable, ancf_beam

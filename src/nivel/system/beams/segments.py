@@ -13,12 +13,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from nivel.kernels.forces import bushing
+from nivel.elements.forces.bushing import BushingRow
+from nivel.elements.forces.bushing import apply as bushing
+from nivel.elements.states import Coupled
 from nivel.kernels.record.record import NONE
 from nivel.machine.beams.beam import Beam
 from nivel.system.beams.elements import Array, gauss, relative_turns
 from nivel.system.builder import SystemBuilder
-from nivel.system.signals.state_facts import Coupled
 
 # points of integration over half of a segment: exact for straight beams, to round-off for arcs of a few degrees
 POINTS = 8
@@ -75,10 +76,11 @@ def add_segments(builder: SystemBuilder, beam: Beam) -> None:
             for n, name in zip((k, k + 1), names, strict=True)
         ]
         stiffness = (K / lengths[k]).ravel()
-        numbers = np.zeros(bushing.EFFORT + 6)
-        numbers[bushing.STIFFNESS : bushing.DAMPING] = stiffness
-        numbers[bushing.DAMPING : bushing.X] = beam.damping * stiffness
-        builder.elements.add(bushing.apply, [NONE, *ends], numbers.tolist())
+        damping = beam.damping * stiffness
+        row = BushingRow(
+            output=NONE, first=ends[0], second=ends[1], stiffness=stiffness.tolist(), damping=damping.tolist()
+        )
+        builder.add(bushing, row)
         builder.noted.append(Coupled(frozenset(builder.markers.body[end] for end in ends)))
 
 

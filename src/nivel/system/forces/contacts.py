@@ -1,4 +1,4 @@
-"""Bushings and contacts in numbers: of each pair of shapes the family that finds its points, and the numbers of this."""
+"""Contacts in numbers: of each pair of shapes the family that finds its points, and the numbers of this."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.forces.actuators import Stop
+from nivel.elements.kind import Kind
+from nivel.elements.restitution import damping_of_restitution
 from nivel.errors import Fault, ModelError
 from nivel.kernels.elements.touch import DEPTH, LOST, RATE
 from nivel.kernels.forces import (
-    bushing,
     contact_law,
     friction_work,
     ground_contact,
@@ -29,7 +31,8 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.core.placement import frame_from_axes
-from nivel.machine.forces import Bushing, Contact, Contacts, Material, Stop
+from nivel.machine.forces.contact import Contact, Material
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
@@ -39,25 +42,9 @@ from nivel.system.forces.friction_works import WORK, add_friction_work
 from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.height_fields import numbers_of_heights
 from nivel.system.forces.hulls import hull_of, part_of, polytope_of, row_of
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
-from nivel.system.forces.restitution import damping_of_restitution
 
 MOST_CORNERS = 1000
-
-
-def add_bushing(builder: SystemBuilder, force: Bushing) -> None:
-    """An elastic connection in six directions."""
-    first = force_outputs(
-        builder,
-        force.name,
-        *magnitude_and_power("N"),
-        *((f"force_{axis}", "N", f"force on the second body along {axis} of the first marker") for axis in "xyz"),
-        *((f"torque_{axis}", "N m", f"torque on the second body about {axis} of the first marker") for axis in "xyz"),
-    )
-    matrices = [*force.stiffness_matrix.ravel().tolist(), *force.damping_matrix.ravel().tolist()]
-    work = [0.0] * (bushing.EFFORT + 6 - len(matrices))
-    builder.elements.add(bushing.apply, [first, *builder.ends(force.ends)], [*matrices, *work])
 
 
 def add_contact(builder: SystemBuilder, force: Contact) -> None:
@@ -356,8 +343,7 @@ def _shape_marker(builder: SystemBuilder, body: Body) -> int:
 
 
 KINDS = (
-    ForceKind(Bushing, add_bushing, (bushing.apply,)),
-    ForceKind(
+    Kind(
         Contact,
         add_contact,
         (*PAIRS, hull_contact.apply, friction_work.apply),

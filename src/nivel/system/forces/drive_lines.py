@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 
+from nivel.elements.kind import Kind
 from nivel.errors import Fault, ModelError
 from nivel.kernels.elements import friction
 from nivel.kernels.forces.belt_drive import AT_HIGH, AT_LOW, KEPT, PULLS, PULLS_BACK
 from nivel.kernels.forces.belt_drive import apply as belt_drive
 from nivel.kernels.forces.shaft import apply as shaft
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import BeltDrive, Brake, Clutch, Freewheel, Shaft, TransmissionLoss
+from nivel.machine.forces.belt_drive import BeltDrive
+from nivel.machine.forces.clutch import Brake, Clutch
+from nivel.machine.forces.freewheel import Freewheel
+from nivel.machine.forces.shaft import Shaft
+from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 
 
@@ -149,10 +153,10 @@ def _refuse_another_loss(builder: SystemBuilder, force: TransmissionLoss) -> Non
 
 
 KINDS = (
-    ForceKind(Brake, add_brake, ()),
-    ForceKind(Clutch, add_brake, ()),
-    ForceKind(Freewheel, add_freewheel, (belt_drive,)),
-    ForceKind(Shaft, add_shaft, (shaft,)),
-    ForceKind(BeltDrive, add_belt_drive, (belt_drive,)),
-    ForceKind(TransmissionLoss, add_transmission_loss, ()),
+    Kind(Brake, add_brake, ()),
+    Kind(Clutch, add_brake, ()),
+    Kind(Freewheel, add_freewheel, (belt_drive,)),
+    Kind(Shaft, add_shaft, (shaft,)),
+    Kind(BeltDrive, add_belt_drive, (belt_drive,)),
+    Kind(TransmissionLoss, add_transmission_loss, ()),
 )

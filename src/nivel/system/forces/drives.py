@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from nivel.elements.kind import Kind
+from nivel.elements.states import StateFact
 from nivel.kernels.forces.drive import apply as drive
 from nivel.kernels.record.function import NUMBER
 from nivel.kernels.record.record import NONE
@@ -13,10 +15,8 @@ from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.linear_function import linear
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.laws.functions import Signal
-from nivel.system.signals.state_facts import StateFact
 
 WINDING, CURRENT_LOOP = 0.0, 1.0  # kinds
 
@@ -93,6 +93,6 @@ def _rotor(builder: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]
 
 
 KINDS = (
-    ForceKind(DcMotor, add_dc_motor, (drive,)),
-    ForceKind(ServoMotor, add_servo_motor, (drive,)),
+    Kind(DcMotor, add_dc_motor, (drive,)),
+    Kind(ServoMotor, add_servo_motor, (drive,)),
 )

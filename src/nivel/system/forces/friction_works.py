@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from nivel.elements.states import StateFact
 from nivel.kernels.forces import friction_work
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.outputs import Output
-from nivel.system.signals.state_facts import StateFact
 
 # of a contact that is asked for it, behind its other outputs
 WORK: Output = ("friction_work", "J", "work of friction that became heat since the start")

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from nivel.elements.kind import Kind
+from nivel.elements.states import StateFact
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.bodies.patch_coordinate import PATCH
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import Contact, Friction
+from nivel.machine.forces.contact import Contact
+from nivel.machine.forces.friction import Friction
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import GROUND, SystemBuilder
 from nivel.system.forces.friction_works import add_friction_work
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
-from nivel.system.signals.state_facts import StateFact
 
 
 def add_friction(builder: SystemBuilder, force: Friction) -> None:
@@ -80,4 +81,4 @@ def _bearing(builder: SystemBuilder, first: int, second: int) -> int:
     return first if builder.markers.body[second] == ground != builder.markers.body[first] else second
 
 
-KINDS = (ForceKind(Friction, add_friction, ()),)
+KINDS = (Kind(Friction, add_friction, ()),)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
+from nivel.elements.kind import Kind
+from nivel.elements.states import Coupled
 from nivel.kernels.forces.hand import apply
-from nivel.machine.forces import Hand
+from nivel.machine.forces.hand import Hand
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
-from nivel.system.signals.state_facts import Coupled
 
 
 def add(builder: SystemBuilder, hand: Hand) -> None:
@@ -21,4 +21,4 @@ def add(builder: SystemBuilder, hand: Hand) -> None:
     builder.elements.add(apply, [first, *functions], [omega**2, 2.0 * hand.damping_ratio * omega])
 
 
-KINDS = (ForceKind(Hand, add, (apply,)),)
+KINDS = (Kind(Hand, add, (apply,)),)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.kind import Kind
 from nivel.kernels.forces import friction_work, heap
 from nivel.kernels.record.record import NONE
 from nivel.machine.bodies.shape import Sphere
-from nivel.machine.forces import Contacts
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.contacts import law_numbers
 from nivel.system.forces.friction_works import WORK, add_friction_work
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 
 # From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.
@@ -60,4 +60,4 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
     builder.elements.add(heap.apply, columns, [float(number) for number in numbers], places, tuple(range(places)))
 
 
-KINDS = (ForceKind(Contacts, add_contacts, (heap.apply, friction_work.apply)),)
+KINDS = (Kind(Contacts, add_contacts, (heap.apply, friction_work.apply)),)

@@ -10,7 +10,7 @@ from nivel.kernels.forces.height_field import CUBIC, OVERSHOOT
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import Elements
 from nivel.machine.bodies.surface import Triangles
-from nivel.machine.forces import HeightField
+from nivel.machine.forces.height_field import HeightField
 
 Array = NDArray[np.float64]
 

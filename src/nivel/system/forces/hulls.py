@@ -14,7 +14,7 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
 from nivel.machine.core.placement import frame_from_axes
-from nivel.machine.forces import Contact
+from nivel.machine.forces.contact import Contact
 
 Array = NDArray[np.float64]
 # Triangles whose normals agree to this are one face.

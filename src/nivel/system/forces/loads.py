@@ -6,14 +6,15 @@ import math
 
 import numpy as np
 
+from nivel.elements.forces.actuators import MotorRow, drive
+from nivel.elements.kind import Kind
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces import load
-from nivel.kernels.forces.motor import apply as motor
 from nivel.kernels.record.function import COORDINATE, RATE
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import PairForce, PointForce, Torque
+from nivel.machine.forces.load import PointForce, Torque
+from nivel.machine.forces.pair_force import PairForce
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.joints.interfaces import marker_place
 
@@ -44,7 +45,7 @@ def add_pair(builder: SystemBuilder, force: PairForce) -> None:
     if force.vector is None:
         assert force.magnitude is not None  # the record was checked
         law = builder.function(force.magnitude, {"length": (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
-        builder.elements.add(motor, [first, coordinate, law], [0.0, math.inf])
+        builder.add(drive, MotorRow(output=first, coordinate=coordinate, target=law, gain=0.0, limit=math.inf))
         return
     functions = [builder.function(component) for component in force.vector]
     axes = i if force.axes == "first" else NONE
@@ -52,7 +53,7 @@ def add_pair(builder: SystemBuilder, force: PairForce) -> None:
 
 
 KINDS = (
-    ForceKind(PointForce, add_load, (load.apply,)),
-    ForceKind(Torque, add_load, (load.apply,)),
-    ForceKind(PairForce, add_pair, (load.apply, motor)),
+    Kind(PointForce, add_load, (load.apply,)),
+    Kind(Torque, add_load, (load.apply,)),
+    Kind(PairForce, add_pair, (load.apply, drive)),
 )

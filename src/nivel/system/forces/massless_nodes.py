@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.kind import Kind
+from nivel.elements.states import StateFact
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces.spring_node import apply as spring_node
 from nivel.kernels.forces.spring_series import apply as spring_series
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import SpringNode, SpringSeries
+from nivel.machine.forces.spring_node import SpringNode
+from nivel.machine.forces.spring_series import SpringSeries
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
-from nivel.system.signals.state_facts import StateFact
 
 
 def add_spring_series(builder: SystemBuilder, force: SpringSeries) -> None:
@@ -59,6 +60,6 @@ def add_spring_node(builder: SystemBuilder, force: SpringNode) -> None:
 
 
 KINDS = (
-    ForceKind(SpringSeries, add_spring_series, (spring_series,)),
-    ForceKind(SpringNode, add_spring_node, (spring_node,)),
+    Kind(SpringSeries, add_spring_series, (spring_series,)),
+    Kind(SpringNode, add_spring_node, (spring_node,)),
 )

@@ -7,21 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.elements.kind import Kind
+from nivel.elements.states import StateFact
 from nivel.errors import Fault, ModelError
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces import capstan_rope, heavy_rope, wound_rope
 from nivel.kernels.forces import rope as straight
 from nivel.kernels.forces.wound_rope import WIDTH, tangent
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import Rope
-from nivel.machine.forces.between import GlobalPoint
+from nivel.machine.core.between import GlobalPoint
+from nivel.machine.forces.rope import Rope
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import GROUND, SystemBuilder
-from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import Placed, seen_from
-from nivel.system.signals.state_facts import StateFact
 from nivel.system.tables import Array
 
 
@@ -203,4 +203,4 @@ def _with_z(axis: Array) -> Array:
     return np.column_stack([x, np.cross(axis, x), axis])
 
 
-KINDS = (ForceKind(Rope, add, (straight.apply, wound_rope.apply, capstan_rope.apply, heavy_rope.apply)),)
+KINDS = (Kind(Rope, add, (straight.apply, wound_rope.apply, capstan_rope.apply, heavy_rope.apply)),)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from nivel.errors import ModelError
-from nivel.machine.forces import Rope
+from nivel.machine.forces.rope import Rope
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.forces.ropes import length_as_placed, way_as_placed
 

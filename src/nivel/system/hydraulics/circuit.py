@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.states import Coupled
 from nivel.kernels.hydraulics.volume import LAST_TEMPERATURE, VOLUME
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit
-from nivel.system.signals.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]

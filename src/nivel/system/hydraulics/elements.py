@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from nivel.elements.states import StateFact
 from nivel.kernels.hydraulics import gas, gas_flow, ledger, volume, warmth
 from nivel.kernels.hydraulics.fluid import START
 from nivel.kernels.hydraulics.phase import PHASES
@@ -14,7 +15,6 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.hydraulics.nodes import add_fluids, add_nodes, is_warm
 from nivel.system.located import located
-from nivel.system.signals.state_facts import StateFact
 
 OF_NODES: Final = (ledger.begin, volume.apply, ledger.apply)  # of every circuit
 OF_WARMTH: Final = (warmth.apply, warmth.warm)  # of liquids whose temperature is a state, before the ledger

@@ -6,12 +6,14 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from nivel.elements.restitution import damping_of_restitution
+from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.hydraulics import volume
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE, HEAT_CAPACITY, START
 from nivel.kernels.hydraulics.piston import STAGES, displace, guide, press
 from nivel.kernels.record.record import NONE
-from nivel.machine.forces import Ends
+from nivel.machine.core.between import Ends
 from nivel.machine.hydraulics import (
     Accumulator,
     Actuator,
@@ -35,12 +37,10 @@ from nivel.machine.hydraulics.grades import GRADES
 from nivel.machine.hydraulics.nodes import ROOM
 from nivel.machine.uses.hydraulic_uses import makers
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.restitution import damping_of_restitution
 from nivel.system.hydraulics.circuit import FLUID, Node
 from nivel.system.hydraulics.fluid_law import density_and_modulus
 from nivel.system.hydraulics.nitrogen_gas import nitrogen_room
 from nivel.system.located import located
-from nivel.system.signals.state_facts import Coupled, StateFact
 
 # pressure that the tolerance is a share of [Pa], and that masses start from until the circuit is at rest
 TYPICAL = 1e7

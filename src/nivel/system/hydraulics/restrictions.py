@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from nivel.elements.states import StateFact
 from nivel.kernels.hydraulics import gas_flow, restriction, spool
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics.component import Rating
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.system.builder import SystemBuilder
-from nivel.system.signals.state_facts import StateFact
 
 TRANSITION = 0.5e5  # Pa, of restrictions that do not say
 CRITICAL_RATIO = 0.3  # of pneumatic valves that do not say

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from nivel.elements.states import StateFact
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record.function import OUTPUT, STATE
 from nivel.kernels.record.record import NONE
@@ -13,7 +14,6 @@ from nivel.machine.control.part import VALUE
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
-from nivel.system.signals.state_facts import StateFact
 
 ONCE = 1e300  # [s] period of what is sampled once
 

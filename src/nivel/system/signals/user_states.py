@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.states import StateFact
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record.record import NONE, Sampled
 from nivel.machine.signals.state import State
 from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
 from nivel.system.signals.control import ONCE, SampleTable, add_samples
-from nivel.system.signals.state_facts import StateFact
 from nivel.system.signals.ticks import ticks
 from nivel.system.tables import index_array
 

@@ -15,7 +15,8 @@ from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Fra
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
 from nivel.machine.bodies.inertia import mass_of
-from nivel.machine.forces import Friction, TransmissionLoss
+from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Motion, Run
 from nivel.judge.after.touching_pairs import DEEP, HullPair, Pair, hulls_of, spheres_among, spheres_of, way_between
-from nivel.machine.forces import Contact, Contacts
+from nivel.machine.forces.contact import Contact
+from nivel.machine.forces.contacts import Contacts
 from nivel.results.scales import Readable, machine_size, rotated
 from nivel.results.trust import Item, Threshold, number
 

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.elements.forces import FORCES
 from nivel.judge.after.report import SECOND_RUN, Check, Need
 from nivel.judge.after.subject import Motion, Run
-from nivel.machine.forces import FORCES
 from nivel.results.motion import common_frames
 from nivel.results.peaks import peak
 from nivel.results.scales import (
@@ -130,11 +130,10 @@ def _works(result: Readable, step: float) -> list[tuple[str, float, float]]:
     """(name, largest work in a step [J], its time [s]) of the forces that can be stiff and do any."""
     record = json.loads(str(result.attributes.get("machine_record", "{}")))
     # a load that is given, or dry friction, changes no faster than what makes it
-    steady = [kind.model_fields["type"].default for kind in FORCES if not kind.stiff]
     out = []
     for force in record.get("forces", ()):
         variable = f"force.{force['name']}.power"
-        if force["type"] in steady or variable not in result.variables:
+        if not FORCES[force["type"]].record.stiff or variable not in result.variables:
             continue
         work = step * np.abs(result.array(variable))
         work[~np.isfinite(work)] = 0.0

@@ -13,7 +13,7 @@ from nivel.analysis.assembly.freedoms import coordinate_derivatives
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Run
 from nivel.kernels.elements import friction as columns
-from nivel.machine.forces import Friction
+from nivel.machine.forces.friction import Friction
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.frames.row_units import own_units

@@ -20,7 +20,7 @@ from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run
 from nivel.judge.after.touching_pairs import spheres_among
-from nivel.machine.forces import Contacts
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME

@@ -1,6 +1,6 @@
 """States of elements against their own inequalities: open or closed, slack or taut, held or sliding; and first-order states.
 
-Each kind of element declares its inequalities in its record (`nivel.machine.forces.element`). They are looked at in all frames of a run
+Each kind of element declares its inequalities in its record (`nivel.machine.core.element`). They are looked at in all frames of a run
 and of its second run: frames of steps that were chosen lie inside these, where an element keeps the side that it had at their begin.
 """
 
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
 from nivel.kernels.forces import ground_contact
-from nivel.machine.forces.element import Acts, Holds
+from nivel.machine.core.element import Acts, Holds
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.results.peaks import peak

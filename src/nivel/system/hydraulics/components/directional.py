@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nivel.elements.states import StateFact
 from nivel.kernels.hydraulics import load_signal, restriction, spool, spool_drive
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import DirectionalValve, LoadSensing, Section, SpoolValve
@@ -14,7 +15,6 @@ from nivel.system.hydraulics.components.spools import add_switch, closed_until
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import signal_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
-from nivel.system.signals.state_facts import StateFact
 
 ROUNDING = 0.02  # share of the stroke over which a load is first felt
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.hydraulics import engine, pump_control, restriction, rotary, rotary_map
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Engine, FlowSource, HydraulicMotor, Pump
@@ -15,7 +16,6 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow
-from nivel.system.signals.state_facts import Coupled, StateFact
 
 WITHOUT_CUT_OFF = 1e12  # Pa
 

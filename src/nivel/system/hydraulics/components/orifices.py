@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nivel.elements.states import StateFact
 from nivel.kernels.hydraulics import gas_line, line, pipe, restriction
 from nivel.kernels.hydraulics.fluid import DENSITY, MODULUS, VISCOSITY
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
@@ -15,7 +16,6 @@ from nivel.system.hydraulics.circuit import Node
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import line_nodes, tube_nodes
 from nivel.system.hydraulics.restrictions import add_flow, rated
-from nivel.system.signals.state_facts import StateFact
 
 CRITICAL_REYNOLDS = (0.3164 / 64.0) ** (-4.0 / 3.0)  # where 64/Re is 0.3164 Re^(-1/4)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from nivel.elements.states import StateFact
 from nivel.kernels.hydraulics import metering, restriction, spool, spool_drive
 from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Section, SpoolValve, Switching
@@ -19,7 +20,6 @@ from nivel.system.hydraulics.components.composed import Moved, sums
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import inner_nodes
 from nivel.system.hydraulics.restrictions import add_flow
-from nivel.system.signals.state_facts import StateFact
 
 SLOW_START = 1e-3  # [s] the least time in which a valve that switches moves
 DIRECTING = 4.0  # size of the edges behind a compensator over that of the metering ones

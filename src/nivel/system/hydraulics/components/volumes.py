@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.hydraulics import accumulator, reservoir, restriction
 from nivel.kernels.hydraulics.volume import THETA
 from nivel.machine.hydraulics import Accumulator, Reservoir, Tank, Volume
@@ -12,7 +13,6 @@ from nivel.system.hydraulics import symbols
 from nivel.system.hydraulics.kind import ComponentKind
 from nivel.system.hydraulics.nodes import accumulator_nodes, first_charge, reservoir_nodes, tank_nodes, volume_nodes
 from nivel.system.hydraulics.restrictions import TRANSITION, add_flow
-from nivel.system.signals.state_facts import Coupled, StateFact
 
 CREEP = 1e-3  # share of the rated flow by which a piston that sticks moves at the limit of its friction
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import Marker, TwoMarkers
 from nivel.machine.core.record import BodyName
-from nivel.machine.forces.element import ForceElement
 from nivel.machine.given import Field, Maybe, TwoNames, TwoPlaces
 from nivel.machine.units.quantity import Position
 

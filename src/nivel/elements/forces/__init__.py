@@ -1,0 +1,13 @@
+"""Forces: what loads bodies by their state, by time or by signals, without taking a freedom away."""
+
+from typing import TYPE_CHECKING, Annotated, Final
+
+from nivel.elements.kind import Kind, Kinds, OneOf
+from nivel.machine.core.element import ForceElement
+
+FORCES: Final = Kinds[Kind](__name__, "nivel.system.forces")
+
+if TYPE_CHECKING:
+    Force = ForceElement
+else:
+    Force = Annotated[ForceElement, OneOf(FORCES)]

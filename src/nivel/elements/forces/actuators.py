@@ -1,0 +1,297 @@
+"""End stops, motors and position servos on a joint coordinate."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+from nivel.elements.kind import Kind
+from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_value
+from nivel.elements.restitution import damping_of_restitution
+from nivel.elements.rows import Row
+from nivel.elements.states import StateFact
+from nivel.kernels.algebra.analytic import maximum, real
+from nivel.kernels.core.status import OK
+from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.wrench import add_coordinate_force
+from nivel.kernels.record.function import evaluate_function, evaluate_motion
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import (
+    CoordinateDamping,
+    CoordinateIntegral,
+    CoordinateStiffness,
+    CoordinateValue,
+    Exponent,
+    PositiveEffort,
+    PositiveGain,
+    Restitution,
+)
+from nivel.machine.core.element import ForceElement
+from nivel.machine.given import Field, Maybe
+from nivel.machine.laws.coordinate_function import CoordinateEffortFunction, CoordinatePosition, CoordinateSpeed
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.power_stiffness import PowerStiffness
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.tree import ExpressionError
+from nivel.machine.uses.coordinate_reference import CoordinateReference
+
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
+ACTS = of_effort("effort on the coordinate")
+VALUE = of_value("value", "coordinate")
+
+
+class Stop(ForceElement):
+    """A coordinate is pushed back where it passes `lower` or `upper`: effort stiffness · depth ** exponent, damped."""
+
+    outputs: ClassVar[tuple[str, ...]] = (*ACTS, Output("depth", "m|rad", "overlap"))
+
+    type: Literal["stop"] = "stop"
+    coordinate: CoordinateReference
+    lower: Maybe[CoordinateValue] = Field(default=None, description="end of the way on the negative side")
+    upper: Maybe[CoordinateValue] = Field(default=None, description="end of the way on the positive side")
+    exponent: Exponent = Field(default=1.0, description="of the depth")
+    stiffness: PowerStiffness
+    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+
+    def problems(self) -> Iterator[Problem]:
+        if self.lower is None and self.upper is None:
+            yield Problem((), "`lower` or `upper` is missing: a stop needs one end of the way, or both")
+        if self.lower is not None and self.upper is not None and self.lower >= self.upper:
+            yield Problem(("upper",), f"`upper` {self.upper:g} must be greater than `lower` {self.lower:g}")
+
+
+class Motor(ForceElement):
+    """An effort on a joint coordinate, given or that of a controller that holds a speed; at most `limit`.
+
+    It acts on the second body in the sense of the coordinate, and the counter-effort on the first.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*ACTS, *VALUE)
+
+    type: Literal["motor"] = "motor"
+    coordinate: CoordinateReference
+    effort: Maybe[CoordinateEffortFunction] = Field(default=None, description="force or torque")
+    speed: Maybe[CoordinateSpeed] = Field(default=None, description="held with the effort gain · (speed - rate)")
+    gain: Maybe[PositiveGain] = Field(default=None, description="effort per missing speed")
+    limit: Maybe[PositiveEffort] = Field(default=None, description="greatest magnitude of the effort")
+
+    def problems(self) -> Iterator[Problem]:
+        if self.effort is None and self.speed is None:
+            yield Problem((), "a motor needs an `effort`, or a `speed` and a `gain`")
+        if self.effort is not None and self.speed is not None:
+            yield superfluous("speed", "stands in place of `effort`; give one of them")
+        if self.speed is not None and self.gain is None:
+            yield Problem((), "`gain` is missing: effort per missing speed")
+        if self.speed is None and self.gain is not None:
+            yield superfluous("gain", "belongs to a `speed`, and none is given")
+
+
+class Servo(ForceElement):
+    """Effort stiffness · error + damping · d(error)/dt + integral · ∫ error dt, at most `limit`, with error = target - coordinate.
+
+    The rate of the target is known where it is a smooth function of time; else it counts as zero, and `damping` resists all motion.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*ACTS, *VALUE, Output("error", "m|rad", "target less coordinate"))
+
+    type: Literal["servo"] = "servo"
+    coordinate: CoordinateReference
+    target: CoordinatePosition = Field(description="length or angle that the coordinate shall have")
+    stiffness: CoordinateStiffness = Field(description="effort per error (proportional gain)")
+    damping: CoordinateDamping = Field(default=0.0, description="effort per rate of the error (derivative gain)")
+    integral: CoordinateIntegral = Field(default=0.0, description="effort per error and second (integral gain)")
+    limit: Maybe[PositiveEffort] = Field(default=None, description="greatest magnitude of the effort")
+
+
+class StopRow(Row):
+    """A stop on a COORDINATE; LOSS is x of `nivel.kernels.forces.impact`."""
+
+    output: int
+    coordinate: int
+    lower: float
+    upper: float
+    stiffness: float
+    exponent: float
+    loss: float
+
+
+class MotorRow(Row):
+    """A motor on a COORDINATE; where the GAIN is zero, TARGET is the effort."""
+
+    output: int
+    coordinate: int
+    target: int
+    gain: float
+    limit: float
+
+
+class ServoRow(Row):
+    """A servo on a COORDINATE. STATE is NONE where nothing is integrated. MOTION: whether the rate of the target is known."""
+
+    output: int
+    coordinate: int
+    target: int
+    state: int
+    stiffness: float
+    damping: float
+    integral: float
+    limit: float
+    motion: float
+
+
+@family
+def stop(machine, number, t):
+    """Compliant surfaces at LOWER and UPPER, see `nivel.kernels.forces.impact`."""
+    record = record_at(machine)
+    elements, coordinates, control = record.elements, record.coordinates, record.control
+    followed = record.watched.followed[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        n, memory, proposal, depth = elements.number[k], elements.memory[k], elements.proposal[k], elements.depth[k]
+        q, out = elements.columns[k, StopRow.COORDINATE], elements.columns[k, StopRow.OUTPUT]
+        c, rate = coordinates.value[q], coordinates.rate[q]
+        depth[0], depth[1] = n[StopRow.LOWER] - c, c - n[StopRow.UPPER]
+        if followed == 1:
+            elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
+        stiffness, exponent, x = n[StopRow.STIFFNESS], n[StopRow.EXPONENT], n[StopRow.LOSS]
+        up, stored, loss, proposal[0] = impact(depth[0], -rate, stiffness, exponent, x, memory[0], followed)
+        control.stored[0] += stored
+        control.power[1] += loss
+        down, stored, loss, proposal[1] = impact(depth[1], rate, stiffness, exponent, x, memory[1], followed)
+        control.stored[0] += stored
+        control.power[1] += loss
+        record.outputs.value[out] = up - down
+        record.outputs.value[out + 1] = add_coordinate_force(machine, q, up - down)
+        record.outputs.value[out + 2] = maximum(maximum(depth[0], depth[1]), 0.0)
+    return OK
+
+
+@family
+def drive(machine, number, t):
+    """Effort command, or gain (command - rate), cut off at ± limit."""
+    record = record_at(machine)
+    elements, coordinates = record.elements, record.coordinates
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        q, out = elements.columns[k, MotorRow.COORDINATE], elements.columns[k, MotorRow.OUTPUT]
+        gain, limit = elements.number[k, MotorRow.GAIN], elements.number[k, MotorRow.LIMIT]
+        effort = evaluate_function(machine, elements.columns[k, MotorRow.TARGET], t)
+        if real(gain) > 0.0:
+            effort = gain * (effort - coordinates.rate[q])
+        # not min and max: these would hide an effort that is not a number
+        if real(effort) > real(limit):
+            effort = limit
+        elif real(effort) < -real(limit):
+            effort = -limit
+        record.outputs.value[out] = effort
+        power = add_coordinate_force(machine, q, effort)
+        record.outputs.value[out + 1] = power
+        record.outputs.value[out + 2], record.outputs.value[out + 3] = coordinates.value[q], coordinates.rate[q]
+        record.control.power[0] += power
+    return OK
+
+
+@family
+def servo(machine, number, t):
+    """Effort of all servos. At the limit the error is integrated only where that leads back (conditional integration)."""
+    record = record_at(machine)
+    elements, coordinates, out = record.elements, record.coordinates, record.outputs.value
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        q, x, first = index[ServoRow.COORDINATE], index[ServoRow.STATE], index[ServoRow.OUTPUT]
+        rate = 0.0 * coordinates.rate[q]
+        if real(n[ServoRow.MOTION]) > 0.0:
+            target, rate, _ = evaluate_motion(machine, index[ServoRow.TARGET], t)
+        else:
+            target = evaluate_function(machine, index[ServoRow.TARGET], t)
+        error = target - coordinates.value[q]
+        effort = n[ServoRow.STIFFNESS] * error + n[ServoRow.DAMPING] * (rate - coordinates.rate[q])
+        if x != NONE:
+            effort = effort + n[ServoRow.INTEGRAL] * elements.state[x]
+        wanted, limit = real(effort), real(n[ServoRow.LIMIT])
+        if wanted > limit:
+            effort = n[ServoRow.LIMIT]
+        elif wanted < -limit:
+            effort = -n[ServoRow.LIMIT]
+        if x != NONE and not ((wanted > limit and real(error) > 0.0) or (wanted < -limit and real(error) < 0.0)):
+            elements.state_rate[x] += error
+        power = add_coordinate_force(machine, q, effort)
+        out[first], out[first + 1] = effort, power
+        out[first + 2], out[first + 3], out[first + 4] = coordinates.value[q], coordinates.rate[q], error
+        record.control.power[0] += power
+    return OK
+
+
+def add_stop(builder: SystemBuilder, force: Stop) -> None:
+    """Limit stops on a joint coordinate."""
+    coordinate = builder.coordinate(force.coordinate)
+    lower = -math.inf if force.lower is None else force.lower
+    upper = math.inf if force.upper is None else force.upper
+    row = StopRow(
+        output=add_outputs(builder, force, coordinate),
+        coordinate=coordinate,
+        lower=lower,
+        upper=upper,
+        stiffness=force.stiffness,
+        exponent=force.exponent,
+        loss=damping_of_restitution(force.restitution),
+    )
+    builder.add(stop, row, 2, tuple(k for k, end in enumerate((lower, upper)) if math.isfinite(end)))
+
+
+def add_motor(builder: SystemBuilder, force: Motor) -> None:
+    """An effort on a joint coordinate."""
+    coordinate = builder.coordinate(force.coordinate)
+    command = force.effort if force.effort is not None else force.speed
+    assert command is not None  # the record was checked
+    row = MotorRow(
+        output=add_outputs(builder, force, coordinate),
+        coordinate=coordinate,
+        target=builder.function(command),
+        gain=0.0 if force.speed is None else force.gain or 0.0,
+        limit=math.inf if force.limit is None else force.limit,
+    )
+    builder.add(drive, row)
+
+
+def add_servo(builder: SystemBuilder, force: Servo) -> None:
+    """A position servo on a joint coordinate."""
+    coordinate = builder.coordinate(force.coordinate)
+    first, motion, state = add_outputs(builder, force, coordinate), is_motion(force.target), NONE
+    if force.integral:
+        units = "rad" if is_angle(builder, coordinate) else "m"
+        fact = StateFact(f"{force.name}.integral", f"{units} s", f"integrated error of {force.name}", 0.0, 0.01)
+        state = builder.own_state(fact)
+    row = ServoRow(
+        output=first,
+        coordinate=coordinate,
+        target=builder.function(force.target, motion=motion),
+        state=state,
+        stiffness=force.stiffness,
+        damping=force.damping,
+        integral=force.integral,
+        limit=math.inf if force.limit is None else force.limit,
+        motion=float(motion),
+    )
+    builder.add(servo, row)
+
+
+def is_motion(target: TimeFunction) -> bool:
+    """Whether the rate of a target is known: a table of time, or a smooth expression of it."""
+    if isinstance(target, Table):
+        return not target.signals
+    try:
+        return isinstance(target, Expression) and target.derivative.derivative is not None
+    except ExpressionError:
+        return False
+
+
+KINDS = (
+    Kind(Stop, add_stop, (stop,)),
+    Kind(Motor, add_motor, (drive,)),
+    Kind(Servo, add_servo, (servo,)),
+)

@@ -1,0 +1,367 @@
+"""Springs and dampers: between points, between markers, on joint coordinates, and along the global axes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import BeforeValidator
+
+from nivel.elements.kind import Kind
+from nivel.elements.output import Output, add_outputs, of_effort, of_force, of_value
+from nivel.elements.rows import Row, several
+from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
+from nivel.kernels.core.status import OK
+from nivel.kernels.forces.wrench import add_coordinate_force, add_marker_force
+from nivel.kernels.record import function
+from nivel.kernels.record.function import evaluate_function, table_value
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.machine.core import coefficient as of
+from nivel.machine.core.between import Between, BetweenMarkers
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.element import ForceElement
+from nivel.machine.given import Field, ManyNumbers, Maybe, OneRecord, ThreeNumbers
+from nivel.machine.laws.coordinate_function import CoordinateLaw
+from nivel.machine.laws.time_function import SpringForce, SpringTorque
+from nivel.machine.units.quantity import Angle, Position, listed
+from nivel.machine.uses.coordinate_reference import CoordinateReference
+
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
+ThreeStiffnesses = Annotated[ThreeNumbers[of.Stiffness], BeforeValidator(listed)]
+ThreeDampings = Annotated[ThreeNumbers[of.Damping], BeforeValidator(listed)]
+ThreeForces = Annotated[ThreeNumbers[of.ForceValue], BeforeValidator(listed)]
+RESISTS = of_effort("effort that resists the coordinate")
+_check_columns = of.columns_of_coordinate({"deflections": of.COORDINATE, "efforts": of.COORDINATE_EFFORT})
+
+
+class Characteristic(Checked):
+    """Points of a spring's characteristic; `deflections` increase, beyond the ends the end slopes go on."""
+
+    column: ClassVar[str]  # the field that holds the efforts
+
+    deflections: ManyNumbers[Any]
+
+    @property
+    def points(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Deflections [m or rad] and efforts [N or N m]."""
+        return self.deflections, getattr(self, self.column)
+
+    def problems(self) -> Iterator[Problem]:
+        deflections, efforts = self.points
+        if len(deflections) != len(efforts):
+            counts = f"{len(efforts)} and {len(deflections)}"
+            yield Problem((self.column,), f"a table needs as many {self.column} as deflections; got {counts}")
+        if len(deflections) < 2:
+            yield Problem(("deflections",), f"two or more deflections were expected, got {len(deflections)}")
+        for at in range(1, len(deflections)):
+            if deflections[at] <= deflections[at - 1]:
+                before, here = f"{deflections[at - 1]:g}", f"{deflections[at]:g}"
+                yield Problem(("deflections", at), f"deflections increase; {here} does not come after {before}")
+                return
+
+
+class ForceTable(Characteristic):
+    """Force [N], tension positive, over the deflection `length - free_length` [m]."""
+
+    column = "forces"
+
+    deflections: of.Lengths = Field(description="length - free_length, increasing")
+    forces: of.Forces = Field(description="of the spring, tension positive")
+
+
+class TorqueTable(Characteristic):
+    """Torque [N m] over the deflection `angle - free_angle` [rad]."""
+
+    column = "torques"
+
+    deflections: of.Angles = Field(description="angle - free_angle, increasing")
+    torques: of.Torques = Field(description="with which the spring resists")
+
+
+class EffortTable(Characteristic):
+    """Effort [N or N m] over the deflection `coordinate - free_value` [m or rad]."""
+
+    column = "efforts"
+
+    deflections: Annotated[ManyNumbers[of.CoordinateValue], BeforeValidator(listed)] = Field(
+        description="coordinate - free_value, increasing"
+    )
+    efforts: Annotated[ManyNumbers[of.CoordinateEffort], BeforeValidator(listed)] = Field(
+        description="with which the spring resists"
+    )
+
+
+class SpringDamper(Between):
+    """Tension stiffness · (length - free_length) + damping · rate + preload, in N, between two points.
+
+    A `table` stands in place of the stiffness, a `law` in place of all of it.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*RESISTS, *of_value("length"))
+
+    type: Literal["spring-damper"] = "spring-damper"
+    stiffness: Maybe[of.Stiffness] = Field(default=None)
+    damping: of.Damping = Field(default=0.0)
+    free_length: Maybe[of.NotNegativeLength] = Field(default=None, description="at which the spring has no force")
+    preload: of.ForceValue = Field(default=0.0, description="added to the tension")
+    table: Maybe[OneRecord[ForceTable]] = Field(default=None, description="of the spring, in place of `stiffness`")
+    law: Maybe[SpringForce] = Field(default=None, description="the tension; may use `length` and `rate`")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        yield from self.problems_of_line()
+        yield from problems_of_spring(self, "free_length")
+        springs = self.law is None and (self.stiffness is not None or self.table is not None)
+        if springs and self.free_length is None:
+            yield Problem((), "`free_length` is missing: the length at which the spring has no force")
+
+
+class TorsionalSpringDamper(BetweenMarkers):
+    """Torque stiffness · (angle - free_angle) + damping · rate + preload, in N m, that resists the angle.
+
+    The angle is that of the second marker about the z axis of the first. A `table` stands in place of the stiffness, a
+    `law` in place of all of it.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*RESISTS, *of_value("angle"))
+    turns: ClassVar[bool] = True
+
+    type: Literal["torsional-spring-damper"] = "torsional-spring-damper"
+    stiffness: Maybe[of.TorsionalStiffness] = Field(default=None)
+    damping: of.TorsionalDamping = Field(default=0.0)
+    free_angle: Angle = Field(default=0.0, description="at which the spring has no torque")
+    preload: of.TorqueValue = Field(default=0.0, description="added to the torque that resists")
+    table: Maybe[OneRecord[TorqueTable]] = Field(default=None, description="of the spring, in place of `stiffness`")
+    law: Maybe[SpringTorque] = Field(default=None, description="the torque that resists; may use `angle` and `rate`")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        yield from problems_of_spring(self, "free_angle")
+
+
+class JointSpringDamper(ForceElement):
+    """Effort stiffness · (coordinate - free_value) + damping · rate + preload, in N or N m, that resists.
+
+    A `table` stands in place of the stiffness, a `law` in place of all of it.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*RESISTS, *of_value("value"))
+
+    type: Literal["joint-spring-damper"] = "joint-spring-damper"
+    coordinate: CoordinateReference
+    stiffness: Maybe[of.CoordinateStiffness] = Field(default=None)
+    damping: of.CoordinateDamping = Field(default=0.0)
+    free_value: of.CoordinateValue = Field(default=0.0, description="of the coordinate where the spring has no effort")
+    preload: of.CoordinateEffort = Field(default=0.0, description="added to the effort that resists")
+    table: Annotated[Maybe[OneRecord[EffortTable]], BeforeValidator(_check_columns)] = Field(
+        default=None, description="of the spring, in place of `stiffness`"
+    )
+    law: Maybe[CoordinateLaw] = Field(default=None, description="the effort that resists; may use `value` and `rate`")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from problems_of_spring(self, "free_value")
+
+
+class ThreeAxisSpring(Between):
+    """Along each global axis, a force stiffness · (displacement - free_displacement) + damping · rate + preload, in N, draws two points
+    together. The displacement is that of the second point from the first.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_force(),
+        *(Output(f"force_{axis}", "N", f"force on the second body along global {axis}") for axis in "xyz"),
+    )
+
+    type: Literal["three-axis-spring"] = "three-axis-spring"
+    stiffness: ThreeStiffnesses = Field(default=(0.0, 0.0, 0.0), description="along global x, y, z")
+    damping: ThreeDampings = Field(default=(0.0, 0.0, 0.0), description="along global x, y, z")
+    free_displacement: Position = Field(
+        default=(0.0, 0.0, 0.0), description="of the second point from the first, at which the springs have no force"
+    )
+    preload: ThreeForces = Field(
+        default=(0.0, 0.0, 0.0), description="added to the forces that draw the points together"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if not any((*self.stiffness, *self.damping, *self.preload)):
+            yield Problem((), "a three-axis-spring needs a `stiffness`, a `damping` or a `preload` along some axis")
+
+
+Spring = SpringDamper | TorsionalSpringDamper | JointSpringDamper
+
+
+def problems_of_spring(spring: Spring, free: str) -> Iterator[Problem]:
+    """What clashes in a spring; `free` is the name of its field for where the spring has no force."""
+    if spring.law is not None:
+        for name in ("stiffness", "table", "damping", free, "preload"):
+            if getattr(spring, name):
+                yield superfluous(name, "must not be given with a `law`, which is all that the element does")
+        return
+    if spring.stiffness is not None and spring.table is not None:
+        yield superfluous("table", "stands in place of `stiffness`; give one of them")
+    if spring.stiffness is None and spring.table is None:
+        if getattr(spring, free):
+            yield superfluous(free, "belongs to a `stiffness` or a `table`, and none is given")
+        if not spring.damping and not spring.preload:
+            message = f"a {spring.type} needs a `stiffness`, a `table`, a `damping`, a `preload` or a `law`"
+            yield Problem((), message)
+
+
+class SpringRow(Row):
+    """A spring on a coordinate; without LAW, TABLE and its integral ENERGY where these are NONE."""
+
+    output: int
+    at: int
+    table: int
+    energy: int
+    law: int
+    stiffness: float
+    damping: float
+    free: float
+    preload: float
+
+
+class AxesRow(Row):
+    """Springs along the global axes between the markers I and J."""
+
+    output: int
+    i: int
+    j: int
+    stiffness: Sequence[float] = several(3)
+    damping: Sequence[float] = several(3)
+    free: Sequence[float] = several(3)
+    preload: Sequence[float] = several(3)
+
+
+@family
+def resist(machine, number, t):
+    """Tension k (c - c0) + preload + d ċ, with a table in place of k (c - c0), or a law in place of all of it.
+
+    Spring and preload store energy (the table's integral is table ENERGY), the damper dissipates, a law works from outside.
+    """
+    record = record_at(machine)
+    elements, coordinates, control = record.elements, record.coordinates, record.control
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, numbers = elements.columns[k], elements.number[k]
+        q = index[SpringRow.AT]
+        c, rate = coordinates.value[q], coordinates.rate[q]
+        if index[SpringRow.LAW] != NONE:
+            tension = evaluate_function(machine, index[SpringRow.LAW], t)
+            control.power[0] -= tension * rate
+        else:
+            stretch = c - numbers[SpringRow.FREE]
+            damping = numbers[SpringRow.DAMPING] * rate
+            tension = numbers[SpringRow.STIFFNESS] * stretch + numbers[SpringRow.PRELOAD] + damping
+            control.stored[0] += (0.5 * numbers[SpringRow.STIFFNESS] * stretch + numbers[SpringRow.PRELOAD]) * stretch
+            control.power[1] += damping * rate
+            if index[SpringRow.TABLE] != NONE:
+                force, _, _ = table_value(record.functions, index[SpringRow.TABLE], stretch)
+                energy, _, _ = table_value(record.functions, index[SpringRow.ENERGY], stretch)
+                tension += force
+                control.stored[0] += energy
+        out = record.outputs.value
+        first = index[SpringRow.OUTPUT]
+        out[first], out[first + 1] = tension, add_coordinate_force(machine, q, -tension)
+        out[first + 2], out[first + 3] = c, rate
+    return OK
+
+
+@family
+def draw(machine, number, t):
+    """Forces of all elements, their energy and losses."""
+    record = record_at(machine)
+    bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        i, j, first = (
+            elements.columns[k, AxesRow.I],
+            elements.columns[k, AxesRow.J],
+            elements.columns[k, AxesRow.OUTPUT],
+        )
+        n, force = elements.number[k], record.outputs.value[first + 2 : first + 5]
+        for a in range(3):
+            stretch = markers.r[j, a] - markers.r[i, a] - n[AxesRow.FREE + a]
+            rate = markers.rdot[j, a] - markers.rdot[i, a]
+            damping = n[AxesRow.DAMPING + a] * rate
+            force[a] = -(n[AxesRow.STIFFNESS + a] * stretch + n[AxesRow.PRELOAD + a] + damping)
+            control.stored[0] += (0.5 * n[AxesRow.STIFFNESS + a] * stretch + n[AxesRow.PRELOAD + a]) * stretch
+            control.power[1] += damping * rate
+        x, y, z = force[0], force[1], force[2]
+        power = add_marker_force(bodies, markers, j, x, y, z) + add_marker_force(bodies, markers, i, -x, -y, -z)
+        record.outputs.value[first] = np.sqrt(x * x + y * y + z * z)
+        record.outputs.value[first + 1] = power
+    return OK
+
+
+def add_spring_damper(builder: SystemBuilder, force: SpringDamper) -> None:
+    """A spring and damper between two points."""
+    _add_spring(
+        builder, force, builder.coordinates.add(DISTANCE, *builder.ends(force.ends)), "length", force.free_length or 0.0
+    )
+
+
+def add_torsional_spring_damper(builder: SystemBuilder, force: TorsionalSpringDamper) -> None:
+    """A torsional spring and damper between two markers."""
+    _add_spring(builder, force, builder.coordinates.add(ROTATION, *builder.ends(force.ends)), "angle", force.free_angle)
+
+
+def add_joint_spring_damper(builder: SystemBuilder, force: JointSpringDamper) -> None:
+    """A spring and damper on a joint coordinate."""
+    _add_spring(builder, force, builder.coordinate(force.coordinate), "value", force.free_value)
+
+
+def _add_spring(builder: SystemBuilder, force: Spring, coordinate: int, symbol: str, free: float) -> None:
+    coordinate = builder.coordinates.use(coordinate)
+    first, law = add_outputs(builder, force, coordinate), NONE
+    table, energy = (NONE, NONE) if force.table is None else _characteristic(builder, force.table)
+    if force.law is not None:
+        symbols = {symbol: (function.COORDINATE, coordinate, 0), "rate": (function.RATE, coordinate, 0)}
+        law = builder.function(force.law, symbols)
+    row = SpringRow(
+        output=first,
+        at=coordinate,
+        table=table,
+        energy=energy,
+        law=law,
+        stiffness=force.stiffness or 0.0,
+        damping=force.damping,
+        free=free,
+        preload=force.preload,
+    )
+    builder.add(resist, row)
+
+
+def _characteristic(builder: SystemBuilder, table: Characteristic) -> tuple[int, int]:
+    """Tables of the effort over the deflection, and of the energy stored since zero deflection."""
+    x, effort = (np.array(column, dtype=float) for column in table.points)
+    slope = np.diff(effort) / np.diff(x)
+    slope = np.append(slope, slope[-1])
+    nothing = np.zeros(len(x))
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (effort[1:] + effort[:-1]) * np.diff(x))])
+    # the piece that holds zero, or the end piece that goes on to it
+    at = int(np.clip(np.searchsorted(x, 0.0, side="right") - 1, 0, len(x) - 1))
+    energy -= energy[at] - effort[at] * x[at] + 0.5 * slope[at] * x[at] ** 2
+    force = builder.functions.add_table(x.tolist(), np.column_stack([effort, slope, nothing, nothing]))
+    stored = builder.functions.add_table(x.tolist(), np.column_stack([energy, effort, 0.5 * slope, nothing]))
+    return force, stored
+
+
+def add_three_axis_spring(builder: SystemBuilder, force: ThreeAxisSpring) -> None:
+    """Springs and dampers along the global axes."""
+    first, (i, j), free = add_outputs(builder, force), builder.ends(force.ends), force.free_displacement
+    row = AxesRow(
+        output=first, i=i, j=j, stiffness=force.stiffness, damping=force.damping, free=free, preload=force.preload
+    )
+    builder.add(draw, row)
+
+
+KINDS = (
+    Kind(SpringDamper, add_spring_damper, (resist,)),
+    Kind(TorsionalSpringDamper, add_torsional_spring_damper, (resist,)),
+    Kind(JointSpringDamper, add_joint_spring_damper, (resist,)),
+    Kind(ThreeAxisSpring, add_three_axis_spring, (draw,)),
+)

@@ -1,0 +1,136 @@
+"""Kinds of elements by their words in machine files. A kind is found by what the file in its room says; nothing lists it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, reduce
+from importlib import import_module
+from operator import or_
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
+
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter, ValidationInfo
+from pydantic_core import CoreSchema, PydanticKnownError, core_schema
+
+if TYPE_CHECKING:
+    from nivel.kernels.record.hook import Family
+    from nivel.machine.machine_record import MachineRecord
+    from nivel.system.builder import SystemBuilder
+
+_WORD = re.compile(r'^    type: Literal\["([\w-]+)"\]', re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """record : its keys in machine files. add(builder, record) : adds its rows to the tables of a machine. families : kernels that it may
+    need. families_of(machine, record) : those that an element needs, where they are not all."""
+
+    record: type[Any]
+    add: Callable[[SystemBuilder, Any], None]
+    families: tuple[Family, ...] = ()
+    families_of: Callable[[MachineRecord, Any], tuple[Family, ...]] | None = None
+
+    def needed(self, machine: MachineRecord, element: Any) -> tuple[Family, ...]:
+        """The kernels that an element of `machine` needs."""
+        return self.families if self.families_of is None else self.families_of(machine, element)
+
+    @property
+    def type(self) -> str:
+        """The word for it in machine files."""
+        return str(self.record.model_fields["type"].default)
+
+
+KindT = TypeVar("KindT", bound=Kind)
+
+
+class Kinds(Mapping[str, KindT], Generic[KindT]):
+    """Kinds of some rooms by their words. A module is imported when its word is asked for, and all of them where kinds are counted."""
+
+    def __init__(self, *rooms: str) -> None:
+        self._rooms = rooms
+        self._kinds: dict[str, KindT] = {}
+
+    @cached_property
+    def _files(self) -> dict[str, Path]:
+        """Module → its file, of all modules of the rooms."""
+        folders = [(room, Path(str(import_module(room).__file__)).parent) for room in self._rooms]
+        return {
+            ".".join((room, *file.relative_to(folder).with_suffix("").parts)): file
+            for room, folder in folders
+            for file in sorted(folder.rglob("*.py"))
+            if file.name != "__init__.py"
+        }
+
+    @cached_property
+    def homes(self) -> dict[str, str]:
+        """Word → module whose record has it, found without importing it."""
+        return {word: module for module, file in self._files.items() for word in _WORD.findall(file.read_text("utf-8"))}
+
+    @cached_property
+    def _all(self) -> bool:
+        for module in self._files:
+            self._import(module)
+        return True
+
+    def _import(self, module: str) -> None:
+        self._kinds |= {kind.type: kind for kind in getattr(import_module(module), "KINDS", ())}
+
+    def __getitem__(self, word: str) -> KindT:
+        if word not in self._kinds and word in self.homes:
+            self._import(self.homes[word])
+        if word not in self._kinds:
+            _ = self._all
+        return self._kinds[word]
+
+    def __iter__(self) -> Iterator[str]:
+        _ = self._all
+        return iter(sorted(self._kinds))
+
+    def __len__(self) -> int:
+        return len([*self])
+
+    @property
+    def records(self) -> list[Any]:
+        """The records of all kinds."""
+        return [kind.record for kind in self.values()]
+
+    def register(self, kind: KindT) -> None:
+        """Let machines have a kind that is not of the package. Raises ValueError where its word is taken."""
+        if kind.type in self:
+            raise ValueError(f"there is a {self._rooms[0].rpartition('.')[2][:-1]} of type '{kind.type}' already")
+        self._kinds[kind.type] = kind
+
+    def withdraw(self, word: str) -> None:
+        """Let machines have a kind no longer that was registered."""
+        del self._kinds[word]
+
+
+class OneOf:
+    """Annotation of what is a record of one of some kinds, told apart by its `type`."""
+
+    def __init__(self, kinds: Kinds[Any]) -> None:
+        self._kinds = kinds
+
+    def read(self, value: Any, info: ValidationInfo) -> Any:
+        """The record. Raises ValidationError or PydanticKnownError."""
+        word = value.get("type", _NONE) if isinstance(value, Mapping) else getattr(value, "type", _NONE)
+        if word is _NONE:
+            raise PydanticKnownError("union_tag_not_found", {"discriminator": "'type'"})
+        if not isinstance(word, str) or word not in self._kinds:
+            expected = ", ".join(map(repr, self._kinds))
+            context = {"discriminator": "'type'", "tag": str(word), "expected_tags": expected}
+            raise PydanticKnownError("union_tag_invalid", context)
+        record = self._kinds[word].record
+        return record.__pydantic_validator__.validate_python(value, context=info.context)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        records: Any = Annotated[reduce(or_, self._kinds.records), Field(discriminator="type")]
+        return handler(TypeAdapter(records).core_schema)
+
+
+_NONE: Any = object()

@@ -1,0 +1,59 @@
+"""Outputs of an element: names with their units and meaning, told once, by its record."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+from nivel.kernels.bodies.coordinate import LAST_ANGLE
+
+if TYPE_CHECKING:
+    from nivel.machine.core.element import ForceElement
+    from nivel.system.builder import SystemBuilder
+
+
+class Output(str):
+    """Name of an output. units : where a length or a force is meant, and after `|` where an angle or a torque is."""
+
+    units: tuple[str, str]
+    meaning: str
+
+    def __new__(cls, name: str, units: str, meaning: str = "") -> Output:
+        made = super().__new__(cls, name)
+        linear, _, angular = units.partition("|")
+        made.units, made.meaning = (linear, angular or linear), meaning or name
+        return made
+
+
+POWER = Output("power", "W", "power into the machine")
+
+
+def of_effort(meaning: str) -> tuple[Output, Output]:
+    """What all forces begin with that act on a coordinate: a torque on an angle, a force on a length."""
+    return Output("magnitude", "N|N m", meaning), POWER
+
+
+def of_force(meaning: str = "magnitude", units: str = "N") -> tuple[Output, Output]:
+    """What all other forces begin with."""
+    return Output("magnitude", units, meaning), POWER
+
+
+def of_value(name: str, meaning: str = "") -> tuple[Output, Output]:
+    """A coordinate and its rate."""
+    return Output(name, "m|rad", meaning), Output("rate", "m/s|rad/s", f"rate of the {meaning or name}")
+
+
+def is_angle(builder: SystemBuilder, coordinate: int) -> bool:
+    """Whether a coordinate is an angle [rad] and not a length [m]."""
+    return builder.coordinates.what[coordinate][0] <= LAST_ANGLE
+
+
+def add_outputs(
+    builder: SystemBuilder, force: ForceElement, coordinate: int | None = None, without: Collection[str] = ()
+) -> int:
+    """Index of the first output of a force. coordinate : on which it acts. without : outputs that this one does not have."""
+    angle = coordinate is not None and is_angle(builder, coordinate)
+    outputs = [each for each in force.outputs if isinstance(each, Output) and each not in without]
+    return builder.outputs.add(
+        *((f"force.{force.name}.{each}", each.units[angle], f"{each.meaning} of {force.name}") for each in outputs)
+    )

@@ -1,0 +1,103 @@
+"""Rows of a family: what its kernel reads of each element, declared by name once for the kernel and for what fills it.
+
+    class SpringRow(Row):
+        output: int
+        at: int
+        law: int = NONE
+        stiffness: float
+        parts: Sequence[float] = several(3)
+
+Whole numbers are columns, indices of other things; the others are numbers. A kernel reads `columns[k, SpringRow.AT]` and
+`number[k, SpringRow.STIFFNESS]`, and `SpringRow(output=…, at=…, stiffness=…)` is a row with everything that it needs, or an error.
+"""
+
+from __future__ import annotations
+
+from inspect import get_annotations
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, dataclass_transform
+
+_MISSING: Any = object()
+
+
+class Filled(NamedTuple):
+    """A row of an element: its columns and its numbers."""
+
+    columns: list[int]
+    numbers: list[float]
+
+
+class Several(NamedTuple):
+    """A field with several places, or with as many as are given, at the end of a row, where their number is None."""
+
+    places: int | None
+    default: Any
+
+
+class Layout(ModuleType):
+    """A class of rows: the places of its fields, in capitals, and a call that fills one. As a module its names are constants for Numba."""
+
+    def __init__(self, declared: type) -> None:
+        name = declared.__name__
+        super().__init__(name, declared.__doc__)
+        self._fields: dict[str, tuple[bool, Several | None, Any]] = {}
+        places: dict[bool, int | None] = {True: 0, False: 0}
+        for field, annotation in get_annotations(declared).items():
+            kind = getattr(annotation, "__name__", annotation) if isinstance(annotation, type) else str(annotation)
+            kind = kind.rpartition("[")[2].removesuffix("]")
+            if kind not in ("int", "float"):
+                raise TypeError(
+                    f"{name}.{field} is a column, `int`, or a number, `float`, or several; got `{annotation}`"
+                )
+            default = vars(declared).get(field, _MISSING)
+            several = default if isinstance(default, Several) else None
+            place = places[kind == "int"]
+            if place is None:
+                raise TypeError(f"{name}.{field} stands behind a field of any length")
+            setattr(self, field.upper(), place)
+            places[kind == "int"] = place + 1 if several is None else several.places and place + several.places
+            self._fields[field] = kind == "int", several, default if several is None else several.default
+
+    def __call__(self, **values: Any) -> Filled:
+        if unknown := values.keys() - self._fields.keys():
+            raise TypeError(f"{self.__name__} has no {', '.join(sorted(unknown))}")
+        row = Filled([], [])
+        for field, (is_column, several, default) in self._fields.items():
+            value = values.get(field, default)
+            if value is _MISSING:
+                raise TypeError(f"{self.__name__} needs {field}")
+            entries = [value] if several is None else [*value]
+            if several is not None and several.places not in (None, len(entries)):
+                raise TypeError(f"{self.__name__} needs {several.places} of {field}, got {len(entries)}")
+            (row.columns if is_column else row.numbers).extend(entries)
+        return row
+
+
+def several(places: int | None = None, *, default: Any = _MISSING) -> Any:
+    """A field with several places; with as many as are given, at the end of a row, where their number is not told."""
+    return Several(places, default)
+
+
+if TYPE_CHECKING:
+
+    @dataclass_transform(kw_only_default=True, field_specifiers=(several,))
+    class RowClass(type):
+        def __getattr__(cls, name: str) -> int: ...
+
+    class Row(metaclass=RowClass):
+        """Base of what declares a row."""
+
+        columns: ClassVar[list[int]]
+        numbers: ClassVar[list[float]]
+
+else:
+
+    class RowClass(type):
+        """Makes a layout of every class of rows."""
+
+        def __new__(cls, name, bases, space):
+            made = super().__new__(cls, name, (), space)
+            return Layout(made) if bases else made
+
+    class Row(metaclass=RowClass):
+        """Base of what declares a row."""

@@ -158,7 +158,7 @@ class Machine(Model):
         from nivel.system.forces.stretched_ropes import stretched_ropes
 
         with self._faults_in_file():
-            ropes = [Fault("", 0, 0, f"forces.{name}", said) for name, said in stretched_ropes(self.record)]
+            ropes = [Fault.at(f"forces.{name}", said) for name, said in stretched_ropes(self.record)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
             return replace(check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks)))
 
@@ -349,7 +349,7 @@ class Machine(Model):
             (each,) if isinstance(each, str) else each for each in (select, parameters, platforms)
         )
         if fmi not in VERSIONS:
-            raise ModelError(Fault("", 0, 0, "fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
+            raise ModelError(Fault.at("fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
         self._refuse_target(path, force)
         values = defaults_of(self, paths)
         plan = self._plan({}, stepwise=True)
@@ -447,12 +447,12 @@ class Machine(Model):
 
         if n is None:
             if values:
-                raise ModelError(Fault("", 0, 0, "values", "lists of values make several copies: say how many, n=3"))
+                raise ModelError(Fault.at("values", "lists of values make several copies: say how many, n=3"))
             with chosen._faults_in_file():
                 return Simulation(plan, source=self.origin.source, record=record)
         if n < 1 or record:
             message = "copies keep no frames" if record else f"a number of copies of at least 1 was expected, got {n}"
-            raise ModelError(Fault("", 0, 0, "record" if record else "n", message))
+            raise ModelError(Fault.at("record" if record else "n", message))
         from nivel.analysis.run.many import Simulations
 
         if not values:
@@ -462,7 +462,7 @@ class Machine(Model):
 
         rows = rows_of(values)
         if len(rows) != n:
-            raise ModelError(Fault("", 0, 0, "values", f"lists of {n} values are needed; there are {len(rows)}"))
+            raise ModelError(Fault.at("values", f"lists of {n} values are needed; there are {len(rows)}"))
         machines = [chosen.with_values(row) for row in rows]
         plans = [each._plan(each.origin.settings_outside, stepwise=True) for each in machines]
         with chosen._faults_in_file():
@@ -589,7 +589,7 @@ class Machine(Model):
         names = [each for each in said if isinstance(each, str)]
         if len(names) < len(said):
             message = "exact slopes are those of outputs in words, such as 'max(hinge.angle)', not of functions"
-            raise ModelError(Fault("", 0, 0, "exact_slopes", message))
+            raise ModelError(Fault.at("exact_slopes", message))
 
         def exact(values: Mapping[str, float]) -> tuple[Any, Any]:
             import numpy as np
@@ -896,7 +896,7 @@ class Machine(Model):
             followed = open_result(motion) if isinstance(motion, str | PathLike) else motion
             if not isinstance(followed, Result):
                 message = f"a result or the name of its file was expected, got {type(motion).__name__}"
-                raise ModelError(Fault("", 0, 0, "inverse.motion", message))
+                raise ModelError(Fault.at("inverse.motion", message))
         with self._faults_in_file():
             found = inverse(methods, wanted, followed, listener=listener)
         replaced = [each for each in record.drivers if motion is not None and each.name not in wanted.hold]
@@ -1041,7 +1041,7 @@ class Machine(Model):
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
         if repeat < 1:
-            raise ModelError(Fault("", 0, 0, "repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
+            raise ModelError(Fault.at("repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
         asked = _given(settings)
         axes = Axes(**{key: value for key, value in asked.items() if key in Axes.model_fields})
         given = {key: value for key, value in asked.items() if key in COMMON}
@@ -1122,7 +1122,7 @@ def _sweep(
     for machine in made:
         if not isinstance(machine, Machine):
             raise ModelError(
-                Fault("", 0, 0, "make", f"a function that returns a Machine was expected; it returned {shown(machine)}")
+                Fault.at("make", f"a function that returns a Machine was expected; it returned {shown(machine)}")
             )
     code_of(made[0], settings.analysis, listener)
     shared = {name: getattr(settings, name) for name in ("analysis", "outputs", "save", "verify")}

@@ -46,6 +46,11 @@ class Fault:
         for field in ("file", "path", "message"):
             object.__setattr__(self, field, plain(getattr(self, field)))
 
+    @classmethod
+    def at(cls, path: str, message: str) -> Fault:
+        """A fault of an element whose place in a file is not known here: `Origin.placed` finds it."""
+        return cls("", 0, 0, path, message)
+
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}: " if self.line else ""
         return f"{place}{self.path}: {self.message}" if self.path else f"{place}{self.message}"
@@ -56,7 +61,7 @@ class ModelError(NivelError):
 
     def __init__(self, faults: Iterable[Fault] | Fault | str) -> None:
         if isinstance(faults, str):
-            faults = Fault("", 0, 0, "", faults)
+            faults = Fault.at("", faults)
         if isinstance(faults, Fault):
             faults = (faults,)
         self.faults: tuple[Fault, ...] = tuple(sorted(set(faults)))

@@ -99,7 +99,7 @@ def _values_and_slopes(
     def evaluate(x: Array) -> tuple[Array, Array]:
         if x.shape != (len(parameters),):
             message = f"{len(parameters)} values are needed, one for each parameter; there are {x.shape}"
-            raise ModelError(Fault("", 0, 0, "x", message))
+            raise ModelError(Fault.at("x", message))
         if x.tobytes() not in kept:
             values = dict(zip(parameters, map(float, x), strict=True))
             found = machine.with_values(values).gradient(outputs, parameters, check=False, **settings)
@@ -116,5 +116,5 @@ def _number(value: Any, output: str) -> float:
         message = (
             f"`{output}` is an array of shape {value.shape}; a function of an optimiser needs numbers, as `{output}.x`"
         )
-        raise ModelError(Fault("", 0, 0, output, message))
+        raise ModelError(Fault.at(output, message))
     return float(value.item())

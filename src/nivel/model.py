@@ -171,7 +171,7 @@ class Model(Elements):
     def __setattr__(self, name: str, value: Any) -> None:
         if name in MachineRecord.model_fields:
             message = f"nothing changes a machine; write `machine = machine.replace({name}=…)`, which gives another one"
-            raise ModelError(Fault("", 0, 0, name, message))
+            raise ModelError(Fault.at(name, message))
         object.__setattr__(self, name, value)
 
     @property
@@ -229,7 +229,7 @@ class Model(Elements):
     @property
     def remarks(self) -> tuple[Fault, ...]:
         """Values that are far from those of real machines, with the place where each stands; the machine is computed as it is."""
-        return tuple(self.origin.placed(Fault("", 0, 0, each.place, each.message) for each in remarks(self.record)))
+        return tuple(self.origin.placed(Fault.at(each.place, each.message) for each in remarks(self.record)))
 
     @property
     def parameters(self) -> Mapping[str, float]:
@@ -252,7 +252,7 @@ class Model(Elements):
         whole = whole_path(self.record, path)
         if whole == path and "." not in path and path not in MachineRecord.model_fields:
             names = [str(entry(each, "name")) for section in SECTIONS for each in getattr(self.record, section)]
-            raise ModelError(Fault("", 0, 0, "", unknown_word(path, list(dict.fromkeys(names)), "element")))
+            raise ModelError(Fault.at("", unknown_word(path, list(dict.fromkeys(names)), "element")))
         return value_at(self.record, whole)
 
     def _parameter(self, name: str) -> float:
@@ -334,7 +334,7 @@ class Model(Elements):
         try:
             made = elements_of(part.record, assembly)
         except NotRepresentableError as error:
-            raise ModelError(Fault("", 0, 0, name, str(error))) from None
+            raise ModelError(Fault.at(name, str(error))) from None
         more = {section: (*getattr(self.record, section), *records) for section, records in made.items() if records}
         return self._edited(more)
 

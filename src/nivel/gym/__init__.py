@@ -76,7 +76,7 @@ def environments(
     """So many environments side by side as a vector environment of Gymnasium; what is given is that of `environment`."""
     require("environments for reinforcement learning need", "gymnasium")
     if count < 1:
-        raise ModelError(Fault("", 0, 0, "count", f"at least one environment was expected, got {count}"))
+        raise ModelError(Fault.at("count", f"at least one environment was expected, got {count}"))
     from gymnasium.vector import SyncVectorEnv
 
     same = machine if isinstance(machine, Machine) else load(machine)

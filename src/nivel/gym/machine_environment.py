@@ -109,9 +109,7 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
     def _inputs(self, action: Any) -> dict[str, float]:
         given = np.asarray(action, dtype=float)
         if given.shape != self._low.shape:
-            raise ModelError(
-                Fault("", 0, 0, "action", f"{len(self._low)} numbers were expected, got {shown(given.tolist())}")
-            )
+            raise ModelError(Fault.at("action", f"{len(self._low)} numbers were expected, got {shown(given.tolist())}"))
         if self._scaled:
             given = self._low + 0.5 * (given + 1.0) * (self._high - self._low)
         # numbers of half the digits may pass a limit by their round-off
@@ -134,20 +132,18 @@ def _observed(
     names, low, high = [], [], []
     for name in [given] if isinstance(given, str) else given:
         if name not in sim:
-            raise ModelError(Fault("", 0, 0, "observe", unknown_word(str(name), sim.names, "name")))
+            raise ModelError(Fault.at("observe", unknown_word(str(name), sim.names, "name")))
         bounds = given[name] if isinstance(given, Mapping) else (-np.inf, np.inf)
         if not isinstance(bounds, list | tuple) or len(bounds) != 2 or not bounds[0] < bounds[1]:
             raise ModelError(
-                Fault(
-                    "", 0, 0, f"observe.{name}", f"the least and the greatest value were expected, got {shown(bounds)}"
-                )
+                Fault.at(f"observe.{name}", f"the least and the greatest value were expected, got {shown(bounds)}")
             )
         own = sim.components([name])
         names += own
         low += [bounds[0]] * len(own)
         high += [bounds[1]] * len(own)
     if not names:
-        raise ModelError(Fault("", 0, 0, "observe", "at least one name of a result was expected"))
+        raise ModelError(Fault.at("observe", "at least one name of a result was expected"))
     return tuple(names), Box(np.array(low, dtype=float), np.array(high, dtype=float), dtype=np.float64)
 
 
@@ -157,10 +153,10 @@ def _actions(machine: Machine, given: Sequence[str] | None) -> tuple[str, ...]:
     chosen = known if given is None else [given] if isinstance(given, str) else [*given]
     for name in chosen:
         if name not in known:
-            raise ModelError(Fault("", 0, 0, "actions", unknown_word(str(name), known, "input")))
+            raise ModelError(Fault.at("actions", unknown_word(str(name), known, "input")))
     if not chosen:
         said = "the machine has no input that an action could set; write `inputs: {push: {range: [-10, 10], units: N}}`"
-        raise ModelError(Fault("", 0, 0, "inputs", said))
+        raise ModelError(Fault.at("inputs", said))
     return tuple(chosen)
 
 
@@ -170,13 +166,13 @@ def _ranges(machine: Machine, vary: Mapping[str, Sequence[float | str]]) -> dict
     for path, given in vary.items():
         if not isinstance(given, list | tuple) or len(given) != 2:
             raise ModelError(
-                Fault("", 0, 0, f"vary.{path}", f"the least and the greatest value were expected, got {shown(given)}")
+                Fault.at(f"vary.{path}", f"the least and the greatest value were expected, got {shown(given)}")
             )
         # with units as the machine reads them
         low, high = (machine.with_values({path: each})[path] for each in given)
         if isinstance(low, bool) or not isinstance(low, int | float) or not low <= high:
             raise ModelError(
-                Fault("", 0, 0, f"vary.{path}", f"the least and the greatest number were expected, got {shown(given)}")
+                Fault.at(f"vary.{path}", f"the least and the greatest number were expected, got {shown(given)}")
             )
         out[path] = (float(low), float(high))
     return out
@@ -187,9 +183,9 @@ def _time(name: str, given: float | str) -> float:
     try:
         value = read_quantity(given, "time", {})
     except ExpressionError as problem:
-        raise ModelError(Fault("", 0, 0, name, expression_fault(problem, given).message())) from None
+        raise ModelError(Fault.at(name, expression_fault(problem, given).message())) from None
     if not 0.0 < value < np.inf:
-        raise ModelError(Fault("", 0, 0, name, f"a time above zero was expected, got {shown(given)}"))
+        raise ModelError(Fault.at(name, f"a time above zero was expected, got {shown(given)}"))
     return value
 
 
@@ -198,5 +194,5 @@ def _whole_steps(every: float | str, step: float) -> int:
     value = _time("every", every)
     count = round(value / step)
     if count < 1 or abs(count * step - value) > ROUND_OFF * step:
-        raise ModelError(Fault("", 0, 0, "every", f"{value:g} s is not a multiple of the step, {step:g} s"))
+        raise ModelError(Fault.at("every", f"{value:g} s is not a multiple of the step, {step:g} s"))
     return count

@@ -24,7 +24,7 @@ def reward_of(given: str | Callable[..., float], sim: Simulation) -> Reward:
         expression = Expression(given)
         signals = expression.signals
     except ExpressionError as problem:
-        raise ModelError(Fault("", 0, 0, "reward", f"`{given}`: {problem}")) from None
+        raise ModelError(Fault.at("reward", f"`{given}`: {problem}")) from None
     names = {signal: _result(signal, sim) for signal in signals}
 
     def reward(sim: Simulation, _action: Any) -> float:
@@ -33,7 +33,7 @@ def reward_of(given: str | Callable[..., float], sim: Simulation) -> Reward:
             return float(expression(sim.time, values))
         except ExpressionError as problem:
             said = f"`{given}` has no value at t = {sim.time:.6g} s: {problem}"
-            raise ModelError(Fault("", 0, 0, "reward", said)) from None
+            raise ModelError(Fault.at("reward", said)) from None
 
     return reward
 
@@ -44,4 +44,4 @@ def _result(signal: str, sim: Simulation) -> str:
     for name in tried:
         if name in sim and not hasattr(sim[name], "shape"):
             return name
-    raise ModelError(Fault("", 0, 0, "reward", unknown_word(signal, [*sim.names], "number of the results")))
+    raise ModelError(Fault.at("reward", unknown_word(signal, [*sim.names], "number of the results")))

@@ -73,11 +73,11 @@ def place_of(text: str, option: str) -> tuple[str, int]:
     """Address and port of HOST:PORT, or a port of this machine. Raises ModelError where it is neither, or the host is not known."""
     host, _, port = text.rpartition(":")
     if not port.isdecimal() or not 0 <= int(port) <= 65535:
-        raise ModelError(Fault("", 0, 0, option, f"HOST:PORT was expected, for instance 127.0.0.1:9000, got `{text}`"))
+        raise ModelError(Fault.at(option, f"HOST:PORT was expected, for instance 127.0.0.1:9000, got `{text}`"))
     try:
         return socket.gethostbyname(host or "127.0.0.1"), int(port)
     except (OSError, UnicodeError):
-        raise ModelError(Fault("", 0, 0, option, f"`{host}` is no host that is known here")) from None
+        raise ModelError(Fault.at(option, f"`{host}` is no host that is known here")) from None
 
 
 @dataclass
@@ -118,9 +118,7 @@ class Datagrams:
                 self._socket.bind(listen)
             except OSError as error:
                 where = f"{listen[0]}:{listen[1]}"
-                raise ModelError(
-                    Fault("", 0, 0, "udp", f"{where} cannot be listened at: {error.strerror or error}")
-                ) from None
+                raise ModelError(Fault.at("udp", f"{where} cannot be listened at: {error.strerror or error}")) from None
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, ROOM)
             self._socket.settimeout(WAIT)
             self._thread = threading.Thread(target=self._listen, daemon=True)

@@ -56,13 +56,13 @@ def pace_of(step: float, tick: float | None) -> Pace:
     """
     wanted = max(step, SHORTEST_TICK) if tick is None else tick
     if not wanted > 0.0:
-        raise ModelError(Fault("", 0, 0, "tick", f"a time greater than zero was expected, got {wanted:.6g} s"))
+        raise ModelError(Fault.at("tick", f"a time greater than zero was expected, got {wanted:.6g} s"))
     if wanted > LONGEST_TICK:
         problem = f"{wanted:.6g} s is longer than {LONGEST_TICK:g} s: inputs and the picture would lag behind"
-        raise ModelError(Fault("", 0, 0, "step" if tick is None else "tick", problem))
+        raise ModelError(Fault.at("step" if tick is None else "tick", problem))
     substeps = max(1, ceil(wanted / step - 1e-9)) if tick is None else max(1, round(wanted / step))
     if tick is not None and abs(substeps * step - tick) > 1e-9 * tick:
-        raise ModelError(Fault("", 0, 0, "tick", f"{tick:.6g} s is not a multiple of the step {step:.6g} s"))
+        raise ModelError(Fault.at("tick", f"{tick:.6g} s is not a multiple of the step {step:.6g} s"))
     return Pace(step, substeps, max(1, round(1.0 / (FRAMES_PER_SECOND * step * substeps))))
 
 
@@ -82,7 +82,7 @@ def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float |
     plan = plan_run(machine.replace(inputs=tuple(driven), simulation=simulation), set(settings), stepwise=True)
     if plan.settings.steps == 0:
         message = f"`{plan.settings.integrator}` chooses its steps; live operation needs fixed ones, for instance of rk4 or ros2"
-        raise ModelError(Fault("", 0, 0, "simulation.integrator", message))
+        raise ModelError(Fault.at("simulation.integrator", message))
     if plan.is_open:
         # the machine of the plan names what is chosen, so that a recording is replayed with it
         plan, _ = fitted(plan, prepare(plan.methods))
@@ -142,6 +142,6 @@ def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
             message = (
                 f"a machine with {block.what} cannot be operated; `nivel run` and `machine.start()` in Python run it"
             )
-            raise ModelError(Fault("", 0, 0, f"control.{block.name}.file", message))
+            raise ModelError(Fault.at(f"control.{block.name}.file", message))
     prepared = prepare(plan.methods)
     return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

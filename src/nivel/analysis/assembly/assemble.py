@@ -134,7 +134,7 @@ def _refuse_contradictions(machine: MachineRecord, motion: MotionEquations) -> N
                     f"contradicts the given positions of its bodies: {system.rows[row]} is open by {said}, more than the "
                     f"{allowed} {stated}; {further if length else TURN_A_MARKER}"
                 )
-                faults.append(Fault("", 0, 0, f"joints.{joint.name}", message))
+                faults.append(Fault.at(f"joints.{joint.name}", message))
                 break
     if faults:
         raise ModelError(faults)
@@ -169,18 +169,18 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
     for owner, rows in _rows_by_owner(system).items():
         worst = rows[int(np.argmax(share[rows]))]
         if not share[worst] <= OPEN:
-            faults.append(Fault("", 0, 0, f"{section_of(system, owner)}.{owner}", _gap(system, worst)))
+            faults.append(Fault.at(f"{section_of(system, owner)}.{owner}", _gap(system, worst)))
         elif owner in parallel:
             first = int(record.joints.first_marker[parallel[owner]])
             if record.markers.A[first, :, 2] @ record.markers.A[first + 1, :, 2] < 0.0:
                 message = "the z axes of its two markers point in opposite directions; turn one of them round"
-                faults.append(Fault("", 0, 0, f"joints.{owner}", message))
+                faults.append(Fault.at(f"joints.{owner}", message))
     for name, q, wanted in wishes.values:
         got = float(record.coordinates.value[q])
         if abs(got - wanted) > OPEN * max(1.0, system.size, abs(wanted)):
             joint, _, coordinate = name.partition(".")
             message = f"the start value {wanted:.6g} of {name} cannot be reached: the nearest value is {got:.6g}"
-            faults.append(Fault("", 0, 0, f"joints.{joint}.start.{coordinate}", message))
+            faults.append(Fault.at(f"joints.{joint}.start.{coordinate}", message))
     if faults:
         raise ModelError(faults)
 

@@ -116,7 +116,7 @@ def _refuse_strokes(machine: MachineRecord, system: System) -> None:
         unit, what = ("rad", "turned to") if turns else ("m", "between its ends")
         key = "lower" if turns else "retracted_length"
         message = f"{value:.6g} {unit} {what} at the start, and its stroke goes from {origin:.6g} to {origin + stroke:.6g} {unit}"
-        faults.append(Fault("", 0, 0, f"hydraulics.{actuator.name}.{key}", message))
+        faults.append(Fault.at(f"hydraulics.{actuator.name}.{key}", message))
     if faults:
         raise ModelError(faults)
 
@@ -317,7 +317,7 @@ class _Start:
             else:
                 told = "pumps and `load` drive it at t = 0 with more torque than its `drag`"
                 advice = "give it more `drag`, or drive it with less"
-            faults.append(Fault("", 0, 0, f"hydraulics.{engine.name}", f"no speed is steady: {told}; {advice}"))
+            faults.append(Fault.at(f"hydraulics.{engine.name}", f"no speed is steady: {told}; {advice}"))
         if faults:
             raise ModelError(faults)
 

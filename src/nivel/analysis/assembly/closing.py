@@ -173,7 +173,7 @@ def _least_solution(row: Index, body: Index, block: Array, bodies: int, target: 
             return np.asarray(np.linalg.lstsq(J.reshape(shape), target, rcond=1e-10)[0], dtype=np.float64)
         except np.linalg.LinAlgError:
             message = "the positions and lengths of the machine are too far apart in size to compute with"
-            raise ModelError(Fault("", 0, 0, "machine", message)) from None
+            raise ModelError(Fault.at("machine", message)) from None
     from scipy.sparse import csr_array
     from scipy.sparse.linalg import lsmr
 

@@ -40,7 +40,7 @@ def half_turns(machine: MachineRecord, motion: MotionEquations, t: float, y: Arr
     for name, _, marker, rows in _driven(machine, motion):
         if np.trace(_against_target(motion, t, y, marker, rows)) < 1.0:
             message = "the marker ends up half a turn from the orientation at the start: place the bodies that it hangs on nearer to it"
-            yield Fault("", 0, 0, f"drivers.{name}.orientation", message)
+            yield Fault.at(f"drivers.{name}.orientation", message)
     motion.evaluate(t, y)
 
 

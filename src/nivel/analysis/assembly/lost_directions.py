@@ -40,14 +40,14 @@ def refuse_lost_directions(machine: MachineRecord, motion: MotionEquations) -> N
                     f"its two {key} are at one place, {apart:.2g} m apart, so the line between them has no direction: move one of them, or "
                     f"write `type: spherical`"
                 )
-                faults.append(Fault("", 0, 0, f"joints.{joint.name}.{key}", message))
+                faults.append(Fault.at(f"joints.{joint.name}.{key}", message))
         elif joint.name in owners:
             key = "axes" if joint.axes is not None else "markers"
             message = (
                 f"the axes of its two markers are parallel here, and a {joint.type} joint needs them at an angle: turn one of them, e.g. "
                 f"`axes: [[0, 1, 0], [0, 0, 1]]`"
             )
-            faults.append(Fault("", 0, 0, f"joints.{joint.name}.{key}", message))
+            faults.append(Fault.at(f"joints.{joint.name}.{key}", message))
     if faults:
         raise ModelError(faults)
 

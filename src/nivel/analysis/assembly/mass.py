@@ -111,4 +111,4 @@ def _frame(machine: MachineRecord, system: System, about: str) -> tuple[Array, A
 
 
 def _fault(field: str, message: str) -> Fault:
-    return Fault("", 0, 0, f"mass_properties.{field}", message)
+    return Fault.at(f"mass_properties.{field}", message)

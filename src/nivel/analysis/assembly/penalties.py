@@ -86,7 +86,7 @@ def _too_soft(motion: MotionEquations, alpha: Array, mobile: Array, k: int) -> F
         f"α = {alpha[k]:.3g} does not hold {row}, which moves a mass of {1.0 / mobile[k]:.3g}: α has to be many times that, 1e4 or more; "
         f"`factor` in place of `alpha` takes that share for every row"
     )
-    return Fault("", 0, 0, "simulation.penalty.alpha", message)
+    return Fault.at("simulation.penalty.alpha", message)
 
 
 def feedback(system: System, penalty: Penalty, step: float, corrected: bool) -> Array:

@@ -26,13 +26,13 @@ def of_rows(system: System, given: Mapping[str, Settings], place: str) -> dict[i
         rows = [k for k, row in enumerate(system.rows) if name == row or row.startswith(f"{name}.")]
         if not rows:
             names = [*dict.fromkeys(row.split(".")[0] for row in system.rows), *system.rows]
-            faults.append(Fault("", 0, 0, f"{place}.rows.{name}", unknown_word(name, names, "constraint")))
+            faults.append(Fault.at(f"{place}.rows.{name}", unknown_word(name, names, "constraint")))
         elif not constrained.intersection(rows):
             message = (
                 f"`{name}` is no constraint in relative coordinates: it carries a body of the tree; write `coordinates: absolute`, or "
                 f"`cut: [{name.split('.')[0]}]`"
             )
-            faults.append(Fault("", 0, 0, f"{place}.rows.{name}", message))
+            faults.append(Fault.at(f"{place}.rows.{name}", message))
         (of_single if "." in name else of_joints).update(dict.fromkeys(rows, settings))
     if faults:
         raise ModelError(faults)

@@ -36,7 +36,7 @@ def refuse_tilted_axes(machine: MachineRecord, motion: MotionEquations) -> None:
         f"parallel, or the machine cannot move{also}; write the same axis there, or `assembly: {{parallel: {1.2 * first.angle:.2g} rad}}`, "
         f"which takes them as parallel (now {machine.assembly.parallel:.3g} rad)"
     )
-    raise ModelError(Fault("", 0, 0, f"joints.{first.joint}.{key}", message))
+    raise ModelError(Fault.at(f"joints.{first.joint}.{key}", message))
 
 
 def _freedoms(machine: MachineRecord, motion: MotionEquations) -> int:

@@ -182,12 +182,12 @@ def _refuse_impossible_rates(system: System, wishes: Wishes) -> None:
         for name in names:
             others = " and ".join(other for other in names if other != name)
             message = f"the joints do not allow the speed of this motion at the start together with that of {others}: drive one of them"
-            faults.append(Fault("", 0, 0, f"drivers.{name}", message))
+            faults.append(Fault.at(f"drivers.{name}", message))
         raise ModelError(faults)
     for row in prescribed or (() if missed else wrong):
         owner = system.row_owner[row]
         message = f"the velocities contradict each other: {system.rows[row]} cannot have the rate that is asked of it"
-        faults.append(Fault("", 0, 0, f"{section_of(system, owner)}.{owner}", message))
+        faults.append(Fault.at(f"{section_of(system, owner)}.{owner}", message))
     for name, rate, got in missed:
         joint, _, coordinate = name.partition(".")
         message = (
@@ -195,7 +195,7 @@ def _refuse_impossible_rates(system: System, wishes: Wishes) -> None:
         )
         if len(missed) > 1:
             message += "; of rates that the joints tie together give one"
-        faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
+        faults.append(Fault.at(f"joints.{joint}.start_rates.{coordinate}", message))
     if faults:
         raise ModelError(faults)
 

@@ -142,7 +142,7 @@ def _common_interval(steps: list[float], own: SimulationSettings) -> float:
             f"compared at common times; take steps like {', '.join(f'{steps[0] / k:g} s' for k in (1, 2, 4))}, or give an "
             f"output interval: cells whose step does not divide it are refused"
         )
-        raise ModelError(Fault("", 0, 0, "steps", message))
+        raise ModelError(Fault.at("steps", message))
     base = float(multiple) if len(steps) > 1 else steps[0]
     return base * max(1, ceil(own.duration / FRAMES / base * (1.0 - 1e-12)))
 
@@ -176,4 +176,4 @@ def _refuse_idle(
     if "cut" in given and own.cut and all(cell.method.coordinates != "relative" for cell in cells):
         faults.append(("cut", "no cell is in relative coordinates"))
     if faults:
-        raise ModelError(Fault("", 0, 0, name, f"`{name}` would have no effect: {reason}") for name, reason in faults)
+        raise ModelError(Fault.at(name, f"`{name}` would have no effect: {reason}") for name, reason in faults)

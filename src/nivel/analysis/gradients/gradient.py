@@ -227,10 +227,10 @@ def refuse(plan: Plan) -> None:
     name, faults = plan.settings.integrator, []
     if name in UNFOLLOWED:
         what = f"`integrator: {name}` has no gradients: {UNFOLLOWED[name]}"
-        faults.append(Fault("", 0, 0, "simulation.integrator", what))
+        faults.append(Fault.at("simulation.integrator", what))
     for kind, what in FOREIGN.items():
         if any(block.type == kind for block in plan.machine.control):
-            faults.append(Fault("", 0, 0, "control", f"{what} give no slopes, so a machine with one has no gradients"))
+            faults.append(Fault.at("control", f"{what} give no slopes, so a machine with one has no gradients"))
     if faults:
         raise ModelError(faults)
 
@@ -238,7 +238,7 @@ def refuse(plan: Plan) -> None:
 def _refuse_events(outputs: Sequence[Output], prepared: Prepared) -> None:
     names = prepared.motion.system.events
     faults = [
-        Fault("", 0, 0, each.label, f"there is no event `{each.name}`; events are: {', '.join(names) or 'none'}")
+        Fault.at(each.label, f"there is no event `{each.name}`; events are: {', '.join(names) or 'none'}")
         for each in outputs
         if each.is_event and each.name not in names
     ]

@@ -166,9 +166,9 @@ def outputs_of(labels: Sequence[str], result: Result, *, curves: bool = False) -
         try:
             out.append(_output(label, result, curves))
         except ModelError as error:
-            faults += [Fault("", 0, 0, label, each.message) for each in error.faults]
+            faults += [Fault.at(label, each.message) for each in error.faults]
     if not labels:
-        faults.append(Fault("", 0, 0, "outputs", "no output is given: give names of the result, ['max(rod.position)']"))
+        faults.append(Fault.at("outputs", "no output is given: give names of the result, ['max(rod.position)']"))
     if faults:
         raise ModelError(faults)
     return tuple(out)
@@ -180,7 +180,7 @@ def _output(label: str, result: Result, curves: bool) -> Output:
         if word == "time":
             return Output(label, name, is_event=True)
         if word not in REDUCTIONS:
-            raise ModelError(Fault("", 0, 0, label, unknown_word(word, [*REDUCTIONS, "time"], "function")))
+            raise ModelError(Fault.at(label, unknown_word(word, [*REDUCTIONS, "time"], "function")))
         result.selection(name)
         return Output(label, name, REDUCTIONS[word], by_time=word == "integral")
     if (when := _AT.match(label)) is not None:
@@ -194,9 +194,9 @@ def _time(text: str, result: Result) -> float:
     try:
         t = float(read_quantity(text, "time", {}))
     except (ExpressionError, TypeError, ValueError) as problem:
-        raise ModelError(Fault("", 0, 0, text, f"a time was expected, as `0.5 s`: {problem}")) from None
+        raise ModelError(Fault.at(text, f"a time was expected, as `0.5 s`: {problem}")) from None
     if not result.time[0] <= t <= result.time[-1]:
-        raise ModelError(Fault("", 0, 0, text, f"the run goes from {result.time[0]:g} s to {result.time[-1]:g} s"))
+        raise ModelError(Fault.at(text, f"the run goes from {result.time[0]:g} s to {result.time[-1]:g} s"))
     return t
 
 

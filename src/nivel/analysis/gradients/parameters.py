@@ -35,23 +35,19 @@ def parameters_of(machine: Model, paths: Sequence[str]) -> tuple[Parameter, ...]
     out: list[Parameter] = []
     faults: list[Fault] = []
     if not paths:
-        faults.append(
-            Fault("", 0, 0, "parameters", "no parameter is given: give paths of numbers, ['bodies.rod.mass']")
-        )
+        faults.append(Fault.at("parameters", "no parameter is given: give paths of numbers, ['bodies.rod.mass']"))
     for path in paths:
         try:
             value = machine[path]
         except ModelError as error:
-            faults += [Fault("", 0, 0, path, fault.message) for fault in error.faults]
+            faults += [Fault.at(path, fault.message) for fault in error.faults]
             continue
         if isinstance(value, bool) or not isinstance(value, int | float):
-            faults.append(Fault("", 0, 0, path, f"the parameter of a gradient is a number; here is {shown(value)}"))
+            faults.append(Fault.at(path, f"the parameter of a gradient is a number; here is {shown(value)}"))
         elif path.split(".")[0].strip() == "simulation":
-            faults.append(
-                Fault("", 0, 0, path, "settings of a run are no parameters of a gradient: it is that of one run")
-            )
+            faults.append(Fault.at(path, "settings of a run are no parameters of a gradient: it is that of one run"))
         elif path in (each.path for each in out):
-            faults.append(Fault("", 0, 0, path, "this parameter is given twice"))
+            faults.append(Fault.at(path, "this parameter is given twice"))
         else:
             out.append(Parameter(path, float(value), unit_of(machine, path)))
     if faults:

@@ -45,9 +45,7 @@ def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Para
         try:
             out.append(_slopes_beside(_records(loop), parameter, beside))
         except ModelError as error:
-            faults += [
-                Fault("", 0, 0, parameter.path, f"there is no gradient: {each.message}") for each in error.faults
-            ]
+            faults += [Fault.at(parameter.path, f"there is no gradient: {each.message}") for each in error.faults]
     if faults:
         raise ModelError(faults)
     return out
@@ -121,4 +119,4 @@ def _is_structure(name: str, array: Any) -> bool:
 
 def _other_machine(name: str) -> Fault:
     what = "its Python laws" if name == "functions.address" else f"the structure of its equations ({name})"
-    return Fault("", 0, 0, "", f"a small change of it changes {what}, not only numbers")
+    return Fault.at("", f"a small change of it changes {what}, not only numbers")

@@ -114,4 +114,4 @@ def _numbers(
 
 
 def _fault(field: str, message: str) -> Fault:
-    return Fault("", 0, 0, f"inverse.{field}", message)
+    return Fault.at(f"inverse.{field}", message)

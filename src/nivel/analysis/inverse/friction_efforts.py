@@ -39,7 +39,7 @@ def acting_drivers(machine: MachineRecord, actuation: Actuation, *, recorded: bo
         f"friction is loaded by the reactions, which depend on the efforts that are sought: with {what} they are not found; let drivers or "
         f"a trajectory prescribe exactly the coordinates of the actuators, without limits (drivers prescribe {driven})"
     )
-    raise ModelError(Fault("", 0, 0, f"forces.{name}", message))
+    raise ModelError(Fault.at(f"forces.{name}", message))
 
 
 def driven_alone(machine: MachineRecord, actuation: Actuation) -> MachineRecord:

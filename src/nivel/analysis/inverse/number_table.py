@@ -39,4 +39,4 @@ def _number(text: str, option: str, where: str) -> float:
 
 
 def _fault(option: str, message: str) -> Fault:
-    return Fault("", 0, 0, option, message)
+    return Fault.at(option, message)

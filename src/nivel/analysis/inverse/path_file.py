@@ -16,6 +16,6 @@ def read_path(path: str) -> tuple[Array, Array, Array | None]:
     names, columns = read_table(path, "inverse.path")
     if tuple(names) not in (PLACE, PLACE + AXES) or not columns[0]:
         wanted = f"`{','.join(PLACE)}`, with `{','.join(AXES)}` behind them or not, and then numbers"
-        raise ModelError(Fault("", 0, 0, "inverse.path", f"{path} must begin with {wanted}; got `{','.join(names)}`"))
+        raise ModelError(Fault.at("inverse.path", f"{path} must begin with {wanted}; got `{','.join(names)}`"))
     values = np.array(columns)
     return values[0], values[1:4].T, values[4:].T if len(values) > len(PLACE) else None

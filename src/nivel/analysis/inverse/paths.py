@@ -287,4 +287,4 @@ def _quantity(field: str, unit: str, value: Any, faults: list[Fault]) -> float:
 
 
 def _fault(field: str, message: str) -> Fault:
-    return Fault("", 0, 0, f"inverse_kinematics.{field}", message)
+    return Fault.at(f"inverse_kinematics.{field}", message)

@@ -46,4 +46,4 @@ def along_trajectory(machine: MachineRecord, path: str | PathLike[str]) -> Machi
 
 
 def _fault(message: str) -> Fault:
-    return Fault("", 0, 0, "inverse.trajectory", message)
+    return Fault.at("inverse.trajectory", message)

@@ -83,15 +83,13 @@ class _Curve:
         message = (
             f"positions that follow each other are those of machines with one free motion, here are {count}: {how}"
         )
-        raise ModelError(Fault("", 0, 0, "kinematics.through", message))
+        raise ModelError(Fault.at("kinematics.through", message))
 
     def directions(self) -> Array:
         """(f, 6 B) free motions in the position last evaluated."""
         found = freedoms(self.motion)
         if found is None:
-            raise ModelError(
-                Fault("", 0, 0, "kinematics.through", "the machine is too large for its curve of positions")
-            )
+            raise ModelError(Fault.at("kinematics.through", "the machine is too large for its curve of positions"))
         return (found.without(self.idle) if len(self.idle) else found).directions
 
     def place(self, y: Array, before: Array | None) -> _Place | None:
@@ -189,7 +187,7 @@ def configuration_curve(machine: MachineRecord, coordinate: str) -> Configuratio
     """
     curve = _Curve(machine)
     if curve.start is None:
-        raise ModelError(Fault("", 0, 0, "kinematics.through", "the machine starts in a singular position"))
+        raise ModelError(Fault.at("kinematics.through", "the machine starts in a singular position"))
     k = list(curve.names).index(coordinate)
     places, arcs, turning, crossed, h, closed = [curve.start], [0.0], [], [], LONGEST, False
 

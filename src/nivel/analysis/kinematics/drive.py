@@ -29,7 +29,7 @@ def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[Machin
         for driver in machine.drivers:
             if driver.coordinate is not None and settings.drive in (driver.coordinate, f"{driver.coordinate}.angle"):
                 message = f"`{settings.drive}` is driven by {driver.name} already: leave `drive` out, or that driver"
-                raise ModelError(Fault("", 0, 0, "kinematics.drive", message))
+                raise ModelError(Fault.at("kinematics.drive", message))
         start = present_value(machine, settings.drive)[0] if settings.start is None else settings.start
         end = start + 2.0 * pi if settings.end is None else settings.end
         settings = settings.replace(start=start, end=end)

@@ -103,4 +103,4 @@ def _sum(place: str, law: Any, state: str, time: float) -> Expression:
             return Expression(f"{float(law)!r} + {state}.value")
     key = place.rpartition(".")[2]
     message = f"no input can be added to a table of a signal or a law in Python: write it as `{key}: lever.value`, with an input `lever`"
-    raise ModelError(Fault("", 0, 0, place, message))
+    raise ModelError(Fault.at(place, message))

@@ -90,7 +90,7 @@ class Catalogue:
         if found is None:
             near = get_close_matches(name, known, n=3, cutoff=0.5)
             hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(list(known)[:8])} …"
-            faults.append(Fault("", 0, 0, f"linearise.{field}", f"there is no {field[:-1]} `{name}`; {hint}"))
+            faults.append(Fault.at(f"linearise.{field}", f"there is no {field[:-1]} `{name}`; {hint}"))
         return found
 
     # --- outputs ---

@@ -197,4 +197,4 @@ def _tilde(x: Array) -> Array:
 
 
 def _fault(message: str) -> ModelError:
-    return ModelError(Fault("", 0, 0, "about", message))
+    return ModelError(Fault.at("about", message))

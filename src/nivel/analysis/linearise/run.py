@@ -170,7 +170,7 @@ def _no_modes(settings: LineariseSettings, *, moves: bool, jumps: bool) -> str:
 def _refuse_large(instant: Instant) -> None:
     if instant.n > MOST:
         message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: use `nivel statics --modes`"
-        raise ModelError(Fault("", 0, 0, "linearise", message))
+        raise ModelError(Fault.at("linearise", message))
 
 
 def _states(instant: Instant, reduction: Reduction) -> _States:

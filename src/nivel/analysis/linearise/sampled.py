@@ -146,7 +146,7 @@ def _instants(samples: Sequence[Sample]) -> tuple[Fraction, list[tuple[Fraction,
     period = Fraction(lcm(*(int(each * denominator) for each in periods)), denominator)
     if sum(period / each.period for each in samples) > MOST:
         message = f"the samples have a common period of {float(period):.6g} s only: choose sample times that are multiples of each other"
-        raise ModelError(Fault("", 0, 0, "control", message))
+        raise ModelError(Fault.at("control", message))
     due: dict[Fraction, list[Sample]] = {}
     for each in samples:
         for j in range(int(period / each.period)):

@@ -51,7 +51,7 @@ class Box:
         from scipy.stats import qmc
 
         if count < 1:
-            raise ModelError(Fault("", 0, 0, "starts", f"a number of starts of at least 1 was expected, got {count}"))
+            raise ModelError(Fault.at("starts", f"a number of starts of at least 1 was expected, got {count}"))
         first = self.scaled(self.start)[None]
         if count == 1:
             return first
@@ -62,9 +62,7 @@ class Box:
 def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
     """parameters : (low, high) or (low, start, high) by path, numbers or texts with units. Raises ModelError with all that is wrong."""
     if not parameters:
-        raise ModelError(
-            Fault("", 0, 0, "parameters", "nothing varies: give bounds by path, {'bodies.rod.mass': (1, 3)}")
-        )
+        raise ModelError(Fault.at("parameters", "nothing varies: give bounds by path, {'bodies.rod.mass': (1, 3)}"))
     rows, faults = [], []
     for path, given in parameters.items():
         try:
@@ -76,12 +74,12 @@ def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
             numbers = []
         if len(numbers) not in (2, 3) or isinstance(given, str) or not numbers[0] < numbers[-1]:
             message = f"bounds were expected, (1, 3), or (1, 2, 3) with a start between them, the least first, got {shown(given)}"
-            faults.append(Fault("", 0, 0, path, message))
+            faults.append(Fault.at(path, message))
             continue
         low, high = numbers[0], numbers[-1]
         start = numbers[1] if len(numbers) == 3 else _present(machine, path, low, high)
         if not low <= start <= high:
-            faults.append(Fault("", 0, 0, path, f"a start between {low:g} and {high:g} was expected, got {start:g}"))
+            faults.append(Fault.at(path, f"a start between {low:g} and {high:g} was expected, got {start:g}"))
         rows.append((low, high, start))
     if faults:
         raise ModelError(faults)
@@ -153,9 +151,7 @@ class Evaluations:
         self.start, self._threads, self.prepared_because = 0, 1, "slopes are exact"
         if exact is not None:
             if time_limit is not None:
-                raise ModelError(
-                    Fault("", 0, 0, "time_limit", "runs with exact slopes have no time limit: leave one out")
-                )
+                raise ModelError(Fault.at("time_limit", "runs with exact slopes have no time limit: leave one out"))
             return
         rng = np.random.default_rng(0)
         rows = [

@@ -118,7 +118,7 @@ def identify(
     attributes = {"analysis": "identify", "machine": machine.name, "seconds": perf_counter() - begin}
     found = ends[int(np.argmin(reached))]
     if not np.isfinite(evaluations.at(found.x)).all():
-        fault = Fault("", 0, 0, "data", "no start has results at all measurements")
+        fault = Fault.at("data", "no start has results at all measurements")
         table = _table(evaluations, attributes)
         raise nothing_found(evaluations.made, fault, _when_measured(signals), table)
     z, r, bound = fit.on_bounds(found.x)
@@ -263,11 +263,11 @@ def _check_signals(signals: Sequence[Signal], box: Box) -> None:
     """Raise ModelError where deviations are known of some signals, or there are too few measurements."""
     known = [each.deviation is not None for each in signals]
     if any(known) and not all(known):
-        raise ModelError(Fault("", 0, 0, "deviations", "give the standard deviation of all signals, or of none"))
+        raise ModelError(Fault.at("deviations", "give the standard deviation of all signals, or of none"))
     count = sum(len(each.values) for each in signals)
     if count <= len(box.paths):
         message = f"{count} measurements do not determine {len(box.paths)} parameters"
-        raise ModelError(Fault("", 0, 0, "data", message))
+        raise ModelError(Fault.at("data", message))
 
 
 def _when_measured(signals: Sequence[Signal]) -> str:
@@ -278,7 +278,7 @@ def _when_measured(signals: Sequence[Signal]) -> str:
 def _check_units(signals: Sequence[Signal], result: Result) -> None:
     """Raise ModelError where measurements are given in a unit that the result does not have."""
     faults = [
-        Fault("", 0, 0, f"data.{each.name}", wrong)
+        Fault.at(f"data.{each.name}", wrong)
         for each in signals
         if each.units and (wrong := another_measure(f"1 {each.units}", result.units(each.name)))
     ]

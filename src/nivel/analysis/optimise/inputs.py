@@ -34,16 +34,16 @@ def course_of(record: MachineRecord, inputs: Mapping[str, int], duration: float)
     known, faults = {each.name: each for each in record.inputs}, []
     for name, pieces in inputs.items():
         if name not in known:
-            faults.append(Fault("", 0, 0, "inputs", unknown_word(name, list(known), "input")))
+            faults.append(Fault.at("inputs", unknown_word(name, list(known), "input")))
         elif not isinstance(pieces, int) or isinstance(pieces, bool) or pieces < 1:
-            faults.append(Fault("", 0, 0, f"inputs.{name}", f"a number of pieces was expected, got {shown(pieces)}"))
+            faults.append(Fault.at(f"inputs.{name}", f"a number of pieces was expected, got {shown(pieces)}"))
         elif not np.isfinite(known[name].range).all():
             message = f"the input `{name}` needs a range, within which it is looked for: range: [-10, 10]"
-            faults.append(Fault("", 0, 0, f"inputs.{name}.range", message))
+            faults.append(Fault.at(f"inputs.{name}.range", message))
     if not inputs:
-        faults.append(Fault("", 0, 0, "inputs", "name the inputs and their pieces, {'push': 10}"))
+        faults.append(Fault.at("inputs", "name the inputs and their pieces, {'push': 10}"))
     if len({*inputs.values()}) > 1 and not faults:
-        faults.append(Fault("", 0, 0, "inputs", "all inputs are cut into the same number of pieces"))
+        faults.append(Fault.at("inputs", "all inputs are cut into the same number of pieces"))
     if faults:
         raise ModelError(faults)
     (pieces,) = {*inputs.values()}

@@ -26,17 +26,17 @@ def signals_of(data: str | PathLike[str] | Mapping[str, Any], deviations: Mappin
     given = _arrays(data) if isinstance(data, Mapping) else _columns(fspath(data))
     there = ", ".join(f"`{name}`" for name in given)
     faults = [
-        Fault("", 0, 0, f"deviations.{name}", f"there are no measurements of `{name}`; there are {there}")
+        Fault.at(f"deviations.{name}", f"there are no measurements of `{name}`; there are {there}")
         for name in deviations
         if name not in given
     ]
     faults += [
-        Fault("", 0, 0, f"deviations.{name}", f"a number above zero in SI units was expected, got {shown(value)}")
+        Fault.at(f"deviations.{name}", f"a number above zero in SI units was expected, got {shown(value)}")
         for name, value in deviations.items()
         if name in given and not (isinstance(value, int | float) and value > 0.0)
     ]
     if not given:
-        faults.append(Fault("", 0, 0, "data", "there are no measurements"))
+        faults.append(Fault.at("data", "there are no measurements"))
     if faults:
         raise ModelError(faults)
     return [Signal(name, times, values, deviations.get(name), units) for name, (times, values, units) in given.items()]
@@ -48,13 +48,13 @@ def _arrays(data: Mapping[str, Any]) -> dict[str, Columns]:
         try:
             times, values = (np.asarray(each, dtype=float).ravel() for each in pair)
         except (TypeError, ValueError):
-            faults.append(Fault("", 0, 0, f"data.{name}", f"times and values were expected, got {shown(pair)}"))
+            faults.append(Fault.at(f"data.{name}", f"times and values were expected, got {shown(pair)}"))
             continue
         if not np.isfinite([*times, *values]).all():
-            faults.append(Fault("", 0, 0, f"data.{name}", "times and values have numbers that are not finite"))
+            faults.append(Fault.at(f"data.{name}", "times and values have numbers that are not finite"))
         elif len(times) != len(values):
             message = f"as many numbers as times were expected, got {len(values)} over {len(times)}"
-            faults.append(Fault("", 0, 0, f"data.{name}", message))
+            faults.append(Fault.at(f"data.{name}", message))
         out[name] = (times, values, "")
     if faults:
         raise ModelError(faults)

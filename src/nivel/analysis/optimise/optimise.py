@@ -87,7 +87,7 @@ def optimise(
     `result` is the table of all variants.
     """
     if method not in SEARCH_METHODS:
-        raise ModelError(Fault("", 0, 0, "method", unknown_word(method, SEARCH_METHODS, "method")))
+        raise ModelError(Fault.at("method", unknown_word(method, SEARCH_METHODS, "method")))
     said = {"objective": aim.objective, **(aim.outputs or {})}
     if method in LIBRARIES_OF:
         require(f"the method `{method}` needs", LIBRARIES_OF[method])
@@ -125,7 +125,7 @@ def optimise(
     }
     if not np.isfinite(values[best]):
         otherwise = "it is no number: its time is outside the run, or its event does not come"
-        fault = Fault("", 0, 0, "objective", "no start has one")
+        fault = Fault.at("objective", "no start has one")
         raise nothing_found(evaluations.made, fault, otherwise, table_of(evaluations, names, attributes))
     outputs = dict(zip(names, map(float, evaluations.at(found[best])), strict=True))
     chosen = box.values(found[best])
@@ -165,7 +165,7 @@ def _check_events(machine: Model, said: Mapping[str, Said]) -> None:
     """Raise ModelError where the time of an event is asked for that the machine does not have."""
     known = [each.name for each in machine.record.events]
     faults = [
-        Fault("", 0, 0, name, unknown_word(event, known, "event"))
+        Fault.at(name, unknown_word(event, known, "event"))
         for name, each in said.items()
         if (event := event_of(each)) and event not in known
     ]
@@ -177,24 +177,24 @@ def _checked_limits(limits: Limits, said: Mapping[str, Said], method: str) -> di
     out, faults = {}, []
     for name, given in limits.items():
         if name not in said:
-            faults.append(Fault("", 0, 0, "limits", unknown_word(name, list(said), "output")))
+            faults.append(Fault.at("limits", unknown_word(name, list(said), "output")))
             continue
         if not isinstance(given, tuple | list) or len(given) != 2 or given[0] is given[1] is None:
             message = f"the least and the greatest value were expected, (None, 5.0), got {shown(given)}"
-            faults.append(Fault("", 0, 0, f"limits.{name}", message))
+            faults.append(Fault.at(f"limits.{name}", message))
             continue
         low, high = (-np.inf if given[0] is None else given[0], np.inf if given[1] is None else given[1])
         if not all(isinstance(each, Real) and not isinstance(each, bool) for each in (low, high)):
             message = f"numbers in SI units were expected, (None, 5.0), got {shown(given)}"
-            faults.append(Fault("", 0, 0, f"limits.{name}", message))
+            faults.append(Fault.at(f"limits.{name}", message))
         elif not low <= high:
             message = f"a least value below the greatest was expected, got {low:g} and {high:g}"
-            faults.append(Fault("", 0, 0, f"limits.{name}", message))
+            faults.append(Fault.at(f"limits.{name}", message))
         else:
             out[name] = (float(low), float(high))
     if out and method == "L-BFGS-B":
         message = f"`{method}` knows no limits of outputs; {', '.join(CONSTRAINED)} do"
-        faults.append(Fault("", 0, 0, "method", message))
+        faults.append(Fault.at("method", message))
     if faults:
         raise ModelError(faults)
     return out

@@ -37,7 +37,7 @@ def spoken_output(said: str | Callable[[Result], float]) -> Spoken:
         if word == "time":
             return lambda result: _event_time(result, inner)
         if word not in REDUCTIONS:
-            raise ModelError(Fault("", 0, 0, words, unknown_word(word, [*REDUCTIONS, "time"], "reduction")))
+            raise ModelError(Fault.at(words, unknown_word(word, [*REDUCTIONS, "time"], "reduction")))
         reduce = REDUCTIONS[word]
         return lambda result: float(reduce(history(result, inner)).value[0])
     name, at, moment = words.rpartition(" at ")
@@ -46,7 +46,7 @@ def spoken_output(said: str | Callable[[Result], float]) -> Spoken:
     try:
         time = float(read_quantity(moment, ANY, {}))
     except (ExpressionError, TypeError, ValueError):
-        raise ModelError(Fault("", 0, 0, words, f"a time was expected after `at`, got {shown(moment)}")) from None
+        raise ModelError(Fault.at(words, f"a time was expected after `at`, got {shown(moment)}")) from None
     return lambda result: at_times(result, name.strip(), np.array([time]))[0]
 
 
@@ -60,7 +60,7 @@ def history(result: Result, name: str) -> Curve:
     """The curve of a result that is one number at each time. Raises ModelError where it is several, or none."""
     values = result.array(name)
     if values.ndim != 1:
-        raise ModelError(Fault("", 0, 0, name, f"one number was expected; it has {values.shape[1:]}: name one of them"))
+        raise ModelError(Fault.at(name, f"one number was expected; it has {values.shape[1:]}: name one of them"))
     return curve_of(result, name)
 
 

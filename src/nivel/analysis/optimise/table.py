@@ -58,4 +58,4 @@ def nothing_found(made: Sequence[Evaluated], fault: Fault, otherwise: str, table
     text = f"{fault.message}: {reasons[0] if reasons else otherwise}"
     if any(each.outcome in FAILURES for each in made):
         return SolveError(f"{fault.path}: {text}", time=0.0, result=table)
-    return NothingFoundError(Fault("", 0, 0, fault.path, text), table)
+    return NothingFoundError(Fault.at(fault.path, text), table)

@@ -163,4 +163,4 @@ def _gives_coefficients(settings: SimulationSettings) -> bool:
 
 
 def _fault(field: str, message: str) -> Fault:
-    return Fault("", 0, 0, f"simulation.{field}", message)
+    return Fault.at(f"simulation.{field}", message)

@@ -49,7 +49,7 @@ def unused_settings(given: Collection[str], settings: SimulationSettings, coordi
     coordinates : of the run, `auto` resolved.
     """
     return [
-        Fault("", 0, 0, f"simulation.{name}", f"`{name}` has no effect here: {reason}")
+        Fault.at(f"simulation.{name}", f"`{name}` has no effect here: {reason}")
         for name in given
         if (reason := _unused(name, settings, coordinates))
     ]

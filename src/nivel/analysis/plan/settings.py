@@ -165,9 +165,9 @@ def waiting_time(name: str, value: float | str) -> float:
     try:
         seconds = read_quantity(value, "time", {})
     except ExpressionError as problem:
-        raise ModelError(Fault("", 0, 0, name, expression_fault(problem, value).message())) from None
+        raise ModelError(Fault.at(name, expression_fault(problem, value).message())) from None
     if seconds < 0.0:
-        raise ModelError(Fault("", 0, 0, name, f"a time was expected, got {shown(value)}"))
+        raise ModelError(Fault.at(name, f"a time was expected, got {shown(value)}"))
     return seconds
 
 
@@ -207,4 +207,4 @@ def _every(settings: SimulationSettings, steps: int, faults: list[Fault]) -> int
 
 
 def _fault(field: str, message: str) -> Fault:
-    return Fault("", 0, 0, f"simulation.{field}", message)
+    return Fault.at(f"simulation.{field}", message)

@@ -229,7 +229,7 @@ def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array)
         both = "" if machine.is_flexible or machine.beams else both_assemblies(machine, y)
         aside = both or "start it a little aside"
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby. {aside}"
-        raise ModelError(Fault("", 0, 0, "machine", message))
+        raise ModelError(Fault.at("machine", message))
     known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
     return redundancy, MotionEquations(known, motion.kernels)
 

@@ -97,7 +97,7 @@ class Simulations:
             array = np.asarray(value, dtype=float)
             if array.shape not in ((), (len(self),)):
                 message = f"a number, or {len(self)} of them, was expected, got {shown(value)}"
-                raise ModelError(Fault("", 0, 0, f"inputs.{name}", message))
+                raise ModelError(Fault.at(f"inputs.{name}", message))
             for worst in (array.min(), array.max()):  # no number is both
                 self._each[0].check_inputs({name: float(worst)})
             columns[name] = np.broadcast_to(array, len(self)).tolist()
@@ -125,7 +125,7 @@ class Simulations:
         numbers = np.arange(len(self))[which].tolist()
         given = [states] * len(numbers) if isinstance(states, Snapshot) else list(states)
         if len(given) != len(numbers):
-            raise ModelError(Fault("", 0, 0, "states", f"{len(numbers)} states were expected, got {len(given)}"))
+            raise ModelError(Fault.at("states", f"{len(numbers)} states were expected, got {len(given)}"))
         for k, state in zip(numbers, given, strict=True):
             self._each[k].restore(state)
             self._failures[k] = ""

@@ -50,7 +50,7 @@ class Placing:
             message = (
                 "joint coordinates of a machine with flexible bodies cannot be set while it moves: restore a state"
             )
-            raise ModelError(Fault("", 0, 0, "flexible", message))
+            raise ModelError(Fault.at("flexible", message))
         self._methods, self._prepared = methods, prepared
         self._motion = equations(machine, measured=True)
         system = self._motion.system
@@ -118,9 +118,7 @@ class Placing:
                 if close_positions(self._motion, t, y, wishes):
                     return
         faults = [
-            Fault(
-                "", 0, 0, name, f"the joints do not allow the value {value:.6g}; values that they tie together need one"
-            )
+            Fault.at(name, f"the joints do not allow the value {value:.6g}; values that they tie together need one")
             for name, value in wanted.items()
         ]
         raise ModelError(faults)
@@ -145,9 +143,7 @@ class Placing:
         for name, rate in wanted.items():
             got = float(record.coordinates.rate[self._place[name]])
             if not abs(got - rate) <= MISSED * fastest * max(1.0, system.size):
-                faults.append(
-                    Fault("", 0, 0, name, f"the joints do not allow the rate {rate:.6g}: the nearest is {got:.6g}")
-                )
+                faults.append(Fault.at(name, f"the joints do not allow the rate {rate:.6g}: the nearest is {got:.6g}"))
         if faults:
             raise ModelError(faults)
 

@@ -65,7 +65,7 @@ def at_posture(methods: Methods, posture: Posture, change: Change | None = None)
     prepared = prepare(methods)
     if len(posture.modes) and methods.coordinates == "relative":
         message = "a moment of a run of flexible bodies is known in absolute coordinates: use --coordinates absolute"
-        raise ModelError(Fault("", 0, 0, "coordinates", message))
+        raise ModelError(Fault.at("coordinates", message))
     absolute = prepared.absolute.system
     y = absolute.state(posture.q, posture.velocity, posture.angular_velocity_b)
     absolute.record.coordinates.reference[:] = posture.reference

@@ -211,11 +211,11 @@ class Simulation:
         """Steps that fill `duration` [s]. Raises ModelError where it is no multiple of the step."""
         value = plain(duration)
         if not isinstance(value, int | float) or isinstance(value, bool):
-            raise ModelError(Fault("", 0, 0, "duration", f"a number of seconds was expected, got {shown(duration)}"))
+            raise ModelError(Fault.at("duration", f"a number of seconds was expected, got {shown(duration)}"))
         count = round(value / self._step) if np.isfinite(value) else -1
         if count < 0 or abs(count * self._step - value) > 1e-6 * self._step:
             message = f"{value:g} s is not a multiple of the step, {self._step:g} s"
-            raise ModelError(Fault("", 0, 0, "duration", message))
+            raise ModelError(Fault.at("duration", message))
         return count
 
     def go(self, steps: int) -> None:
@@ -248,7 +248,7 @@ class Simulation:
         """Give inputs and states their values, and evaluate again what depends on them."""
         if type(inputs) is not dict and not isinstance(inputs, Mapping):
             said = f"values by name were expected, {{'push': 200}}, got {shown(inputs)}; how long a step is says the machine"
-            raise ModelError(Fault("", 0, 0, "inputs", said))
+            raise ModelError(Fault.at("inputs", said))
         changed, kinds, values = False, self._kind, self._value
         for name, value in inputs.items():
             place = self._inputs.get(name)
@@ -300,7 +300,7 @@ class Simulation:
         if np.abs(self._view("position") - placed.position).max() > PLACED * system.size:
             self.restore(kept)
             message = "joint coordinates cannot be set in these coordinates: use coordinates='relative' or 'absolute'"
-            raise ModelError(Fault("", 0, 0, "coordinates", message))
+            raise ModelError(Fault.at("coordinates", message))
         system.record.control.energy[2] += float(self._view("energy_error")) - error  # the balance goes on from here
         self._observe()
 
@@ -319,14 +319,14 @@ class Simulation:
         known = list(self.coordinates)
         if not isinstance(values, Mapping):
             said = f"numbers by joint coordinate were expected, {{'hinge.angle': 0.1}}, got {shown(values)}"
-            raise ModelError(Fault("", 0, 0, what, said))
+            raise ModelError(Fault.at(what, said))
         faults, out = [], {}
         for name, value in values.items():
             number = plain(value)
             if name not in known:
-                faults.append(Fault("", 0, 0, what, unknown_word(str(name), known, "joint coordinate")))
+                faults.append(Fault.at(what, unknown_word(str(name), known, "joint coordinate")))
             elif not isinstance(number, int | float) or isinstance(number, bool) or not isfinite(number):
-                faults.append(Fault("", 0, 0, f"{what}.{name}", f"a finite number was expected, got {shown(value)}"))
+                faults.append(Fault.at(f"{what}.{name}", f"a finite number was expected, got {shown(value)}"))
             else:
                 out[name] = float(number)
         if faults:
@@ -362,14 +362,14 @@ class Simulation:
         """The value of an input or a state as a number. Raises ModelError."""
         if name not in self._inputs and name not in self._states:
             known = [*self._inputs, *self._states]
-            raise ModelError(Fault("", 0, 0, "inputs", unknown_word(str(name), known, "input or state")))
+            raise ModelError(Fault.at("inputs", unknown_word(str(name), known, "input or state")))
         number = value if type(value) is float else plain(value)
         if not isinstance(number, int | float) or not isfinite(number):
-            raise ModelError(Fault("", 0, 0, f"inputs.{name}", f"a finite number was expected, got {shown(value)}"))
+            raise ModelError(Fault.at(f"inputs.{name}", f"a finite number was expected, got {shown(value)}"))
         if name in self._ranges and not self._ranges[name][0] <= number <= self._ranges[name][1]:
             low, high = self._ranges[name]
             message = f"{number:g} is outside the range from {low:g} to {high:g}"
-            raise ModelError(Fault("", 0, 0, f"inputs.{name}", message))
+            raise ModelError(Fault.at(f"inputs.{name}", message))
         return float(number)
 
     # --- reading ---
@@ -594,7 +594,7 @@ def refuse_chosen_steps(plan: Plan) -> None:
         message = (
             f"`{name}` chooses its steps here; a simulation that is stepped needs a fixed one: integrator='rk4' has"
         )
-        raise ModelError(Fault("", 0, 0, "integrator", message))
+        raise ModelError(Fault.at("integrator", message))
 
 
 def _endless(prepared: Prepared, plan: Plan, *, whole: bool) -> tuple[Loop, NDArray[np.uint8] | None]:

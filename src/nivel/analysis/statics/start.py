@@ -128,4 +128,4 @@ def _refuse_velocities(machine: MachineRecord) -> None:
 
 
 def _fault(path: str, message: str) -> Fault:
-    return Fault("", 0, 0, path, message)
+    return Fault.at(path, message)

@@ -49,7 +49,7 @@ def wrong_names(study: StudyFile, machine: Model) -> Iterator[Fault]:
 def _of_output(result: Result, name: str, output: Output, events: list[str]) -> Iterator[Fault]:
     """Faults with the key that is at fault as their path."""
     if isinstance(output, AtEvent | EventTime) and output.event not in events:
-        yield Fault("", 0, 0, "event", unknown_word(output.event, events, "event"))
+        yield Fault.at("event", unknown_word(output.event, events, "event"))
     try:
         if isinstance(output, PythonOutput):
             check_function(output)
@@ -57,7 +57,7 @@ def _of_output(result: Result, name: str, output: Output, events: list[str]) -> 
             outputs_of(result, {name: output})
     except ModelError as error:
         for each in error.faults:
-            yield Fault("", 0, 0, each.path.removeprefix(f"outputs.{name}."), each.message)
+            yield Fault.at(each.path.removeprefix(f"outputs.{name}."), each.message)
 
 
 def _empty(machine: Model) -> Result:

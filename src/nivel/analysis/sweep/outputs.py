@@ -78,7 +78,7 @@ def check_function(output: PythonOutput) -> None:
 
 
 def _at_output(name: str, fault: Fault) -> Fault:
-    return Fault("", 0, 0, f"outputs.{name}.{fault.path or 'of'}", fault.message)
+    return Fault.at(f"outputs.{name}.{fault.path or 'of'}", fault.message)
 
 
 def _number(found: Found, output: Output) -> Number:
@@ -166,7 +166,7 @@ def _scalar(found: Found, name: str) -> Number:
 def _event_time(found: Found, name: str) -> float:
     """Time [s] of the first coming; not a number where it did not come."""
     if not isinstance(found, Result):
-        raise ModelError(Fault("", 0, 0, "event", "events come in runs"))
+        raise ModelError(Fault.at("event", "events come in runs"))
     return next((each.time for each in found.events if each.name == name), np.nan)
 
 
@@ -205,7 +205,7 @@ def _check_limits(output: Output, units: str) -> None:
     for key in ("at_least", "at_most"):
         limit = getattr(output, key)
         if limit is not None and (wrong := another_measure(limit, units)):
-            raise ModelError(Fault("", 0, 0, key, wrong))
+            raise ModelError(Fault.at(key, wrong))
 
 
 def another_measure(quantity: Any, units: str) -> str:
@@ -228,10 +228,10 @@ def _function(source: str, name: str, file: str) -> Any:
     try:
         exec(compile(source, file or "outputs.py", "exec"), names)
     except Exception as error:
-        raise ModelError(Fault("", 0, 0, "python", f"{type(error).__name__}: {error}")) from None
+        raise ModelError(Fault.at("python", f"{type(error).__name__}: {error}")) from None
     if not callable(names.get(name)):
         known = [key for key, value in names.items() if callable(value) and not key.startswith("_")]
-        raise ModelError(Fault("", 0, 0, "function", unknown_word(name, known, "function")))
+        raise ModelError(Fault.at("function", unknown_word(name, known, "function")))
     return names[name]
 
 

@@ -44,13 +44,11 @@ def draw(parameters: Parameters, design: str, samples: int | None, seed: int) ->
     Raises ModelError where nothing varies, or there are more than MOST variants.
     """
     if not parameters:
-        raise ModelError(
-            Fault("", 0, 0, "parameters", "nothing varies: give values by path, {'bodies.rod.mass': [1, 2, 3]}")
-        )
+        raise ModelError(Fault.at("parameters", "nothing varies: give values by path, {'bodies.rod.mass': [1, 2, 3]}"))
     count = _count(parameters, design, samples)
     if count > MOST:
         message = f"this design has {count} variants; at most {MOST} are run"
-        raise ModelError(Fault("", 0, 0, "parameters", message))
+        raise ModelError(Fault.at("parameters", message))
     if design in DRAWN:
         shares = _shares(design, samples or 1, len(parameters), seed)
         return _rows({path: quantiles(each, shares[:, k]) for k, (path, each) in enumerate(parameters.items())})
@@ -118,7 +116,7 @@ def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
         each = given.tolist() if getattr(given, "ndim", 0) == 1 else given
         if isinstance(each, str) or not isinstance(each, Sequence) or not len(each):
             got = "an empty list" if isinstance(each, Sequence) and not len(each) else shown(given)
-            faults.append(Fault("", 0, 0, path, f"a list of values was expected, got {got}"))
+            faults.append(Fault.at(path, f"a list of values was expected, got {got}"))
         else:
             lists[path] = Values.model_construct(values=tuple(plain(value) for value in each))
     if faults:
@@ -126,7 +124,7 @@ def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
     lengths = {path: len(_listed(each)) for path, each in lists.items()}
     if combine == "rows" and len(set(lengths.values())) > 1:
         listed = ", ".join(f"{count} of `{path}`" for path, count in lengths.items())
-        raise ModelError(Fault("", 0, 0, "values", f"combine='rows' needs lists of one length; there are {listed}"))
+        raise ModelError(Fault.at("values", f"combine='rows' needs lists of one length; there are {listed}"))
     return lists
 
 
@@ -142,7 +140,7 @@ def _distributions(values: Mapping[str, Any]) -> Parameters:
             low, high = given
         except (TypeError, ValueError):
             message = f"with `samples`, two bounds (1, 3) or a distribution of SciPy were expected, got {shown(given)}"
-            faults.append(Fault("", 0, 0, path, message))
+            faults.append(Fault.at(path, message))
             continue
         try:
             found[path] = settings_of(Uniform, path, {"type": "uniform", "low": low, "high": high})

@@ -27,10 +27,7 @@ def refuse_what_bends(machine: MachineRecord) -> None:
     """Raises ModelError for bodies whose form, wheels whose way, and states whose values drivers do not determine."""
     refuse_rolling(machine, "use `nivel run`")
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"bodies.{body.name}.flexible",
             "drivers alone do not determine the motion of a flexible body: use `nivel run`",
         )
@@ -38,14 +35,11 @@ def refuse_what_bends(machine: MachineRecord) -> None:
         if body.flexible is not None
     ]
     faults += [
-        Fault("", 0, 0, f"beams.{beam.name}", "drivers alone do not determine the motion of a beam: use `nivel run`")
+        Fault.at(f"beams.{beam.name}", "drivers alone do not determine the motion of a beam: use `nivel run`")
         for beam in machine.beams
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"states.{state.name}",
             "a state has a history, which kinematics does not compute: use `nivel run`",
         )
@@ -63,7 +57,7 @@ def refuse_free_motions(machine: MachineRecord, prepared: Prepared) -> None:
         names = ", ".join(name.removesuffix(".driver") for name in driven)
         message = f"the drivers prescribe more motions than there are degrees of freedom: {names} follows from the others; leave "
         "one out"
-        raise ModelError(Fault("", 0, 0, "drivers", message))
+        raise ModelError(Fault.at("drivers", message))
     count = redundancy.degrees_of_freedom
     if count == 0:
         return
@@ -72,7 +66,7 @@ def refuse_free_motions(machine: MachineRecord, prepared: Prepared) -> None:
     how = f"drive {' and '.join(free)}, by `drivers` in the file or `--drive`" if free else "add drivers"
     if free and len(free) < count:
         how += f"; {count - len(free)} of them no joint coordinate measures, e.g. the spin of a rod between two ball joints: hold it"
-    raise ModelError(Fault("", 0, 0, "machine", f"{what}, and kinematics needs all of them: {how}; or use `nivel run`"))
+    raise ModelError(Fault.at("machine", f"{what}, and kinematics needs all of them: {how}; or use `nivel run`"))
 
 
 def free_coordinates(machine: MachineRecord, prepared: Prepared) -> list[str]:
@@ -92,10 +86,7 @@ def refuse_for_inverse(machine: MachineRecord) -> None:
     """Raises ModelError with everything that has no part in inverse dynamics."""
     refuse_rolling(machine, "drive the wheels with `nivel run` and read the efforts of the drivers")
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"bodies.{body.name}.flexible",
             "the frame of a flexible body does not determine its motion: make the body rigid",
         )
@@ -103,7 +94,7 @@ def refuse_for_inverse(machine: MachineRecord) -> None:
         if body.flexible is not None
     ]
     faults += [
-        Fault("", 0, 0, f"beams.{beam.name}", "drivers do not determine the motion of a beam: leave the beam out")
+        Fault.at(f"beams.{beam.name}", "drivers do not determine the motion of a beam: leave the beam out")
         for beam in machine.beams
     ]
     if faults:
@@ -117,10 +108,7 @@ def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_s
     """Raises ModelError with all forces and states whose effect is no smooth function of the state. sliding : names of forces that slide at
     the state, as all that have a place for it `may_slide`."""
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"forces.{force.name}.model",
             f"'{force.model}' friction has no derivative where it sticks: leave it out, use a damper in the joint, or use `lugre`",
         )
@@ -128,10 +116,7 @@ def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_s
         if isinstance(force, Friction) and force.model == "stiction" and force.name not in sliding and not may_slide
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"forces.{force.name}",
             f"a {force.type} has no derivative where it holds: couple what it holds, or leave it out",
         )
@@ -141,10 +126,7 @@ def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_s
         and not (may_slide and not isinstance(force, TransmissionLoss))
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"forces.{force.name}.friction",
             "friction of a contact that sticks has no derivative: give a `friction_transition_speed`, as in "
             "`friction_transition_speed: 1 cm/s`, and linear equations have the smooth law of this speed; or leave the friction out",
@@ -153,10 +135,7 @@ def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_s
         if isinstance(force, Contact) and force.sticks and force.friction_transition_speed is None
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"states.{state.name}.event",
             "a state that an event samples jumps at no given times, so that it has no linear equations: write it as a `rate`, or sample it "
             "with `every`",
@@ -165,10 +144,7 @@ def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_s
         if state.event is not None
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"control.{block.name}.type",
             "code of another program has no derivative: leave out the block to open the loop, or write it with blocks of `control`",
         )
@@ -176,10 +152,7 @@ def refuse_jumps(machine: MachineRecord, sliding: Collection[str] = (), *, may_s
         if isinstance(block, UnitBlock)
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"control.{each.block.name}{f'.{each.part.key}' if each.part.key else ''}",
             "a sample of what forces or flows report has no derivative here: read a pressure, a place or a speed, or leave out the block",
         )
@@ -200,10 +173,7 @@ def _reads_reports(each: PartOf, machine: MachineRecord) -> bool:
 def refuse_samples(machine: MachineRecord) -> None:
     """Raises ModelError with all states and blocks that are sampled, for what knows motions in continuous time alone."""
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"states.{state.name}.update",
             "a sampled state changes in jumps, which linear equations in continuous time cannot describe: write it as a `rate`",
         )
@@ -211,10 +181,7 @@ def refuse_samples(machine: MachineRecord) -> None:
         if state.update is not None
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"control.{block.name}.sample_time",
             "a sampled block changes in jumps, which linear equations in continuous time cannot describe: leave out `sample_time` "
             "to make it continuous, or leave out the block to open the loop",
@@ -229,10 +196,7 @@ def refuse_samples(machine: MachineRecord) -> None:
 def refuse_friction(machine: MachineRecord) -> None:
     """Friction that holds at rest: which of the many equilibria it holds depends on how the machine came there."""
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"forces.{force.name}.model",
             f"'{force.model}' holds at rest with any force up to static friction, so there are many equilibria, and the actual one "
             f"depends on the previous motion: leave the friction out, use coulomb, which exerts no force at rest, or simulate with "
@@ -242,10 +206,7 @@ def refuse_friction(machine: MachineRecord) -> None:
         if isinstance(force, Friction) and force.model != "coulomb"
     ]
     faults += [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"forces.{force.name}",
             f"a {force.type} holds at rest with any effort up to its greatest one, so there are many equilibria, and the actual one "
             f"depends on the previous motion: leave it out, couple what it holds, or simulate with a damper until the machine rests",
@@ -263,10 +224,7 @@ def refuse_with_states(machine: MachineRecord, settings: StaticsSettings) -> Non
     names += [block.name for block in machine.control if any(part.role != "signal" for part in block.parts)]
     asked = {"arc_length": settings.arc_length, "modes": settings.modes, "buckling": settings.buckling}
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"statics.{name}",
             f"`{name.replace('_', '-')}` knows positions alone, and this machine has first-order states ({_named(names)}): leave it out; "
             f"equilibria by load steps, and whether small motions about them grow, are found with the states",

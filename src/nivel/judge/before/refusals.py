@@ -60,7 +60,7 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
                     f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): the contact force "
                     f"would be huge; move the bodies, or the limits of the stop"
                 )
-                faults.append(Fault("", 0, 0, f"forces.{force.name}", message))
+                faults.append(Fault.at(f"forces.{force.name}", message))
     if faults:
         raise ModelError(faults)
 
@@ -86,7 +86,7 @@ def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: 
                 f"{time:.6g} s is no whole number of steps of {step:.6g} s: use `simulation: {{step: {time / max(count, 1):.6g}}}`, "
                 f"or an integrator that chooses its steps"
             )
-            faults.append(Fault("", 0, 0, place, message))
+            faults.append(Fault.at(place, message))
     if faults:
         raise ModelError(faults)
 
@@ -105,7 +105,7 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
             f"damping its multipliers oscillate after a load changes: use direct (stabilised index 2), or damping: "
             f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
         )
-        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+        raise ModelError(Fault.at("simulation.stabilisation", message))
 
 
 def refuse_stiction_over_steps(machine: MachineRecord) -> None:
@@ -113,10 +113,7 @@ def refuse_stiction_over_steps(machine: MachineRecord) -> None:
     if INTEGRATORS[machine.simulation.integrator].needs != "whole steps":
         return
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"forces.{force.name}.{_key_of_model(force)}",
             f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, "
             f"while sticking depends on the acceleration at a time: use generalised-alpha, or {_instead_of_stiction(force)}",
@@ -153,14 +150,14 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
             f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch: use direct, or `integrator: dopri5`, whose steps "
             f"end there"
         )
-        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+        faults.append(Fault.at("simulation.stabilisation", message))
     if machine.drivers:
         names = ", ".join(driver.name for driver in machine.drivers)
         message = (
             f"'geometric' scales velocities to conserve energy, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
             f"velocities: take direct"
         )
-        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+        faults.append(Fault.at("simulation.stabilisation", message))
     if faults:
         raise ModelError(faults)
 
@@ -177,7 +174,7 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
         elif isinstance(table, Table) and INTEGRATORS[settings.integrator].ends != "jumps":
             message = _jump_of(table, settings)
         if message:
-            faults.append(Fault("", 0, 0, owner, message))
+            faults.append(Fault.at(owner, message))
     if faults:
         raise ModelError(faults)
 
@@ -213,7 +210,7 @@ def refuse_friction_at_jumps(machine: MachineRecord) -> None:
             f"the speed of {', '.join(jumping)} jumps, and the friction of {', '.join(loaded)} is loaded by reactions, which are impulses "
             f"there: give a `normal_load`, or take `interpolation: cubic` for the driver"
         )
-        raise ModelError([Fault("", 0, 0, f"forces.{name}.normal_load", message) for name in loaded])
+        raise ModelError([Fault.at(f"forces.{name}.normal_load", message) for name in loaded])
 
 
 def _jump_of(table: Table, settings: SimulationSettings) -> str:
@@ -260,14 +257,14 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
             f"mean of those at both ends of a step: use generalised-alpha, or beams of another `model`"
         )
         faults.append(("integrator", message))
-    out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
+    out = [Fault.at(f"simulation.{field}", message) for field, message in faults]
     for force in machine.forces:
         if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
             message = f"friction under `integrator: {machine.simulation.integrator}` {why.format('generalised-alpha')}"
-            out.append(Fault("", 0, 0, f"forces.{force.name}", message))
+            out.append(Fault.at(f"forces.{force.name}", message))
         elif is_sticking(force):
             message = f"'stiction' {why.format('lugre or coulomb' if isinstance(force, Friction) else 'coulomb')}"
-            out.append(Fault("", 0, 0, f"forces.{force.name}.{_key_of_model(force)}", message))
+            out.append(Fault.at(f"forces.{force.name}.{_key_of_model(force)}", message))
     if out:
         raise ModelError(out)
 
@@ -277,17 +274,14 @@ def refuse_flexible_lagrange(machine: MachineRecord, formulation: str) -> None:
     names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
     if names and formulation == "lagrange":
         message = f"'lagrange' does not go with flexible bodies ({names}): take `formulation: newton-euler`, whose motion is the same"
-        raise ModelError(Fault("", 0, 0, "simulation.formulation", message))
+        raise ModelError(Fault.at("simulation.formulation", message))
 
 
 def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> None:
     """Beams that the assembly would stress, by moving single nodes of them. moved : body, distance [m], angle [rad]."""
     owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"beams.{owners[name]}",
             f"its joints do not fit: the assembly would move its node {name} by {distance:.3g} m and {angle:.3g} rad, and stress it; place "
             f"the beam, or what is joined to it, so that they meet to {FITS * size:.0e} m, and drivers so that they start there",
@@ -313,10 +307,7 @@ def refuse_struck_nodes(
         if name in owners and not machine.drivers and (change > BLOW * speed or turn > BLOW * turning)
     ]
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"beams.{owners[name]}",
             f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an "
             f"impact. Give the beam the `velocity` of its start and the `angular_velocity` with which it moves as a rigid body",
@@ -358,7 +349,7 @@ def refuse_uncertain_loads(
                         else "replace joints until no constraint is redundant"
                     )
                 )
-                faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
+                faults.append(Fault.at(f"forces.{force.name}.coordinate", message))
     if faults:
         raise ModelError(faults)
 
@@ -366,10 +357,7 @@ def refuse_uncertain_loads(
 def refuse_rolling(machine: MachineRecord, instead: str) -> None:
     """Raises ModelError for every wheel; instead : what to do, in words."""
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"joints.{joint.name}.type",
             f"'rolling' without slip constrains velocities, not positions, so the position of a wheel depends on its path: {instead}",
         )

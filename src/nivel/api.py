@@ -24,7 +24,7 @@ from nivel.analysis.plan.plan import Plan, methods_of, plan_run
 from nivel.analysis.plan.settings import waiting_time
 from nivel.analysis.progress.listener import Listener
 from nivel.elements.forces import Force
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
 from nivel.files.values import outside_paths
@@ -767,12 +767,13 @@ class Machine(Model):
         the positions until then, its message says what holds which driver.
         """
         from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import refuse_what_bends
+        from nivel.judge.before.analyses import OF_KINEMATICS
+        from nivel.judge.before.refusals import faults_of
         from nivel.machine.settings.kinematics import kinematics_settings
 
         asked = kinematics_settings(self.record, settings)
         with self._faults_in_file():
-            refuse_what_bends(self.record)
+            refuse(faults_of(self.record, OF_KINEMATICS))
             build(assembly_entries(self.record), listener)
             from nivel.analysis.kinematics.drive import driven
 
@@ -868,14 +869,15 @@ class Machine(Model):
         from nivel.analysis.inverse.trajectory import along_trajectory
         from nivel.analysis.inverse.trust import with_trust
         from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import refuse_for_inverse
+        from nivel.judge.before.analyses import OF_INVERSE
+        from nivel.judge.before.refusals import faults_of
         from nivel.machine.settings.inverse import InverseSettings
         from nivel.machine.settings.values import settings_of
 
         asked = settings_of(InverseSettings, "inverse", settings)
         motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
         with self._faults_in_file():
-            refuse_for_inverse(self.record)
+            refuse(faults_of(self.record, OF_INVERSE))
             record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
             wanted = actuation(record, asked)
             if rubs(record):
@@ -910,11 +912,12 @@ class Machine(Model):
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
         from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import refuse_jumps, refuse_samples
+        from nivel.judge.before.analyses import OF_SAMPLES, not_smooth
+        from nivel.judge.before.refusals import faults_of
 
         with self._faults_in_file():
-            refuse_jumps(self.record)
-            refuse_samples(self.record)
+            refuse(not_smooth(self.record))
+            refuse(faults_of(self.record, OF_SAMPLES))
             plain, chosen = neutral(self.record, coordinates or "auto")
             methods = methods_of(plain, "newton-euler", chosen)
         build(linear_entries(methods), listener)
@@ -993,7 +996,7 @@ class Machine(Model):
         """
         from nivel.analysis.linearise.opened import opened
         from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import refuse_jumps
+        from nivel.judge.before.analyses import not_smooth
         from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
         from nivel.machine.settings.values import settings_of, static_coordinates
 
@@ -1003,7 +1006,7 @@ class Machine(Model):
         asked = settings_of(LineariseSettings, "linearise", own | _given(settings))
         at_rest = asked.about == EQUILIBRIUM
         with self._faults_in_file():
-            refuse_jumps(self.record, may_slide=asked.about not in (EQUILIBRIUM, ROTATION))
+            refuse(not_smooth(self.record, may_slide=asked.about not in (EQUILIBRIUM, ROTATION)))
             inputs = opened(self.record, asked.inputs, asked.time)
             plain, chosen = neutral(inputs.machine, asked.coordinates, EQUILIBRIUM if at_rest else "as-given")
             methods = methods_of(plain, "newton-euler", chosen)

@@ -68,6 +68,12 @@ class ModelError(NivelError):
         super().__init__("\n".join(str(fault) for fault in self.faults))
 
 
+def refuse(faults: Iterable[Fault]) -> None:
+    """Raises ModelError with all faults where there are any."""
+    if found := tuple(faults):
+        raise ModelError(found)
+
+
 class SolveError(NivelError):
     """The computation failed at `time` (seconds); `advice` says what to try.
 

@@ -18,7 +18,7 @@ from nivel.analysis.assembly.velocities import (
     section_of,
     taken_along,
 )
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joints import composition_of
 from nivel.system.system import Array, System
@@ -136,8 +136,7 @@ def _refuse_contradictions(machine: MachineRecord, motion: MotionEquations) -> N
                 )
                 faults.append(Fault.at(f"joints.{joint.name}", message))
                 break
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _rows_by_owner(system: System) -> dict[str, list[int]]:
@@ -181,8 +180,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
             joint, _, coordinate = name.partition(".")
             message = f"the start value {wanted:.6g} of {name} cannot be reached: the nearest value is {got:.6g}"
             faults.append(Fault.at(f"joints.{joint}.start.{coordinate}", message))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _gap(system: System, row: int) -> str:

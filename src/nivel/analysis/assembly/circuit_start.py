@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, SURROUNDINGS
@@ -117,8 +117,7 @@ def _refuse_strokes(machine: MachineRecord, system: System) -> None:
         key = "lower" if turns else "retracted_length"
         message = f"{value:.6g} {unit} {what} at the start, and its stroke goes from {origin:.6g} to {origin + stroke:.6g} {unit}"
         faults.append(Fault.at(f"hydraulics.{actuator.name}.{key}", message))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 @dataclass(frozen=True)
@@ -318,8 +317,7 @@ class _Start:
                 told = "pumps and `load` drive it at t = 0 with more torque than its `drag`"
                 advice = "give it more `drag`, or drive it with less"
             faults.append(Fault.at(f"hydraulics.{engine.name}", f"no speed is steady: {told}; {advice}"))
-        if faults:
-            raise ModelError(faults)
+        refuse(faults)
 
     def _rates(self, free: NDArray[np.intp]) -> Array | None:
         for node in self.gas:

@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import row_lengths
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import System
 
@@ -48,8 +48,7 @@ def refuse_lost_directions(machine: MachineRecord, motion: MotionEquations) -> N
                 f"`axes: [[0, 1, 0], [0, 0, 1]]`"
             )
             faults.append(Fault.at(f"joints.{joint.name}.{key}", message))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _distance(system: System, k: int) -> float:

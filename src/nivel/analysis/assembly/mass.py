@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.files.rotors import rotors_of
 from nivel.machine.bodies.inertia import point_mass_inertia
 from nivel.machine.core.placement import marker_frame
@@ -73,8 +73,7 @@ def mass_properties(machine: MachineRecord, about: str = GROUND, bodies: Sequenc
         faults.append(_fault("about", unknown_name("marker or body", about, known)))
     if machine.beams and not bodies:
         faults.append(_fault("bodies", "beams have no part in mass properties: name the bodies"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     motion = equations(machine)
     motion.evaluate(0.0, assemble(machine, motion).y)
     system = motion.system

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeVar
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.machine.settings.run import SimulationSettings
 from nivel.system.system import System
 from nivel.words.wording import unknown_word
@@ -34,8 +34,7 @@ def of_rows(system: System, given: Mapping[str, Settings], place: str) -> dict[i
             )
             faults.append(Fault.at(f"{place}.rows.{name}", message))
         (of_single if "." in name else of_joints).update(dict.fromkeys(rows, settings))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return {**of_joints, **of_single}
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.closing import OPEN, Wishes, least_change
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction as columns
 from nivel.machine.machine_record import MachineRecord
@@ -196,8 +196,7 @@ def _refuse_impossible_rates(system: System, wishes: Wishes) -> None:
         if len(missed) > 1:
             message += "; of rates that the joints tie together give one"
         faults.append(Fault.at(f"joints.{joint}.start_rates.{coordinate}", message))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def section_of(system: System, owner: str) -> str:

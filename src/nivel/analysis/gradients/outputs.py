@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.curve import Curve, curve_of
@@ -169,8 +169,7 @@ def outputs_of(labels: Sequence[str], result: Result, *, curves: bool = False) -
             faults += [Fault.at(label, each.message) for each in error.faults]
     if not labels:
         faults.append(Fault.at("outputs", "no output is given: give names of the result, ['max(rod.position)']"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return tuple(out)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, get_args
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 from nivel.model import Model
@@ -50,8 +50,7 @@ def parameters_of(machine: Model, paths: Sequence[str]) -> tuple[Parameter, ...]
             faults.append(Fault.at(path, "this parameter is given twice"))
         else:
             out.append(Parameter(path, float(value), unit_of(machine, path)))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return tuple(out)
 
 

@@ -17,7 +17,7 @@ from nivel.analysis.gradients.outputs import Array
 from nivel.analysis.gradients.parameters import Parameter
 from nivel.analysis.gradients.whole_loop import WholeLoop, leaves
 from nivel.analysis.run.dynamics import Loop
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.core.arrays import dual_twin
 from nivel.native.duals import DUAL
 
@@ -46,8 +46,7 @@ def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Para
             out.append(_slopes_beside(_records(loop), parameter, beside))
         except ModelError as error:
             faults += [Fault.at(parameter.path, f"there is no gradient: {each.message}") for each in error.faults]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return out
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from nivel.elements.forces.actuators import Motor
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.inverse import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
@@ -62,8 +62,7 @@ def actuation(machine: MachineRecord, settings: InverseSettings) -> Actuation:
     bounds = np.array([_limit(each, motors, limits) for each in actuators])
     default = np.where(np.isfinite(bounds), 1.0 / bounds, 1.0)
     chosen = np.array([weights.get(each.name, weight) for each, weight in zip(actuators, default, strict=True)])
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return Actuation(tuple(actuators), chosen, bounds, hold)
 
 

@@ -19,7 +19,7 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.inverse.mechanics import Mechanics
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Led
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
@@ -241,8 +241,7 @@ def task_for(
         k = _place("posture", name, mechanics.names, faults)
         if k is not None:
             wished[k] = _quantity("posture", mechanics.units[k], value, faults)
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     mechanics.pose(point)  # whether there is such a point
     return Task(point, where, axes, low, high, wished)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from nivel.analysis.inverse.number_table import read_table
 from nivel.analysis.kinematics.drive import released
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
@@ -37,8 +37,7 @@ def along_trajectory(machine: MachineRecord, path: str | PathLike[str]) -> Machi
         driven.add(f"{joint}.{coordinate}")
         table: Any = {"times": columns[0], "values": values, "interpolation": "cubic"}
         drivers.append(Driver(name=f"follow_{joint}_{coordinate}", coordinate=f"{joint}.{coordinate}", value=table))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     kept = tuple(each for each in machine.drivers if each.coordinate not in driven)
     simulation = machine.simulation.replace(duration=columns[0][-1])
     joints = released(machine.joints, driven)

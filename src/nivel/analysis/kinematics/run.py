@@ -23,7 +23,7 @@ from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.probes import GOLDEN, Probes
-from nivel.errors import SolveError
+from nivel.errors import SolveError, refuse
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.positions import follow_positions
 from nivel.integrate.loop.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
@@ -31,7 +31,8 @@ from nivel.integrate.loop.sink import Header, Sink
 from nivel.integrate.stabilise import direct
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Positions
-from nivel.judge.before.analyses import refuse_free_motions, refuse_what_bends
+from nivel.judge.before.analyses import OF_KINEMATICS, free_motions
+from nivel.judge.before.refusals import faults_of
 from nivel.judge.during.failure import KINEMATICS, failure
 from nivel.judge.during.lockup import find_jam
 from nivel.judge.during.stop import Stop
@@ -89,9 +90,9 @@ def kinematics(
     sink = Memory() if out is None else Store(out, force)
     begin = time.perf_counter()
     listener.say("preparing")
-    refuse_what_bends(machine)
+    refuse(faults_of(machine, OF_KINEMATICS))
     prepared = replace(prepare(methods), integrator=FACTS)
-    refuse_free_motions(machine, prepared)
+    refuse(free_motions(machine, prepared))
     steps = complete(methods.machine.simulation, methods.coordinates)
     chosen = _without_histories(prepared.motion.system.layout, sink)
     attributes = _attributes(machine, source, prepared, settings)

@@ -16,7 +16,7 @@ from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.pressures import pressure_states
 from nivel.analysis.linearise.reduction import Ports
 from nivel.elements.forces.actuators import Motor
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.kernels.record.record import SENSE
 from nivel.kernels.signals import sensor
 from nivel.machine.machine_record import MachineRecord
@@ -80,8 +80,7 @@ class Catalogue:
         seen = [self._find(self._whole(name), self.outputs, "outputs", faults) for name in outputs or ()]
         if outputs is None:
             seen = [self.outputs[name] for name in self.default_outputs()]
-        if faults:
-            raise ModelError(faults)
+        refuse(faults)
         return [each for each in taken if each is not None], [each for each in seen if each is not None]
 
     @staticmethod

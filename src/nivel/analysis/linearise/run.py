@@ -30,9 +30,9 @@ from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.subject import Linearisation
-from nivel.judge.before.analyses import MOST, refuse_jumps
+from nivel.judge.before.analyses import MOST, not_smooth
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
@@ -70,7 +70,7 @@ def linear_model(
     machine = opened.machine
 
     def slide(motion: MotionEquations, t: float, y: Array) -> None:
-        refuse_jumps(machine, let_slide(motion, t, y))
+        refuse(not_smooth(machine, let_slide(motion, t, y)))
 
     moment = at_start(methods, slide) if posture is None else at_posture(methods, posture, slide)
     moment = rotating(moment) if settings.about == ROTATION else moment

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
-from nivel.errors import Fault, ModelError, NivelError
+from nivel.errors import Fault, ModelError, NivelError, refuse
 from nivel.model import Model
 from nivel.results.result import Result
 from nivel.words.wording import shown
@@ -81,8 +81,7 @@ def box_of(machine: Model, parameters: Mapping[str, Any]) -> Box:
         if not low <= start <= high:
             faults.append(Fault.at(path, f"a start between {low:g} and {high:g} was expected, got {start:g}"))
         rows.append((low, high, start))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     low, high, start = np.array(rows).T
     return Box(tuple(parameters), low, high, start)
 

@@ -22,7 +22,7 @@ from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import another_measure
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.model import Model
 from nivel.results.result import Result
 
@@ -282,8 +282,7 @@ def _check_units(signals: Sequence[Signal], result: Result) -> None:
         for each in signals
         if each.units and (wrong := another_measure(f"1 {each.units}", result.units(each.name)))
     ]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _unit(signal: Signal) -> float:

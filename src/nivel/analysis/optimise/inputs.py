@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.optimise.evaluations import Box
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.words.wording import shown, unknown_word
@@ -44,8 +44,7 @@ def course_of(record: MachineRecord, inputs: Mapping[str, int], duration: float)
         faults.append(Fault.at("inputs", "name the inputs and their pieces, {'push': 10}"))
     if len({*inputs.values()}) > 1 and not faults:
         faults.append(Fault.at("inputs", "all inputs are cut into the same number of pieces"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     (pieces,) = {*inputs.values()}
     times = tuple(float(t) for t in np.linspace(0.0, duration, pieces + 1))
     paths, low, high, start, changed = [], [], [], [], []

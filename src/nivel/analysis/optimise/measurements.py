@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.analysis.optimise.identify import Signal
 from nivel.analysis.sweep.outputs import another_measure
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
@@ -37,8 +37,7 @@ def signals_of(data: str | PathLike[str] | Mapping[str, Any], deviations: Mappin
     ]
     if not given:
         faults.append(Fault.at("data", "there are no measurements"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return [Signal(name, times, values, deviations.get(name), units) for name, (times, values, units) in given.items()]
 
 
@@ -56,8 +55,7 @@ def _arrays(data: Mapping[str, Any]) -> dict[str, Columns]:
             message = f"as many numbers as times were expected, got {len(values)} over {len(times)}"
             faults.append(Fault.at(f"data.{name}", message))
         out[name] = (times, values, "")
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return out
 
 

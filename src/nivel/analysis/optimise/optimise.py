@@ -22,7 +22,7 @@ from nivel.analysis.plan.settings import with_usual_frames
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import OutputFailedError
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import require
 from nivel.machine.study.search import SEARCH_METHODS
 from nivel.model import Model
@@ -169,8 +169,7 @@ def _check_events(machine: Model, said: Mapping[str, Said]) -> None:
         for name, each in said.items()
         if (event := event_of(each)) and event not in known
     ]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _checked_limits(limits: Limits, said: Mapping[str, Said], method: str) -> dict[str, tuple[float, float]]:
@@ -195,6 +194,5 @@ def _checked_limits(limits: Limits, said: Mapping[str, Said], method: str) -> di
     if out and method == "L-BFGS-B":
         message = f"`{method}` knows no limits of outputs; {', '.join(CONSTRAINED)} do"
         faults.append(Fault.at("method", message))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return out

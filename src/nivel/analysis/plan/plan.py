@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from types import ModuleType
 
@@ -19,19 +19,19 @@ from nivel.analysis.plan.choice import (
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.analysis.plan.modal_stiffness import integrator_of
 from nivel.analysis.plan.settings import RunSettings, complete
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.judge.before.refusals import (
-    refuse_conserved_drivers,
-    refuse_flexible_lagrange,
-    refuse_for_shared_mass,
-    refuse_friction_at_jumps,
-    refuse_rolling_by_positions,
-    refuse_rough_motions,
-    refuse_samples_between_steps,
-    refuse_stiction_over_steps,
+    conserved_drivers,
+    flexible_lagrange,
+    friction_at_jumps,
+    rolling_by_positions,
+    rough_motions,
+    samples_between_steps,
+    shared_mass,
+    stiction_over_steps,
 )
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
@@ -182,9 +182,7 @@ def _planned(machine: MachineRecord, given: Collection[str]) -> Plan:
     """The run of a machine with the integrator that it has."""
     machine = with_dividing_step(machine)
     coordinates = choose_coordinates(machine)
-    faults = [*unused_settings(given, machine.simulation, coordinates), *_faults_of(machine, coordinates)]
-    if faults:
-        raise ModelError(faults)
+    refuse([*unused_settings(given, machine.simulation, coordinates), *_faults_of(machine, coordinates)])
     methods = methods_of(machine, machine.simulation.formulation, coordinates)
     return Plan(machine, complete(machine.simulation, coordinates), methods)
 
@@ -192,28 +190,21 @@ def _planned(machine: MachineRecord, given: Collection[str]) -> Plan:
 def _faults_of(machine: MachineRecord, coordinates: str) -> list[Fault]:
     """What does not go together in a run of a machine."""
     formulation = machine.simulation.formulation
-
-    def check_settings() -> None:
+    try:
         settings = complete(machine.simulation, coordinates)
-        refuse_samples_between_steps(machine, settings.step, fixed=settings.steps > 0)
-
-    checks: list[Callable[[], object]] = [
-        check_settings,
-        lambda: refuse_for_shared_mass(machine, formulation, coordinates),
-        lambda: refuse_flexible_lagrange(machine, formulation),
-        lambda: refuse_conserved_drivers(machine),
-        lambda: refuse_stiction_over_steps(machine),
-        lambda: refuse_rough_motions(machine),
-        lambda: refuse_rolling_by_positions(machine, coordinates),
-        lambda: refuse_friction_at_jumps(machine),
+        faults = [*samples_between_steps(machine, settings.step)] if settings.steps > 0 else []
+    except ModelError as error:
+        faults = [*error.faults]
+    return [
+        *faults,
+        *shared_mass(machine, formulation, coordinates),
+        *flexible_lagrange(machine, formulation),
+        *conserved_drivers(machine),
+        *stiction_over_steps(machine),
+        *rough_motions(machine),
+        *rolling_by_positions(machine, coordinates),
+        *friction_at_jumps(machine),
     ]
-    faults: list[Fault] = []
-    for check in checks:
-        try:
-            check()
-        except ModelError as error:
-            faults += error.faults
-    return faults
 
 
 def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordinates: str = "absolute") -> Methods:
@@ -222,8 +213,8 @@ def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordi
     Raises ModelError where they do not go together.
     """
     machine = with_nodes(machine)
-    refuse_for_shared_mass(machine, formulation, coordinates)
-    refuse_flexible_lagrange(machine, formulation)
+    refuse(shared_mass(machine, formulation, coordinates))
+    refuse(flexible_lagrange(machine, formulation))
     simulation, cut = machine.simulation, choose_cut(machine)
     sliding = slides(machine, coordinates, formulation, cut)
     kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}

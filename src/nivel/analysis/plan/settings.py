@@ -7,7 +7,7 @@ from math import ceil
 from typing import TypeVar
 
 from nivel.analysis.plan.combinations import refuse_combinations
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
@@ -129,8 +129,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         interval = every * settings.step
     chosen = coordinates if settings.coordinates == "auto" else settings.coordinates
     faults += refuse_combinations(settings, chosen)
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     own = settings.baumgarte
     return RunSettings(
         asked=settings,

@@ -28,14 +28,14 @@ from nivel.analysis.curves.corners import corners, jumping_functions
 from nivel.analysis.curves.step_limits import allowed_steps
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.one_piece import in_one_piece
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.facts import IntegratorFacts
 from nivel.judge.before.refusals import (
-    refuse_deep_starts,
-    refuse_moved_nodes,
-    refuse_struck_nodes,
-    refuse_uncertain_loads,
-    refuse_unsettled_multipliers,
+    deep_starts,
+    moved_nodes,
+    struck_nodes,
+    uncertain_loads,
+    unsettled_multipliers,
 )
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
@@ -147,8 +147,8 @@ def prepare(
         rest = equilibrium(machine, Assembled(replace(motion, system=system), assembly))
         assembly = rest.assembled(motion, assembly)
     redundancy, absolute = _independent_rows(machine, motion, assembly.y)
-    refuse_uncertain_loads(machine, redundancy, partial(_exactly_constrained, machine, motion, assembly.y, redundancy))
-    refuse_deep_starts(machine, absolute, assembly.y)
+    refuse(uncertain_loads(machine, redundancy, partial(_exactly_constrained, machine, motion, assembly.y, redundancy)))
+    refuse(deep_starts(machine, absolute, assembly.y))
     motion.system.record.coordinates.reference[:] = assembly.reference
     system, y = circuit_start(machine, absolute, assembly.y)
     assembly = replace(assembly, y=y)
@@ -205,8 +205,8 @@ def _assembled(machine: MachineRecord) -> Assembled:
     """The equations of the machine in absolute coordinates, and its state as assembled."""
     motion = equations(machine)
     assembly = assemble(machine, motion)
-    refuse_moved_nodes(machine, assembly.moved, motion.system.size)
-    refuse_struck_nodes(machine, assembly.velocity_change, *_speeds(motion.system, assembly.y))
+    refuse(moved_nodes(machine, assembly.moved, motion.system.size))
+    refuse(struck_nodes(machine, assembly.velocity_change, *_speeds(motion.system, assembly.y)))
     return Assembled(motion, assembly)
 
 
@@ -291,7 +291,7 @@ def _wanted(motion: MotionEquations, y: Array, methods: Methods) -> ResidualOpti
     machine, saddle, integrator = methods.machine, motion.system.record.saddle, methods.integrator
     simulation = machine.simulation
     if constraint_index(methods.formulation, simulation.stabilisation, methods.path) == 3:
-        refuse_unsettled_multipliers(machine, len(saddle.row))
+        refuse(unsettled_multipliers(machine, len(saddle.row)))
     compliance = saddle.shift if methods.penalised else None
     if len(saddle.dense) and not methods.solves_residual:
         compliance = soft_rows(motion, y)

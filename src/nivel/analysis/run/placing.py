@@ -19,7 +19,7 @@ from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.assembly.velocities import whitened
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.results.frames.rotations import rotation_matrices
 from nivel.system.system import Array, System
 
@@ -144,8 +144,7 @@ class Placing:
             got = float(record.coordinates.rate[self._place[name]])
             if not abs(got - rate) <= MISSED * fastest * max(1.0, system.size):
                 faults.append(Fault.at(name, f"the joints do not allow the rate {rate:.6g}: the nearest is {got:.6g}"))
-        if faults:
-            raise ModelError(faults)
+        refuse(faults)
 
     def _in_run_coordinates(self, y: Array, reference: Array, states: Array) -> Array:
         """The state in the coordinates of the run. y : in absolute ones."""

@@ -26,7 +26,7 @@ from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.placing import Placing
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.remembered import remembered
-from nivel.errors import Fault, ModelError, SolveError
+from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.target import written
 from nivel.files.writer import write_machine
 from nivel.integrate.loop.loop import advance
@@ -329,8 +329,7 @@ class Simulation:
                 faults.append(Fault.at(f"{what}.{name}", f"a finite number was expected, got {shown(value)}"))
             else:
                 out[name] = float(number)
-        if faults:
-            raise ModelError(faults)
+        refuse(faults)
         return out
 
     def _begin_again(self) -> None:

@@ -33,7 +33,7 @@ from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
-from nivel.errors import ModelError, SolveError
+from nivel.errors import ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.other_elements import (
     Compared,
@@ -45,8 +45,8 @@ from nivel.judge.after.other_elements import (
 )
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Equilibria
-from nivel.judge.before.analyses import at_rest, refuse_friction, refuse_with_states
-from nivel.judge.before.refusals import refuse_rough_motions
+from nivel.judge.before.analyses import OF_STATICS, at_rest, beside_states
+from nivel.judge.before.refusals import faults_of, rough_motions
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
@@ -101,10 +101,10 @@ def prepare_statics(
     machine: MachineRecord, settings: StaticsSettings, given: Assembled | None = None
 ) -> tuple[Prepared, StaticEquations]:
     """The machine assembled, and its equations of static equilibrium; given : as built and assembled for a run. Raises ModelError."""
-    refuse_friction(machine)
-    refuse_with_states(machine, settings)
+    refuse(faults_of(machine, OF_STATICS))
+    refuse(beside_states(machine, settings))
     neutral, coordinates = for_statics(machine, settings)
-    refuse_rough_motions(neutral)
+    refuse(rough_motions(neutral))
     # drivers that hold what is free are not in what was built, and friction of contacts is not in what is at rest
     others = len(neutral.drivers) > len(machine.drivers) or neutral.forces != machine.forces
     methods = methods_of(neutral, "newton-euler", coordinates)

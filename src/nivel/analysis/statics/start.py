@@ -18,7 +18,7 @@ from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
-from nivel.errors import Fault, ModelError, SolveError
+from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
@@ -123,8 +123,7 @@ def _refuse_velocities(machine: MachineRecord) -> None:
         for joint in machine.joints
         if joint.start_rates is not None and any(joint.start_rates.given.values())
     ]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _fault(path: str, message: str) -> Fault:

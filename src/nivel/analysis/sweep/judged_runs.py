@@ -12,8 +12,9 @@ from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.simulate import close_run
 from nivel.analysis.sweep.patched import Array, Patches, UnsuitedError, blank_of, learn, read_values
+from nivel.errors import refuse
 from nivel.judge.after.subject import run_of
-from nivel.judge.before.refusals import refuse_deep_starts
+from nivel.judge.before.refusals import deep_starts
 from nivel.model import Model
 from nivel.results.memory import Memory
 from nivel.results.result import Result
@@ -38,7 +39,7 @@ class JudgedRuns:
         self._found.put(self._blank.pieces, x)
         methods = plan.methods
         prepared = replace(self._blank.prepared, machine=methods.machine, beams=methods.machine.beams)
-        refuse_deep_starts(methods.machine, prepared.absolute, prepared.assembly.y)
+        refuse(deep_starts(methods.machine, prepared.absolute, prepared.assembly.y))
         if plan.settings != self._blank.plan.settings:
             return None
         return self._run(plan, prepared, x)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from nivel.analysis.sweep.expected_names import wrong_names
 from nivel.analysis.sweep.quantiles import Distribution
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.origin import OUTSIDE
 from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile
@@ -60,8 +60,7 @@ def resolve(study: StudyFile, machine: Model) -> Resolved:
     except ModelError as error:
         faults += _of_settings(study, error)
     faults += wrong_names(study, machine)
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return Resolved(study, machine, parameters, settings)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
@@ -24,6 +24,5 @@ def rows_of(values: Mapping[str, Any]) -> list[dict[str, Any]]:
     if not faults and len({len(each) for each in lists.values()}) > 1:
         listed = ", ".join(f"{len(each)} of `{path}`" for path, each in lists.items())
         faults.append(Fault.at("values", f"lists of one length are needed; there are {listed}"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return [dict(zip(lists, row, strict=True)) for row in zip(*lists.values(), strict=True)]

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.analysis.sweep.quantiles import Distribution, quantiles
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study import DRAWN, SOBOL_INDICES
 from nivel.machine.study.any_quantity import si_or_text
@@ -119,8 +119,7 @@ def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
             faults.append(Fault.at(path, f"a list of values was expected, got {got}"))
         else:
             lists[path] = Values.model_construct(values=tuple(plain(value) for value in each))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     lengths = {path: len(_listed(each)) for path, each in lists.items()}
     if combine == "rows" and len(set(lengths.values())) > 1:
         listed = ", ".join(f"{count} of `{path}`" for path, count in lengths.items())
@@ -146,8 +145,7 @@ def _distributions(values: Mapping[str, Any]) -> Parameters:
             found[path] = settings_of(Uniform, path, {"type": "uniform", "low": low, "high": high})
         except ModelError as error:
             faults += error.faults
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return found
 
 

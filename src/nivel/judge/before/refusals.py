@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.screw_couplings import screws_as_couplings
 from nivel.elements.forces.actuators import Stop
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
@@ -41,12 +43,44 @@ FITS = 1e-8
 BLOW = 1e-3
 
 
-def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
+@dataclass(frozen=True)
+class Refusal:
+    """What an analysis refuses: elements of a section of the machine file that it `applies` to, by the `key` of each, and why.
+
+    text : of an element where it names something of that.
+    """
+
+    section: str
+    key: str
+    applies: Callable[[Any], bool]
+    text: str | Callable[[Any], str]
+
+    def faults(self, machine: MachineRecord) -> Iterator[Fault]:
+        """Of all elements that it applies to."""
+        for element in filter(self.applies, getattr(machine, self.section)):
+            text = self.text if isinstance(self.text, str) else self.text(element)
+            yield Fault.at(f"{self.section}.{element.name}{self.key and f'.{self.key}'}", text)
+
+
+def faults_of(machine: MachineRecord, refusals: Iterable[Refusal]) -> Iterator[Fault]:
+    """Everything in a machine that is refused."""
+    return (fault for refusal in refusals for fault in refusal.faults(machine))
+
+
+def rolling(instead: str) -> Refusal:
+    """Of every wheel: it ties velocities, so positions alone do not say how it may move. instead : what to do, in words."""
+    reason = (
+        "'rolling' without slip constrains velocities, not positions, so the position of a wheel depends on its path"
+    )
+    return Refusal("joints", "type", lambda joint: joint.type == "rolling", f"{reason}: {instead}")
+
+
+def deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> Iterator[Fault]:
     """Stops and contacts that start far inside what they touch: they would throw the machine apart."""
     if not any(isinstance(force, Stop | Contact | Contacts) for force in machine.forces):
         return
     motion.evaluate(0.0, y)
-    system, faults = motion.system, []
+    system = motion.system
     values = system.record.outputs.value
     reports = reported(system.layout, len(values))
     names = [variable.name for variable in reports]
@@ -56,13 +90,11 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
             depth, units = float(values[place]), reports[place].units
             deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
             if depth > deepest:
-                message = (
+                yield Fault.at(
+                    f"forces.{force.name}",
                     f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): the contact force "
-                    f"would be huge; move the bodies, or the limits of the stop"
+                    f"would be huge; move the bodies, or the limits of the stop",
                 )
-                faults.append(Fault.at(f"forces.{force.name}", message))
-    if faults:
-        raise ModelError(faults)
 
 
 def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
@@ -76,22 +108,19 @@ def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
     return [(place, time) for place, time in times if time]
 
 
-def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
+def samples_between_steps(machine: MachineRecord, step: float) -> Iterator[Fault]:
     """Sampled states and blocks whose times are not ends of fixed steps [s]."""
-    faults = []
-    for place, time in sampled_times(machine) if fixed else ():
+    for place, time in sampled_times(machine):
         count = round(time / step)
         if count < 1 or abs(count * step - time) > WHOLE * time:
-            message = (
+            yield Fault.at(
+                place,
                 f"{time:.6g} s is no whole number of steps of {step:.6g} s: use `simulation: {{step: {time / max(count, 1):.6g}}}`, "
-                f"or an integrator that chooses its steps"
+                f"or an integrator that chooses its steps",
             )
-            faults.append(Fault.at(place, message))
-    if faults:
-        raise ModelError(faults)
 
 
-def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> None:
+def unsettled_multipliers(machine: MachineRecord, constraints: int) -> Iterator[Fault]:
     """Methods without any damping as index 3: what a jump of the load leaves in the multipliers then alternates for ever."""
     settings = machine.simulation
     undamped = {
@@ -100,29 +129,23 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
         "generalised-alpha": settings.generalised_alpha.spectral_radius == 1.0,
     }
     if constraints and settings.stabilisation == "none" and undamped.get(settings.integrator):
-        message = (
+        yield Fault.at(
+            "simulation.stabilisation",
             f"'none' makes `integrator: {settings.integrator}` solve the positions' constraints alone (index 3), and without "
             f"damping its multipliers oscillate after a load changes: use direct (stabilised index 2), or damping: "
-            f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
+            f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`",
         )
-        raise ModelError(Fault.at("simulation.stabilisation", message))
 
 
-def refuse_stiction_over_steps(machine: MachineRecord) -> None:
+def stiction_over_steps(machine: MachineRecord) -> Iterator[Fault]:
     """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
-    if INTEGRATORS[machine.simulation.integrator].needs != "whole steps":
-        return
-    faults = [
-        Fault.at(
+    integrator = machine.simulation.integrator
+    for force in filter(is_sticking, machine.forces if INTEGRATORS[integrator].needs == "whole steps" else ()):
+        yield Fault.at(
             f"forces.{force.name}.{_key_of_model(force)}",
-            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, "
-            f"while sticking depends on the acceleration at a time: use generalised-alpha, or {_instead_of_stiction(force)}",
+            f"'stiction' does not go with `integrator: {integrator}`, which balances momenta over whole steps, while sticking depends on "
+            f"the acceleration at a time: use generalised-alpha, or {_instead_of_stiction(force)}",
         )
-        for force in machine.forces
-        if is_sticking(force)
-    ]
-    if faults:
-        raise ModelError(faults)
 
 
 def _key_of_model(force: ForceElement) -> str:
@@ -137,35 +160,30 @@ def _instead_of_stiction(force: ForceElement) -> str:
     return "`model: lugre`" if isinstance(force, Friction) else "`friction_model: coulomb`"
 
 
-def refuse_conserved_drivers(machine: MachineRecord) -> None:
+def conserved_drivers(machine: MachineRecord) -> Iterator[Fault]:
     """Drivers prescribe speeds, which the energy constraint would have to scale. What a fixed step misses of a contact that begins in
     it is no drift either: to scale all velocities for it would take momentum where no force does."""
     if machine.simulation.stabilisation != "geometric":
         return
-    faults = []
     sudden = [force.name for force in machine.forces if isinstance(force, Contact | Contacts | Stop)]
     if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
-        message = (
+        yield Fault.at(
+            "simulation.stabilisation",
             f"'geometric' scales all velocities to conserve energy. It would also correct the error of a fixed step in which "
-            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch: use direct, or `integrator: dopri5`, whose steps "
-            f"end there"
+            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch: use direct, or `integrator: dopri5`, whose steps end there",
         )
-        faults.append(Fault.at("simulation.stabilisation", message))
     if machine.drivers:
         names = ", ".join(driver.name for driver in machine.drivers)
-        message = (
+        yield Fault.at(
+            "simulation.stabilisation",
             f"'geometric' scales velocities to conserve energy, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
-            f"velocities: take direct"
+            f"velocities: take direct",
         )
-        faults.append(Fault.at("simulation.stabilisation", message))
-    if faults:
-        raise ModelError(faults)
 
 
-def refuse_rough_motions(machine: MachineRecord) -> None:
+def rough_motions(machine: MachineRecord) -> Iterator[Fault]:
     """Tables of drivers whose speed jumps, for integrators that would lose the jump within a step. Laws whose derivatives are not those of
     what they return."""
-    faults = []
     settings = machine.simulation
     for owner, table in _motions(machine):
         message = ""
@@ -174,9 +192,7 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
         elif isinstance(table, Table) and INTEGRATORS[settings.integrator].ends != "jumps":
             message = _jump_of(table, settings)
         if message:
-            faults.append(Fault.at(owner, message))
-    if faults:
-        raise ModelError(faults)
+            yield Fault.at(owner, message)
 
 
 def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
@@ -188,7 +204,7 @@ def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table |
             yield f"drivers.{driver.name}.{place if place == 'value' else place.rpartition('.')[0] or place}", function
 
 
-def refuse_friction_at_jumps(machine: MachineRecord) -> None:
+def friction_at_jumps(machine: MachineRecord) -> Iterator[Fault]:
     """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
     end = machine.simulation.duration
     jumping = [
@@ -210,7 +226,7 @@ def refuse_friction_at_jumps(machine: MachineRecord) -> None:
             f"the speed of {', '.join(jumping)} jumps, and the friction of {', '.join(loaded)} is loaded by reactions, which are impulses "
             f"there: give a `normal_load`, or take `interpolation: cubic` for the driver"
         )
-        raise ModelError([Fault.at(f"forces.{name}.normal_load", message) for name in loaded])
+        yield from (Fault.at(f"forces.{name}.normal_load", message) for name in loaded)
 
 
 def _jump_of(table: Table, settings: SimulationSettings) -> str:
@@ -239,149 +255,112 @@ def _lumped(machine: MachineRecord) -> str:
     return "`mass: lumped` for the beams"
 
 
-def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+def shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> Iterator[Fault]:
     """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
     if not machine.shares_mass:
         return
     names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
-    why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
-    faults = []
+    why, integrator = (
+        f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}",
+        machine.simulation.integrator,
+    )
     if coordinates not in ("absolute", "relative"):
-        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
+        yield Fault.at("simulation.coordinates", f"'{coordinates}' {why.format('absolute or relative')}")
     if formulation != "newton-euler":
-        faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
+        yield Fault.at("simulation.formulation", f"'{formulation}' {why.format('newton-euler')}")
     gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
-    if INTEGRATORS[machine.simulation.integrator].needs == "whole steps" and gradients:
-        message = (
-            f"'{machine.simulation.integrator}' does not go with {gradients}, because the velocities of its gradients are not the "
-            f"mean of those at both ends of a step: use generalised-alpha, or beams of another `model`"
+    if INTEGRATORS[integrator].needs == "whole steps" and gradients:
+        yield Fault.at(
+            "simulation.integrator",
+            f"'{integrator}' does not go with {gradients}, because the velocities of its gradients are not the mean of those at both ends "
+            f"of a step: use generalised-alpha, or beams of another `model`",
         )
-        faults.append(("integrator", message))
-    out = [Fault.at(f"simulation.{field}", message) for field, message in faults]
     for force in machine.forces:
-        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
-            message = f"friction under `integrator: {machine.simulation.integrator}` {why.format('generalised-alpha')}"
-            out.append(Fault.at(f"forces.{force.name}", message))
+        if isinstance(force, Friction) and not INTEGRATORS[integrator].residual:
+            message = f"friction under `integrator: {integrator}` {why.format('generalised-alpha')}"
+            yield Fault.at(f"forces.{force.name}", message)
         elif is_sticking(force):
             message = f"'stiction' {why.format('lugre or coulomb' if isinstance(force, Friction) else 'coulomb')}"
-            out.append(Fault.at(f"forces.{force.name}.{_key_of_model(force)}", message))
-    if out:
-        raise ModelError(out)
+            yield Fault.at(f"forces.{force.name}.{_key_of_model(force)}", message)
 
 
-def refuse_flexible_lagrange(machine: MachineRecord, formulation: str) -> None:
+def flexible_lagrange(machine: MachineRecord, formulation: str) -> Iterator[Fault]:
     """The Lagrange equations, which are for rigid bodies."""
     names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
     if names and formulation == "lagrange":
         message = f"'lagrange' does not go with flexible bodies ({names}): take `formulation: newton-euler`, whose motion is the same"
-        raise ModelError(Fault.at("simulation.formulation", message))
+        yield Fault.at("simulation.formulation", message)
 
 
-def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> None:
+def moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> Iterator[Fault]:
     """Beams that the assembly would stress, by moving single nodes of them. moved : body, distance [m], angle [rad]."""
     owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
-    faults = [
-        Fault.at(
-            f"beams.{owners[name]}",
-            f"its joints do not fit: the assembly would move its node {name} by {distance:.3g} m and {angle:.3g} rad, and stress it; place "
-            f"the beam, or what is joined to it, so that they meet to {FITS * size:.0e} m, and drivers so that they start there",
-        )
-        for name, distance, angle in moved
-        if name in owners and max(distance / size, angle) > FITS
-    ]
-    if faults:
-        raise ModelError(faults)
+    for name, distance, angle in moved:
+        if name in owners and max(distance / size, angle) > FITS:
+            yield Fault.at(
+                f"beams.{owners[name]}",
+                f"its joints do not fit: the assembly would move its node {name} by {distance:.3g} m and {angle:.3g} rad, and stress it; "
+                f"place the beam, or what is joined to it, so that they meet to {FITS * size:.0e} m, and drivers so that they start there",
+            )
 
 
-def refuse_struck_nodes(
+def struck_nodes(
     machine: MachineRecord, changes: Sequence[tuple[str, float, float]], speed: float, turning: float
-) -> None:
+) -> Iterator[Fault]:
     """Velocities of joints that the assembly would give to single nodes of beams: an impact, not a motion. Drivers may strike them.
 
     changes : body, speed [m/s], angular speed [rad/s]. speed, turning : largest ones of the machine [m/s, rad/s].
     """
     owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
-    struck = [
-        (name, change, turn)
-        for name, change, turn in changes
-        if name in owners and not machine.drivers and (change > BLOW * speed or turn > BLOW * turning)
-    ]
-    faults = [
-        Fault.at(
-            f"beams.{owners[name]}",
-            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an "
-            f"impact. Give the beam the `velocity` of its start and the `angular_velocity` with which it moves as a rigid body",
-        )
-        for name, change, turn in struck
-    ]
-    if faults:
-        raise ModelError(faults)
+    for name, change, turn in changes if not machine.drivers else ():
+        if name in owners and (change > BLOW * speed or turn > BLOW * turning):
+            yield Fault.at(
+                f"beams.{owners[name]}",
+                f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: an impact. "
+                f"Give the beam the `velocity` of its start and the `angular_velocity` with which it moves as a rigid body",
+            )
 
 
-def refuse_uncertain_loads(
+def uncertain_loads(
     machine: MachineRecord, redundancy: Redundancy, exact: Callable[[], tuple[str, ...]]
-) -> None:
+) -> Iterator[Fault]:
     """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many.
 
     exact : changes of joints with which nothing is redundant, in words.
     """
-    faults = []
     for force in machine.forces:
-        if isinstance(force, Friction) and force.normal_load is None:
-            joint, _ = resolve(force.coordinate, machine.joints)
-            if joint in redundancy.non_unique_joints:
-                rows, screws = (
-                    redundancy.redundant_rows,
-                    list(screws_as_couplings(machine, redundancy.non_unique_joints)),
-                )
-                changes = () if screws else exact()
-                written = " and ".join(
-                    f"in place of the joint {name} under `couplings` `{line}`" for name, line in screws
-                )
-                message = (
-                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(rows)} "
-                    f"repeat{'s' if len(rows) == 1 else ''} other constraints; give a `normal_load`, or "
-                    + (
-                        f"write {written}"
-                        if screws
-                        else f"make {' and '.join(changes)}"
-                        if changes
-                        else "replace joints until no constraint is redundant"
-                    )
-                )
-                faults.append(Fault.at(f"forces.{force.name}.coordinate", message))
-    if faults:
-        raise ModelError(faults)
-
-
-def refuse_rolling(machine: MachineRecord, instead: str) -> None:
-    """Raises ModelError for every wheel; instead : what to do, in words."""
-    faults = [
-        Fault.at(
-            f"joints.{joint.name}.type",
-            f"'rolling' without slip constrains velocities, not positions, so the position of a wheel depends on its path: {instead}",
+        if not isinstance(force, Friction) or force.normal_load is not None:
+            continue
+        joint, _ = resolve(force.coordinate, machine.joints)
+        if joint not in redundancy.non_unique_joints:
+            continue
+        rows, screws = redundancy.redundant_rows, list(screws_as_couplings(machine, redundancy.non_unique_joints))
+        written = " and ".join(f"in place of the joint {name} under `couplings` `{line}`" for name, line in screws)
+        changes = "" if screws else " and ".join(exact())
+        how = (
+            f"write {written}"
+            if screws
+            else f"make {changes}"
+            if changes
+            else "replace joints until no constraint is redundant"
         )
-        for joint in machine.joints
-        if joint.type == "rolling"
-    ]
-    if faults:
-        raise ModelError(faults)
+        yield Fault.at(
+            f"forces.{force.name}.coordinate",
+            f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(rows)} "
+            f"repeat{'s' if len(rows) == 1 else ''} other constraints; give a `normal_load`, or {how}",
+        )
 
 
-def refuse_rolling_by_positions(machine: MachineRecord, coordinates: str) -> None:
-    """Raises ModelError for methods whose multipliers close positions, and so would let wheels slip."""
+def rolling_by_positions(machine: MachineRecord, coordinates: str) -> Iterator[Fault]:
+    """Wheels under methods whose multipliers close positions, and so would let them slip."""
     settings = machine.simulation
-    integrator = INTEGRATORS[settings.integrator]
-    if integrator.needs == "whole steps":
-        refuse_rolling(
-            machine,
-            f"`integrator: {settings.integrator}` solves position constraints only; use generalised-alpha, radau or rk4",
-        )
+    integrator, name = INTEGRATORS[settings.integrator], f"`integrator: {settings.integrator}`"
     feeds_back = FORMULATIONS[settings.formulation].factor > 0.0
     closes_positions = settings.stabilisation == "none" and not feeds_back and coordinates != "independent"
-    if integrator.needs == "accelerations" and closes_positions:
-        refuse_rolling(
-            machine,
-            f"with 'none' the multipliers of `integrator: {settings.integrator}` close positions alone (index 3); "
-            f"take `stabilisation: direct`",
+    if integrator.needs == "whole steps":
+        yield from rolling(f"{name} solves position constraints only; use generalised-alpha, radau or rk4").faults(
+            machine
         )
+    elif integrator.needs == "accelerations" and closes_positions:
+        instead = f"with 'none' the multipliers of {name} close positions alone (index 3); take `stabilisation: direct`"
+        yield from rolling(instead).faults(machine)

@@ -1,4 +1,4 @@
-"""Status codes that kernels return; `nivel.analysis.failures.outcome` turns them into sentences."""
+"""Status codes that kernels return; `nivel.judge.during.failure` turns them into sentences."""
 
 OK = 0
 SINGULAR = 1  # a constraint row depends on the others: control.failure names it

@@ -26,6 +26,9 @@ FLAGS = [
     "--disable-sync",
     "--no-first-run",
 ]
+# pixels of a picture for one of the page, along both sides: with the processor it takes as long as it has pixels
+COARSE = "(ratio) => { const { world } = nivel.app; world.finest = world.ratio = ratio; world.resize() }"
+PIXELS = 0.4
 LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 
 
@@ -47,6 +50,8 @@ class Running:
 
 
 RUNNING: list[Running] = []
+# pages without a test, by scheme and touch
+FREE = {}
 
 
 @contextmanager
@@ -68,7 +73,7 @@ def chromium():
         needing.miss(NO_BROWSER)
     with going_on(asyncio._get_running_loop()):
         if RUNNING and not RUNNING[0].browser.is_connected():
-            RUNNING.pop().close()
+            close()
         if not RUNNING:
             RUNNING.append(Running())
     with going_on(RUNNING[0].loop):
@@ -77,13 +82,15 @@ def chromium():
         try:
             yield browser
         finally:
+            free = [page.context for page in FREE.values()]
             for context in browser.contexts:
-                if context not in before:
+                if context not in before and context not in free:
                     context.close()
 
 
 def close():
     """End the browser of this process, if one was started."""
+    FREE.clear()
     while RUNNING:
         RUNNING.pop().close()
 
@@ -109,20 +116,28 @@ def landed(page):
 
 
 class Watched:
-    """A page and everything that went wrong in it: `said` errors and warnings, `left` requests to other machines."""
+    """A page and everything that went wrong in it: `said` errors and warnings, `left` requests to other machines.
+
+    The page of an earlier test serves again, empty, where scheme and touch are the same: a new one has to read all scripts anew.
+    """
 
     def __init__(self, browser, *, width=1280, height=800, scheme="light", touch=False):
-        self.context = browser.new_context(
-            viewport={"width": width, "height": height}, color_scheme=scheme, has_touch=touch
-        )
+        self.kind = scheme, touch
+        self.page = FREE.pop(self.kind, None) or browser.new_context(color_scheme=scheme, has_touch=touch).new_page()
+        self.context = self.page.context
         self.context.set_default_timeout(1000 * PATIENCE)
-        self.page = self.context.new_page()
+        self.page.set_viewport_size({"width": width, "height": height})
         self.said, self.left = [], []
-        self.page.on("console", self._console)
-        self.page.on("pageerror", lambda error: self.said.append(str(error)))
-        self.page.on(
-            "request", lambda request: None if request.url.startswith(LOCAL) else self.left.append(request.url)
-        )
+        self.heard = {"console": self._console, "pageerror": self._error, "request": self._request}
+        for event, hear in self.heard.items():
+            self.page.on(event, hear)
+
+    def _error(self, error):
+        self.said.append(str(error))
+
+    def _request(self, request):
+        if not request.url.startswith(LOCAL):
+            self.left.append(request.url)
 
     def _console(self, message):
         # drawing with the processor is slow to read back, which tests do and users do not
@@ -132,6 +147,7 @@ class Watched:
     def open(self, address):
         self.page.goto(address)
         until(self.page, "!!window.nivel")
+        self.page.evaluate(COARSE, PIXELS)
         drawn(self.page)
         return self.page
 
@@ -144,8 +160,16 @@ class Watched:
         )
 
     def close(self):
-        """Close, and fail on whatever went wrong."""
-        self.context.close()
+        """Leave the page, and fail on whatever went wrong."""
+        self.page.goto("about:blank")
+        for event, hear in self.heard.items():
+            self.page.remove_listener(event, hear)
+        self.page.unroute_all()
+        self.context.set_offline(False)
+        if self.kind in FREE:
+            self.context.close()
+        else:
+            FREE[self.kind] = self.page
         assert self.said == []
         assert self.left == []
 

@@ -1,11 +1,12 @@
 """Everything that must hold before a change is taken: style, kernels compiled, then all tests, two at a time.
 
-    python tests/all.py [--full] [--keep-seconds] [--keep-types] [arguments of pytest]
+    python tests/all.py [--full] [--keep-seconds] [--keep-checks] [arguments of pytest]
 
 Without `--full` what is marked `full` rests: the tails of grids, see `pyproject.toml`. Kernels are compiled before pytest starts its
 processes, which share the cache; a test that still compiles one fails. Types, import layers and indices of kernels are tests as well
 (`tests/test_house.py`), so that never more than two processes run. The seconds of every file are compared with `tests/seconds.json`,
-which `--keep-seconds` replaces; `--keep-types` replaces `tests/types.json`, which says of which sources the types are right.
+which `--keep-seconds` replaces; `--keep-checks` replaces `tests/checked.json`, which says of which sources the types and the
+kernels as plain Python were right.
 """
 
 import json
@@ -20,7 +21,7 @@ from seconds import KEPT, told
 
 ROOT = Path(__file__).resolve().parent.parent
 PYTHON = [sys.executable, "-m"]
-OWN = ("--full", "--keep-seconds", "--keep-types")
+OWN = ("--full", "--keep-seconds", "--keep-checks")
 
 
 def run(name, command, **environment):
@@ -40,9 +41,10 @@ def compare_seconds(path, keep):
         KEPT.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
 
 
-def keep_types():
-    """Keep what the test of types left in pytest's cache: all types were right."""
-    digests = json.loads((ROOT / ".pytest_cache" / "v" / rooms.RIGHT).read_text(encoding="utf-8"))
+def keep_checks():
+    """Keep the digests that the tests of the whole code left in pytest's cache where they passed."""
+    cache = ROOT / ".pytest_cache" / "v"
+    digests = {name: json.loads((cache / name).read_text(encoding="utf-8")) for name in (rooms.TYPES, rooms.KERNELS)}
     rooms.KEPT.write_text(json.dumps(digests, indent=1) + "\n", encoding="utf-8")
 
 
@@ -83,8 +85,8 @@ def main():
                 compare_seconds(taken, "--keep-seconds" in sys.argv)
             if code:
                 sys.exit(f"{name} failed ({code})")
-    if "--keep-types" in sys.argv:
-        keep_types()
+    if "--keep-checks" in sys.argv:
+        keep_checks()
 
 
 if __name__ == "__main__":

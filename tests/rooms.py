@@ -1,8 +1,11 @@
-"""Rooms of the package (folders and modules in `src/nivel`), and digests of what the types in a room depend on.
+"""Rooms of the package (folders and modules in `src/nivel`), and digests of what dear checks of the whole code depend on.
 
-A digest covers the sources of the room and of every room that it imports, directly or not, the settings of pyright, and the versions of
-pyright and of the libraries without which nivel does not run. `tests/types.json` keeps the digests under which pyright found no fault:
-`python tests/all.py --keep-types` writes it, and a checkout whose sources are those has nothing to check.
+*Types in a room*: the sources of the room and of every room that it imports, directly or not, and the settings of pyright. *Kernels as
+plain Python*: the sources of the rooms that make the arrays of kernels or work on them, and of the tests with all that they import. Both:
+the versions of pyright, Numba and the libraries without which nivel does not run.
+
+`tests/checked.json` keeps the digests of what passed: `python tests/all.py --keep-checks` writes it, and a checkout whose sources are
+those has nothing to check. The full tests check everything in any case.
 """
 
 import ast
@@ -15,9 +18,11 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-KEPT = Path(__file__).parent / "types.json"
-# where pytest's cache holds the digests of its last run without a fault
-RIGHT = "nivel/types"
+KEPT = Path(__file__).parent / "checked.json"
+# where pytest's cache holds the digests of the last run without a fault
+TYPES, KERNELS = "nivel/types", "nivel/kernels"
+# rooms that make the arrays of kernels or work on them
+OF_KERNELS = ("native", "kernels", "motion", "integrate", "elements", "system", "machine", "flexible", "analysis")
 
 
 def rooms_of(package):
@@ -91,6 +96,33 @@ def digests_of_types(package, settings):
     }
 
 
-def kept_digests():
-    """Digests of the rooms whose types were right; none where there is no such file."""
-    return json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
+def imported_tests(paths, tests):
+    """Sources in the folder `tests` that are at `paths` or below, and those there that they import, directly or not."""
+    stems = {}
+    for path in tests.rglob("*.py"):
+        stems.setdefault(path.stem, []).append(path)
+    reached = {file for path in paths for file in (path.rglob("*.py") if path.is_dir() else [path])}
+    ahead = list(reached)
+    while ahead:
+        tree = ast.parse(ahead.pop().read_bytes())
+        names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
+        names |= {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+        more = {path for name in names for part in name.split(".") for path in stems.get(part, [])} - reached
+        reached |= more
+        ahead += more
+    return sorted(reached)
+
+
+def digest_of_kernels(package, settings, tests, paths):
+    """Digest of all that kernels as plain Python depend on, in tests at `paths`."""
+    rooms = rooms_of(package)
+    sources = [path for name in OF_KERNELS for path in rooms.get(name, [])] + imported_tests(paths, tests)
+    digest = hashlib.sha256(surroundings(settings).encode())
+    for path in sources:
+        digest.update(hashlib.sha256(path.name.encode() + b"\0" + path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+def kept(check):
+    """What `tests/checked.json` has of a check: {room: digest}; nothing where there is no such file."""
+    return json.loads(KEPT.read_text(encoding="utf-8")).get(check, {}) if KEPT.exists() else {}

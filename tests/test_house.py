@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
+import rooms
 from lanes import FULL
 from patience import PATIENCE
-from rooms import RIGHT, digests_of_types, kept_digests, rooms_of
 
 ROOT = Path(__file__).parent.parent
+PACKAGE, SETTINGS = ROOT / "src" / "nivel", ROOT / "pyproject.toml"
 BIN = Path(sys.executable).parent
 # kernels as plain Python: their own tests, and those that are marked `plain`
 MARKED = sorted(
@@ -22,11 +23,6 @@ MARKED = sorted(
 )
 PLAIN = ["tests/interpreted", *map(str, MARKED), *([] if FULL else ["-m", "not full"])]
 PYTEST = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "no:seconds"]
-# the longest first, so that it does not end alone; two processes of pytest share two processors with nothing else
-CHECKS = {
-    "kernels as plain Python": ([*PYTEST, *PLAIN], {"NUMBA_DISABLE_JIT": "1"}),
-    "import layers": ([str(BIN / "lint-imports")], {}),
-}
 
 
 def done(command, environment):
@@ -42,10 +38,34 @@ def done(command, environment):
     )
 
 
+def passed(request, check, digests):
+    """Those of the names in `digests` with which a check passed as they are; none in the full tests."""
+    cache = getattr(request.config, "cache", None)
+    right = {*rooms.kept(check).values(), *(cache.get(check, {}) if cache else {}).values()}
+    return set() if FULL else {name for name, digest in digests.items() if digest in right}
+
+
+def keep(request, check, digests):
+    """Note that a check passed with these digests."""
+    if (cache := getattr(request.config, "cache", None)) is not None:
+        cache.set(check, digests)
+
+
 @pytest.mark.house
-@pytest.mark.parametrize("name", CHECKS)
-def test_the_whole_code_passes(name):
-    check = done(*CHECKS[name])
+def test_kernels_as_plain_python_leave_no_array(request):
+    """Where nothing has changed on which they depend since they passed, they pass."""
+    digests = {
+        "kernels": rooms.digest_of_kernels(PACKAGE, SETTINGS, ROOT / "tests", [ROOT / "tests/interpreted", *MARKED])
+    }
+    if not passed(request, rooms.KERNELS, digests):
+        check = done([*PYTEST, *PLAIN], {"NUMBA_DISABLE_JIT": "1"})
+        assert check.returncode == 0, f"{check.stdout}\n{check.stderr}"
+    keep(request, rooms.KERNELS, digests)
+
+
+@pytest.mark.house
+def test_rooms_import_only_from_rooms_below_them():
+    check = done([str(BIN / "lint-imports")], {})
     assert check.returncode == 0, f"{check.stdout}\n{check.stderr}"
 
 
@@ -58,11 +78,9 @@ def missing(fault):
 @pytest.mark.house
 def test_types(request):
     """Pyright looks at the rooms that are not as they were when it found no fault there; at all of them in the full tests."""
-    package = ROOT / "src" / "nivel"
-    digests = digests_of_types(package, ROOT / "pyproject.toml")
-    cache = getattr(request.config, "cache", None)
-    right = set() if FULL else {*kept_digests().values(), *(cache.get(RIGHT, {}) if cache else {}).values()}
-    paths = [path for name, files in rooms_of(package).items() if digests[name] not in right for path in files]
+    digests = rooms.digests_of_types(PACKAGE, SETTINGS)
+    right = passed(request, rooms.TYPES, digests)
+    paths = [path for name, files in rooms.rooms_of(PACKAGE).items() if name not in right for path in files]
     if paths:
         names = [str(path) for path in paths]
         check = done([str(BIN / "pyright"), "--outputjson", "--pythonpath", sys.executable, *names], {})
@@ -74,8 +92,7 @@ def test_types(request):
         faults = [each for each in found["generalDiagnostics"] if each["severity"] == "error" and not missing(each)]
         lines = [f"{each['file']}:{each['range']['start']['line'] + 1}: {each['message']}" for each in faults]
         assert not lines, "\n".join(lines)
-    if cache is not None:
-        cache.set(RIGHT, digests)
+    keep(request, rooms.TYPES, digests)
 
 
 def test_types_are_checked_anew_where_a_source_or_a_setting_changed(tmp_path):
@@ -90,7 +107,7 @@ def test_types_are_checked_anew_where_a_source_or_a_setting_changed(tmp_path):
         (package / "middle.py").write_text("def f():\n    from machines.low import x", encoding="utf-8")
         (package / "side.py").write_text(side, encoding="utf-8")
         settings.write_text(f'[tool.pyright]\ntypeCheckingMode = "{mode}"', encoding="utf-8")
-        return digests_of_types(package, settings)
+        return rooms.digests_of_types(package, settings)
 
     def changed(other):
         return {name for name, digest in digests(*other).items() if digest != first[name]}
@@ -102,6 +119,26 @@ def test_types_are_checked_anew_where_a_source_or_a_setting_changed(tmp_path):
     assert changed(["x = 1", "y = 1", "z = 2"]) == {"side"}
     assert changed(["x = 1", "y = 1", "import machines"]) == {"side"}
     assert changed(["x = 1", "y = 1", "z = 1", "strict"]) == set(first)
+
+
+def test_kernels_run_anew_where_a_source_or_a_test_changed(tmp_path):
+    package, tests, settings = tmp_path / "nivel", tmp_path / "tests", tmp_path / "pyproject.toml"
+    for name in ("kernels", "report"):
+        (package / name).mkdir(parents=True)
+    tests.mkdir()
+    settings.write_text("[tool.pyright]", encoding="utf-8")
+    files = [package / "kernels/spring.py", tests / "test_every.py", tests / "zoo.py", tests / "stones.py"]
+    others = [package / "report/page.py", tests / "test_page.py"]
+    for path in (*files, *others):
+        path.touch()
+    files[1].write_text("import zoo", encoding="utf-8")
+    files[2].write_text("def f():\n    from stones import pebble", encoding="utf-8")
+    digests = [rooms.digest_of_kernels(package, settings, tests, files[1:2])]
+    for path in (*files, *others):
+        path.write_text(f"{path.read_text(encoding='utf-8')}\n1", encoding="utf-8")
+        digests.append(rooms.digest_of_kernels(package, settings, tests, files[1:2]))
+    assert len(set(digests)) == 1 + len(files)
+    assert len(set(digests[len(files) :])) == 1
 
 
 @pytest.mark.parametrize(

@@ -89,7 +89,7 @@ MOVING: Final = ("bodies", "beams", "hydraulics")
 class MachineRecord(Checked):
     """Everything that describes a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2, "surroundings": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "fluids": 2, "hydraulics": 2, "control": 2, "surroundings": 2}  # noqa: RUF012
     usual: ClassVar[Mapping[str, Usual]] = {"size": SIZE}
 
     name: Title

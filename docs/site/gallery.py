@@ -172,7 +172,7 @@ def crane_at_work() -> str:
     import nivel
     from nivel import Table
     from nivel.demos.catalogue import demo_file
-    from nivel.view.export import scene_html
+    from nivel.view.page import scene_html
 
     machine = nivel.load(demo_file("loader-crane")).with_settings({"duration": AT_WORK})
     inputs = {}

@@ -185,7 +185,7 @@ class Machine(Model):
     @checked_arguments
     def view(self, *, port: int = 0, browser: bool = True) -> None:
         """Show the assembled machine in a browser, with a slider for each joint that can move; returns after Ctrl-C."""
-        from nivel.view.opening import serve
+        from nivel.view.server import serve
 
         serve(self.viewer_source(), host="127.0.0.1", port=port, browser=browser, say=print)
 

@@ -107,7 +107,7 @@ def test_the_end_of_a_run_says_what_its_trust_report_would_be(tmp_path, monkeypa
         session = source._session
         operate(session, [1.0, 1.0], 0.6)
 
-    monkeypatch.setattr("nivel.view.opening.serve", serve)
+    monkeypatch.setattr("nivel.view.server.serve", serve)
     done = CliRunner().invoke(command.command, [str(path), "--no-browser", "--no-priority", "--udp", "127.0.0.1:0"])
     assert done.exit_code == 0, done.output
     assert re.search(r"datagrams: received at 127\.0\.0\.1:[1-9]\d+\n", done.output)  # 0 is any free port

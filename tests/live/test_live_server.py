@@ -22,9 +22,9 @@ from nivel.live.datagrams import Counts, Datagrams, packed_inputs, place_of
 from nivel.live.preparation import SILENCE
 from nivel.live.source import ONLY_WATCH, LiveSource
 from nivel.system.layout import frame_layout
-from nivel.view.messages import NotUnderstoodError, read_message
 from nivel.view.records import FRAME, SAMPLES
 from nivel.view.server import Address
+from nivel.view.stream import NotUnderstoodError, read_message
 from patience import PATIENCE
 
 

@@ -9,7 +9,7 @@ import pytest
 import nivel
 from circuits import BAR, between, circuit
 from nivel.looks.circuit.power_flow import LOSS, power_diagram
-from nivel.report.power_panel import circuit_power
+from nivel.report.element_panels import circuit_power
 from nivel.results.frames.circuit_balance import component_balances
 
 FOLDER = Path(__file__).parents[2] / "examples" / "hydraulics"

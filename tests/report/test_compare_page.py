@@ -7,7 +7,7 @@ import pytest
 
 from browsing import titled, watched
 from nivel.report.compare_page import COLUMNS, comparison_html
-from nivel.report.log_axis import LogAxis, power_of_ten
+from nivel.report.plots import LogAxis, power_of_ten
 from nivel.report.work_precision import WIDE, curves, diagram
 from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread
 

@@ -6,11 +6,11 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from nivel.looks.joints import sliding_axes, turning_axes
+from nivel.looks.poses import sliding_axes, turning_axes
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.report.force_drawing import planes
+from nivel.report.joint_drawing import joint_icon, joint_sign
 from nivel.report.picture import machine_picture
-from nivel.report.symbols import joint_icon, joint_sign
 from nivel.system.joints.joints import JOINTS
 
 LINKS = {type_: kind.looks.ends for type_, kind in JOINTS.items() if kind.looks.ends is not None}

@@ -7,7 +7,7 @@ import pytest
 
 from browsing import drawn, until, watched
 from needing import needs
-from nivel.view.export import write_scene
+from nivel.view.page import write_scene
 
 
 def picture(page):

@@ -8,8 +8,8 @@ import pytest
 
 import nivel
 from browsing import until, watched
-from nivel.view.export import write_scene
 from nivel.view.package import Block
+from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, stage
 
 FILE = Path(__file__).parents[2] / "examples" / "hydraulics" / "cylinder-boom.yaml"

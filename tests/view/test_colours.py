@@ -14,8 +14,8 @@ from nivel.errors import ModelError
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.body.picture import moving_surface
 from nivel.view.capture import Look, still
-from nivel.view.export import write_scene
 from nivel.view.package import STEPS, Block, from_bytes, unpacked
+from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, SMALL, playback
 from nivel.view.sources import Playback
 from test_flexible import MACHINE

@@ -8,8 +8,8 @@ import pytest
 import nivel
 from browsing import drawn, watched
 from lanes import tail
-from nivel.view.export import write_scene
 from nivel.view.package import from_bytes
+from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, playback
 from playing import assert_plays_and_scrubs
 from test_flexible_examples import MACHINES, folder, machine  # noqa: F401

@@ -6,7 +6,7 @@ import nivel
 from browsing import drawn, until, watched
 from nivel import Table
 from nivel.demos.catalogue import demo_file
-from nivel.view.export import write_scene
+from nivel.view.page import write_scene
 
 MOMENTS = (0.0, 1.0, 2.0)
 # left, upper, right and lower edge of the machine in the picture, in pixels, from all vertices of what is drawn of its bodies

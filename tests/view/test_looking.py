@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import nivel
 from browsing import drawn, landed, until, watched
-from nivel.view.export import write_scene
+from nivel.view.page import write_scene
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 EYE, AIM = "nivel.app.world.camera.position.toArray()", "nivel.app.world.controls.target.toArray()"

@@ -14,7 +14,7 @@ from browsing import drawn, landed, served, until, watched
 from example_files import RIGID
 from lanes import tail
 from nivel.results import Memory
-from nivel.view.export import write_scene
+from nivel.view.page import write_scene
 from nivel.view.sources import Playback
 from patience import PATIENCE
 from playing import assert_plays_and_scrubs

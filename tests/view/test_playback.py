@@ -13,8 +13,8 @@ from nivel.errors import ModelError
 from nivel.results import Memory
 from nivel.view import records
 from nivel.view.arrows import Moments
-from nivel.view.export import scene_html
 from nivel.view.package import from_bytes, unpacked
+from nivel.view.page import scene_html
 from nivel.view.playback import ALONE, SERVED, SMALL, Budget, playback
 from nivel.view.violations import violation_vectors
 

@@ -15,10 +15,10 @@ from hypothesis.extra.numpy import arrays
 
 from nivel.view import records
 from nivel.view.frames import layout, message, rows
-from nivel.view.messages import LARGEST, NotUnderstoodError, read_message, said
 from nivel.view.package import Block, from_bytes, to_bytes, unpacked
 from nivel.view.page import built
 from nivel.view.records import PROTOCOL, Move, Moved, Package, Reset, Shown, Want
+from nivel.view.stream import LARGEST, NotUnderstoodError, read_message, said
 from nivel.view.typescript import typescript
 
 ROOT = Path(__file__).parent.parent.parent

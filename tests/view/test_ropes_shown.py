@@ -10,7 +10,7 @@ from nivel.looks.poses import body_poses
 from nivel.looks.ropes import STEPS, rope_line
 from nivel.report.picture import machine_picture
 from nivel.results.frames.json_forms import strangers
-from nivel.view.export import write_scene
+from nivel.view.page import write_scene
 from simulating import simulate, solid
 
 R, LENGTH = 0.1, 0.1

@@ -25,7 +25,7 @@ from nivel.settings import StepSettingsDict
 
 if TYPE_CHECKING:
     from nivel.live.session import Session
-    from nivel.view.opening import Stop
+    from nivel.view.server import Stop
 
 SIGNALLED: Final = 128  # and the number of the signal: the exit code
 KEYS: Final = {
@@ -102,7 +102,7 @@ def command(
     from nivel.live.journal import check_journal, journal_of
     from nivel.live.opening import session_of
     from nivel.live.source import LiveSource
-    from nivel.view.opening import Stop, serve
+    from nivel.view.server import Stop, serve
 
     def say(text: str) -> None:
         if not quiet:

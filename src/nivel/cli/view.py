@@ -101,7 +101,7 @@ def command(
     from nivel.errors import ModelError
     from nivel.extras import require
     from nivel.view.capture import Look, require_parts
-    from nivel.view.opening import serve
+    from nivel.view.server import serve
 
     if not host.strip():
         raise click.BadParameter("an address was expected, got none", param_hint="--host")
@@ -188,7 +188,7 @@ def _results(
 
 def _export(source: Source, target: Path, look: Look, quiet: bool) -> None:
     from nivel.view.capture import film
-    from nivel.view.export import write_page
+    from nivel.view.page import write_page
 
     if target.suffix.lower() == ".html":
         write_page(source, target)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.target import write_file
-from nivel.looks.colours import colour_of_body
+from nivel.looks.links import colour_of_body
 from nivel.looks.poses import upwards
 from nivel.looks.solids import Ball, shapes_of, solid
 from nivel.results.result import Result

@@ -42,10 +42,8 @@ from nivel.kernels.output.observe import observe
 from nivel.live.hand import COUNT
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, live_plan, prepared_run
-from nivel.live.shared import bytes_of, live_in
-from nivel.live.snapshot import arrays_of, put_back, taken
-from nivel.live.system_clock import clock_addresses
-from nivel.live.timing import Timing, timing_of
+from nivel.live.shared import arrays_of, bytes_of, live_in, put_back, taken
+from nivel.live.timing import Timing, clock_addresses, timing_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input
 from nivel.methods import CHOSEN, known_words

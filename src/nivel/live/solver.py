@@ -39,9 +39,8 @@ from nivel.kernels.output.observe import observe
 from nivel.live import shared
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run
-from nivel.live.shared import live_in
-from nivel.live.snapshot import Snapshot, arrays_of, put_back, taken
-from nivel.live.system_clock import become_urgent, clock_addresses
+from nivel.live.shared import Snapshot, arrays_of, live_in, put_back, taken
+from nivel.live.timing import become_urgent, clock_addresses
 from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before Python has a turn

@@ -1,8 +1,8 @@
-"""Automatic shapes: a body is drawn as links from its centre of mass to where joints and forces hold it, unless its shape reaches there."""
+"""Automatic shapes of bodies, links from the centre of mass to where joints and forces hold them, and the colours of bodies."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,3 +39,16 @@ def _outside(extent: Array, points: Array) -> NDArray[np.bool_]:
     slack = 1e-3 * np.ptp(extent, axis=0).max()
     low, high = extent.min(axis=0) - slack, extent.max(axis=0) + slack
     return np.any((points < low) | (points > high), axis=1)
+
+
+COLOURS: Final = ("#5b86b4", "#cf7f4f", "#6fa17a", "#9274b0", "#c6a548", "#469c9f", "#bb6a86", "#7d8998")
+
+
+def colour_of(number: int) -> str:
+    """Colour of the body with this number, as `#rrggbb`."""
+    return COLOURS[number % len(COLOURS)]
+
+
+def colour_of_body(body: dict[str, Any], number: int) -> str:
+    """Colour of a body of the scene, for what has none of its own: that of its first shape with one, else that of its number."""
+    return next((shape["colour"] for shape in shapes_of(body) if "colour" in shape), colour_of(number))

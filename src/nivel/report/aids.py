@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.report.frame import WIDTH, Frame
+from nivel.report.drawing import WIDTH, Frame
 
 Array = NDArray[np.float64]
 

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.colours import colour_of
-from nivel.looks.joints import sliding_axes, turning_axes
-from nivel.looks.poses import Array, body_poses, upwards
+from nivel.looks.links import colour_of
+from nivel.looks.poses import Array, body_poses, sliding_axes, turning_axes, upwards
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
-from nivel.report.frame import WIDTH, Frame, fit
+from nivel.report.drawing import WIDTH, Frame, fit
 from nivel.report.labels import Label, place
 from nivel.results.beams.beam_nodes import beam_nodes, stations
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from nivel.report.page import page, text_of
 from nivel.report.story import trusted
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
 from nivel.results.comparison.comparison import CONVERGED, Comparison, Row
@@ -23,7 +24,6 @@ from nivel.results.comparison.comparison_table import (
 )
 from nivel.results.motion import DEFINITION
 
-HERE = Path(__file__).parent
 WANTED = (1e-3, 1e-6, 1e-9)  # errors to which the cheapest cell is told
 
 MEANINGS = (
@@ -115,10 +115,9 @@ def write_comparison(comparison: Comparison, path: str | os.PathLike[str], *, fo
 
 def comparison_html(comparison: Comparison) -> str:
     """The page as text."""
-    from jinja2 import Environment, FileSystemLoader
-
-    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("compare.html.j2").render(
+    return page(
+        "compare.html.j2",
+        ("compare.css",),
         trusted=trusted(comparison.trust),
         comparison=comparison,
         title=_title(comparison),
@@ -133,9 +132,7 @@ def comparison_html(comparison: Comparison) -> str:
         label=comparison.label,
         fineness=fineness,
         meanings=MEANINGS,
-        page_style=(HERE / "page.css").read_text(encoding="utf-8"),
-        compare_style=(HERE / "compare.css").read_text(encoding="utf-8"),
-        compare_script=(HERE / "compare.js").read_text(encoding="utf-8"),
+        script=text_of("compare.js"),
     )
 
 

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 
 from nivel.looks.poses import Array, Pose, ends_in_space
-from nivel.looks.ropes import rope_line
-from nivel.report.drawing import Drawing
-from nivel.report.frame import Frame
+from nivel.looks.ropes import belt_line, rope_line
+from nivel.report.drawing import Drawing, Frame
+from nivel.report.joint_drawing import END_ON
 from nivel.report.labels import Label
 from nivel.report.strokes import coil_sign, cylinder_sign, dashed_sign, ground_sign, plane_sign, rope_sign, spring_sign
-from nivel.report.symbols import END_ON
 
 FAR = 20.0  # a plane further away than this many lengths of the machine is left out
 HALF_PLANE = 34.0  # pixels of a plane to both sides of what touches it
@@ -117,3 +116,25 @@ def draw_plane(drawing: Drawing, frame: Frame, plane: Plane) -> None:
     ends = np.array([x, y]) + half * np.outer([-1.0, 1.0], along)
     drawing.lines.append(ends)
     drawing.points += list(np.linspace(ends[0], ends[1], 7) + np.array([0.0, 4.0]))
+
+
+def belt_points(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
+    """(n, 3) [m] global points of all belts."""
+    lines = [belt_line(belt, scene["joints"], poses) for belt in scene.get("belts", [])]
+    return np.concatenate([np.empty((0, 3)), *lines])
+
+
+def draw_belt(
+    drawing: Drawing, frame: Frame, belt: dict[str, Any], scene: dict[str, Any], poses: dict[str, Pose]
+) -> None:
+    """Draw a belt with its name at the middle of a strand."""
+    line = belt_line(belt, scene["joints"], poses)
+    if not len(line):
+        return
+    line = frame.pixels(line)
+    title = f"{belt['name']}: {belt['type']}, {' – '.join(belt['joints'])}"
+    drawing.links.append(f"<g><title>{escape(title)}</title>{rope_sign(line)}</g>")
+    parts = np.stack([line[:-1], line[1:]], axis=1)
+    drawing.lines.extend(parts)
+    x, y = parts[np.argmax(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1))].mean(axis=0)
+    drawing.labels.append(Label(belt["name"], float(x), float(y), "force-name"))

@@ -1,20 +1,19 @@
-"""Joints in the picture: their signs, ground under them, and rods between the points of those that are links."""
+"""Joints in the picture of a machine, and their signs as in textbooks, in SVG."""
 
 from __future__ import annotations
 
+import math
 from html import escape
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
-from nivel.looks.joints import joint_axis, stands_at_second
-from nivel.looks.poses import Pose, ends_in_space
-from nivel.report.drawing import Array, Drawing
-from nivel.report.frame import Frame
+from nivel.looks.poses import Pose, ends_in_space, joint_axis, stands_at_second
+from nivel.report.drawing import Array, Drawing, Frame
 from nivel.report.labels import Label
 from nivel.report.strokes import Point, ground_sign, plane_sign, rail_sign, rod_sign
-from nivel.report.symbols import END_ON, joint_sign
-from nivel.system.joints.joints import looks_of
+from nivel.system.joints.joints import looks_of, symbol_of
 from nivel.system.joints.symbols import PLANE_GAP
 
 
@@ -86,3 +85,27 @@ def _on_screen(frame: Frame, axis: Array) -> Point:
 def _point(pixels: Array) -> Point:
     x, y = pixels
     return float(x), float(y)
+
+
+END_ON = 0.35  # a joint axis whose projection is shorter than this fraction of its length is seen end-on
+
+
+def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 1.0), scale: float = 1.0) -> str:
+    """The sign of a joint at (x, y).
+
+    axis : on the screen, right and down, as long as it is seen (1: in the plane of the picture, 0: end-on). It is the joint axis,
+    of a plane its normal, of a pin in a slot the slot.
+    """
+    length = math.hypot(*axis)
+    seen = length > END_ON
+    angle = math.degrees(math.atan2(axis[1], axis[0])) if seen else 0.0
+    body = symbol_of(kind)(seen)
+    return f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f}) scale({scale:.2f})" class="joint">{body}</g>'
+
+
+def joint_icon(kind: str) -> Markup:
+    """The sign of a joint by itself, for tables."""
+    sign = joint_sign(kind, 18.0, 10.0, looks_of(kind).icon)
+    return Markup(
+        f'<svg class="machine icon" viewBox="0 0 36 20" width="36" height="20" aria-hidden="true">{sign}</svg>'
+    )

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from nivel.flexible.body.body import ReducedBody
 from nivel.looks.viewpoint import View, choose_view
-from nivel.report.frame import HEIGHTS, WIDTH, Frame, fit
-from nivel.report.shading import LIGHT, between
+from nivel.report.drawing import HEIGHTS, LIGHT, WIDTH, Frame, between, fit
 
 Array = NDArray[np.float64]
 

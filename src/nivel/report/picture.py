@@ -7,19 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from nivel.looks.colours import colour_of, colour_of_body
-from nivel.looks.joints import sliding_axes, turning_axes
-from nivel.looks.links import held_points
-from nivel.looks.poses import Array, Pose, body_poses, in_space
+from nivel.looks.links import colour_of, colour_of_body, held_points
+from nivel.looks.poses import Array, Pose, body_poses, in_space, sliding_axes, turning_axes
 from nivel.looks.solids import FACETS, FEW_FACETS, FEWEST_FACETS, reach_of, shapes_of
 from nivel.looks.sweeps import rings, swept_bodies
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
-from nivel.report.belt_drawing import belt_points, draw_belt
 from nivel.report.body_drawing import draw_body, draw_sweep
-from nivel.report.drawing import Drawing
-from nivel.report.force_drawing import Plane, draw_force, draw_plane, force_points, planes
-from nivel.report.frame import WIDTH, Frame, fit
+from nivel.report.drawing import WIDTH, Drawing, Frame, fit
+from nivel.report.force_drawing import Plane, belt_points, draw_belt, draw_force, draw_plane, force_points, planes
 from nivel.report.joint_drawing import draw_joint
 from nivel.report.labels import FONT, WITHOUT_LINE, Label, place
 from nivel.system.joints.joints import looks_of

@@ -6,14 +6,13 @@ import os
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from nivel import __version__
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.checks.findings import Findings
+from nivel.report.drawing import between
 from nivel.report.mode_picture import mode_pictures
-from nivel.report.shading import between
+from nivel.report.page import page
 from nivel.results.comparison.comparison_files import write_text
 
-HERE = Path(__file__).parent
 PICTURES: Final = 12
 CELL: Final = 15.0  # pixels of a square of the MAC matrix
 GOOD, FAIR = 0.01, 0.05  # relative errors of frequencies
@@ -71,10 +70,9 @@ def write_reduction(
 
 def reduction_html(body: ReducedBody, findings: Findings) -> str:
     """The page as text."""
-    from jinja2 import Environment, FileSystemLoader
-
-    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("reduction.html.j2").render(
+    return page(
+        "reduction.html.j2",
+        ("reduction.css",),
         body=body,
         findings=findings,
         facts=_facts(body, findings),
@@ -87,9 +85,6 @@ def reduction_html(body: ReducedBody, findings: Findings) -> str:
         inertia=_inertia(findings),
         neglect=[(name, f"{100 * value:.2g} %") for name, value in findings.neglect.items()],
         meanings=MEANINGS,
-        version=__version__,
-        page_style=(HERE / "page.css").read_text(encoding="utf-8"),
-        style=(HERE / "reduction.css").read_text(encoding="utf-8"),
     )
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel import __version__
+from nivel.report.page import page, text_of
 from nivel.report.search_part import SEARCHES, search_of
 from nivel.report.story import trusted
 from nivel.results.comparison.comparison_files import write_text
@@ -30,7 +30,6 @@ from nivel.results.trust import Trust
 if TYPE_CHECKING:
     import xarray
 
-HERE: Final = Path(__file__).parent
 MOST_LINES: Final = 2000  # variants that are drawn
 MOST_REASONS: Final = 30
 DESIGNS: Final = {
@@ -62,12 +61,11 @@ def write_study_page(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> P
 
 def study_html(dataset: xarray.Dataset) -> str:
     """The page as text."""
-    from jinja2 import Environment, FileSystemLoader
-
     table = Table.of(dataset)
     trust = dataset.attrs.get("trust")
-    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("study.html.j2").render(
+    return page(
+        "study.html.j2",
+        ("plots.css", "study.css"),
         name=dataset.attrs.get("study") or f"{dataset.attrs['machine']}: sweep",
         description=dataset.attrs.get("description", ""),
         facts=_facts(dataset, table),
@@ -79,10 +77,7 @@ def study_html(dataset: xarray.Dataset) -> str:
         more=max(0, len(_reasons(table)) - MOST_REASONS),
         data=json.dumps(_data(table)).replace("<", "\\u003c"),
         table=table,
-        version=__version__,
-        page_style=(HERE / "page.css").read_text(encoding="utf-8"),
-        style="".join((HERE / name).read_text(encoding="utf-8") for name in ("plots.css", "study.css")),
-        script=(HERE / "study.js").read_text(encoding="utf-8"),
+        script=text_of("study.js"),
     )
 
 

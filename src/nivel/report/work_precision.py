@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import Final, NamedTuple
 
-from nivel.report.log_axis import LogAxis, power_of_ten
+from nivel.report.plots import LogAxis, power_of_ten
 from nivel.results.comparison.comparison import Comparison, Method, Row, method_label
 from nivel.results.comparison.comparison_table import fineness, number, seconds
 

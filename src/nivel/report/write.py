@@ -20,28 +20,27 @@ from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
 from nivel.report.beam_shapes import beam_shapes
 from nivel.report.control_diagram import control_diagram
+from nivel.report.element_panels import power_picture
+from nivel.report.joint_drawing import joint_icon
 from nivel.report.load_path import load_paths, vibration_table
-from nivel.report.panel import Group, Panel
+from nivel.report.page import page, text_of
+from nivel.report.panel import Group, Panel, Thinning
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.picture import STYLE, machine_picture
-from nivel.report.power_panel import power_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
-from nivel.report.symbols import joint_icon
-from nivel.report.thinning import Thinning
 from nivel.report.tornado import headline as slopes_headline
 from nivel.report.tornado import tornados
 from nivel.results.frames.circuit_balance import component_balances
 from nivel.results.frames.pressures import pressures_at
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
-from nivel.view.export import scene_html
+from nivel.view.page import scene_html
 from nivel.view.playback import SMALL
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-HERE = Path(__file__).parent
 POINTS = (400, 4000)  # of a curve: a screen is about 1000 wide, and one wants to zoom in
 MARKED_EVENTS = 200  # marks in a plot; more cannot be told apart
 MOVING = 2  # frames from which on there is a motion
@@ -59,16 +58,14 @@ def write_report(result: Result, path: str | os.PathLike[str]) -> Path:
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a run beyond all bounds is drawn with gaps
 def report_html(result: Result) -> str:
     """The report as text."""
-    from jinja2 import Environment, FileSystemLoader
-
-    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters["number"] = number
-    environment.filters["quantity"] = quantity
     record = _record(result)
     shown = panels(result)
     balances = component_balances(result, record)
     motion, motion_left_out = _motion(result)
-    return environment.get_template("page.html.j2").render(
+    return page(
+        "page.html.j2",
+        (),
+        {"number": number, "quantity": quantity},
         result=result,
         description=record.get("description") or "",
         facts=facts(result),
@@ -192,13 +189,12 @@ def _packed(values: NDArray[np.float64], kind: str) -> str:
 
 
 def _bundled() -> dict[str, str]:
-    """Styles and scripts that the page carries."""
+    """Styles and scripts of the report beside those of all pages."""
     names = {
-        "page_style": "page.css",
         "page_script": "page.js",
         "spectra_script": "spectra.js",
         "uplot_style": "uplot/uPlot.min.css",
         "uplot_script": "uplot/uPlot.iife.min.js",
         "uplot_licence": "uplot/LICENSE",
     }
-    return {key: (HERE / name).read_text(encoding="utf-8") for key, name in names.items()}
+    return {key: text_of(name) for key, name in names.items()}

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 MAKERS: Final = {
     "comparison": ("nivel.report.compare_page", "write_comparison"),
-    "efforts": ("nivel.report.efforts_page", "efforts_html"),
+    "efforts": ("nivel.report.motion_pages", "efforts_html"),
     "linear model": ("nivel.report.linear_page", "linear_html"),
-    "linear sweep": ("nivel.report.sweep_page", "sweep_html"),
-    "mechanism": ("nivel.report.mechanism_page", "mechanism_html"),
+    "linear sweep": ("nivel.report.linear_page", "sweep_html"),
+    "mechanism": ("nivel.report.motion_pages", "mechanism_html"),
     "report": ("nivel.report.write", "write_report"),
-    "notebook": ("nivel.view.inline", "Inline"),
-    "scene": ("nivel.view.export", "write_scene"),
+    "notebook": ("nivel.view.page", "Inline"),
+    "scene": ("nivel.view.page", "write_scene"),
 }
 
 

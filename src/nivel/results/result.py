@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from nivel.results.stress.recovered import RecoveredBody
-    from nivel.view.inline import Inline
+    from nivel.view.page import Inline
 
 
 class Result(Tabulated):

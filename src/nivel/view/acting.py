@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-from nivel.view.coordinate_places import coordinate_place
+from nivel.view.coordinate_places import coordinate_place, triple
 from nivel.view.records import Body, Force, ForceLook, Joint, Triple, Winding
-from nivel.view.triples import triple
 
 # what is drawn at the joint of an angle, and of a length
 AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {

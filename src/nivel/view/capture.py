@@ -20,7 +20,7 @@ from nivel.errors import Fault, ModelError
 from nivel.extras import is_installed, require
 from nivel.files.target import write_file
 from nivel.view.browser import Tab, require_browser, tab
-from nivel.view.export import page_of
+from nivel.view.page import page_of
 from nivel.view.sources import Source
 
 FILMS: Final = (".mp4", ".gif")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, Kind, UnknownCoordinateError, find
 from nivel.view.records import Joint, Triple
 
@@ -43,3 +45,9 @@ def _axis(joint: Joint, word: str) -> Triple:
     if x is None or word not in ("x", "y"):
         return z
     return x if word == "x" else (z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0])
+
+
+def triple(values: Any) -> Triple:
+    """Three numbers that JSON can hold: what is not finite becomes 0."""
+    x, y, z = (float(value) if np.isfinite(value) else 0.0 for value in values)
+    return x, y, z

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from nivel.looks.poses import rotation
 from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
-from nivel.view.coordinate_places import CoordinatePlace, coordinate_place
+from nivel.view.coordinate_places import CoordinatePlace, coordinate_place, triple
 from nivel.view.records import Coupling, End, Track, Wheel
 from nivel.view.stage import Cast
-from nivel.view.triples import triple
 
 Array = NDArray[np.float64]
 # what the coordinates of a coupling are where only their joints are named

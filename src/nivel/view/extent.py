@@ -8,15 +8,14 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.joints import sliding_axes, turning_axes
 from nivel.looks.links import attached, held_points
-from nivel.looks.poses import Pose, body_poses, in_space, rotation, upwards
+from nivel.looks.poses import Pose, body_poses, in_space, rotation, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.bodies.surface import surface_arrays
+from nivel.view.coordinate_places import triple
 from nivel.view.records import Triple, Viewpoint
 from nivel.view.stage import Cast
-from nivel.view.triples import triple
 
 Array = NDArray[np.float64]
 FAR_AWAY: Final = 1e3  # machine lengths from the global origin from which on positions are counted from the machine

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import os
+from collections.abc import Sequence
 from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Final
 
+from nivel.files.target import keep_sources, write_file
+from nivel.results.result import Result
 from nivel.view.package import compressed_text
+from nivel.view.playback import ALONE, Budget, playback
+from nivel.view.sources import Source
 
 FOLDER: Final = Path(__file__).parent / "page"
 # makes the script from its compressed text and runs it
@@ -65,3 +71,46 @@ def _document(title: str, body: str, head: str) -> str:
         f'<link rel="icon" href="data:,"><style>{built("viewer.css")}</style>\n'
         f"<!--\n{built('NOTICE').replace('--', '- -')}-->\n</head>\n<body>{body}</body>\n</html>\n"
     )
+
+
+def scene_html(results: Sequence[Result], budget: Budget = ALONE) -> str:
+    """The page of a result, with further ones as ghosts: it needs no network and nothing beside it."""
+    return page_alone(playback(results, budget), results[0].name)
+
+
+def page_of(source: Source) -> str:
+    """The page of a source, without what would come later."""
+    return page_alone(source.package(), "nivel")
+
+
+def write_scene(results: Sequence[Result], path: str | os.PathLike[str]) -> Path:
+    """Write the page of results to `path`; an existing file is replaced."""
+    target = Path(path)
+    keep_sources(target, "page", [result.path for result in results if result.path])
+    return write_file(target, "page", scene_html(results))
+
+
+def write_page(source: Source, path: Path) -> Path:
+    """Write the page of a source to `path`; an existing file is replaced."""
+    return write_file(path, "page", page_of(source))
+
+
+class Inline:
+    """A playback that notebooks show. height : of the frame, in pixels."""
+
+    def __init__(self, results: list[Result], height: int) -> None:
+        self._name = results[0].name
+        self._html = scene_html(results)
+        self._height = height
+
+    def _repr_html_(self) -> str:
+        # without an origin of its own: the page can reach nothing of the notebook
+        return (
+            f'<iframe title="{escape(self._name)} in motion" sandbox="allow-scripts" srcdoc="{escape(self._html)}" '
+            f'style="width:100%;height:{self._height}px;border:0;border-radius:12px"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return (
+            f"<view of {self._name}: shown in notebooks; elsewhere `nivel view`, or result.export_scene('scene.html')>"
+        )

@@ -10,16 +10,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.colours import colour_of, colour_of_body
-from nivel.looks.joints import slides_on_beam, stands_at_second
-from nivel.looks.links import held_points, link_ends
+from nivel.looks.links import colour_of, colour_of_body, held_points, link_ends
+from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import shapes_of
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.system.joints.joints import looks_of
 from nivel.view.acting import drivers, forces
+from nivel.view.coordinate_places import triple
 from nivel.view.package import Block
 from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
-from nivel.view.triples import triple
 
 
 def sweeps(scene: dict[str, Any], places: dict[str, int]) -> list[Sweep]:

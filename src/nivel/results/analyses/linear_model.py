@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
     from nivel.results.result import Result
-    from nivel.view.inline import Inline
+    from nivel.view.page import Inline
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -1,0 +1,30 @@
+"""Pages from templates: one HTML file with styles and scripts inside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from jinja2 import Environment, FileSystemLoader
+
+from nivel import __version__
+
+HERE: Final = Path(__file__).parent
+
+
+def text_of(name: str) -> str:
+    """The text of a file beside the templates: a style or a script."""
+    return (HERE / name).read_text(encoding="utf-8")
+
+
+def page(
+    template: str, styles: tuple[str, ...], filters: Mapping[str, Callable[..., str]] | None = None, **values: Any
+) -> str:
+    """The page of a template with its `values`, the style of all pages and further `styles`; `filters` are those of Jinja."""
+    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(filters or {})
+    style = "".join(map(text_of, styles))
+    return environment.get_template(template).render(
+        version=__version__, page_style=text_of("page.css"), style=style, **values
+    )

@@ -14,8 +14,8 @@ import synthetic_run as pendulum
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.results import Memory, Result
-from nivel.results.comparison.comparison import Comparison, Row
-from nivel.results.stress.recovered import RecoveredBody
+from nivel.results.comparison import Comparison, Row
+from nivel.results.stress import RecoveredBody
 from nivel.words.arguments import checked_arguments
 from wrong_values import ODD, WRONG, told_or_done
 

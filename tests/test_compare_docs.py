@@ -10,7 +10,7 @@ from pathlib import Path
 from click import Context
 
 from nivel.cli import main
-from nivel.results.comparison.comparison import Row, as_record
+from nivel.results.comparison import Row, as_record
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")

@@ -18,13 +18,13 @@ from nivel.judge.after.report import every_check
 from nivel.judge.during.failure import FAILURES
 from nivel.judge.during.stop import Status
 from nivel.kernels.core import status
+from nivel.lazy import PLACES, provided
 from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.native.entry import Entry
-from nivel.results.pages import MAKERS, page_maker
 from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.joints.joints import JOINTS
 from settings_keywords import kind_of
@@ -107,9 +107,9 @@ def test_components_of_gas_alone_have_no_slopes_by_hand():
     assert without == {word for word, kind in COMPONENTS.items() if not kind.words.liquids}
 
 
-@pytest.mark.parametrize("page", MAKERS)
-def test_every_page_of_a_result_has_a_maker(page):
-    assert callable(page_maker(page))
+@pytest.mark.parametrize("subject", PLACES)
+def test_every_function_that_a_lower_room_asks_for_exists(subject):
+    assert callable(provided(subject))
 
 
 @pytest.mark.parametrize("facts", all_facts(), ids=lambda facts: f"{facts.name}-{facts.machines}")

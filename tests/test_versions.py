@@ -20,7 +20,7 @@ from nivel.flexible.body import body_file
 from nivel.flexible.model import model_file
 from nivel.live import recording
 from nivel.results import Result, Store
-from nivel.results.frames import result_format
+from nivel.results.frames.contents import FORMAT
 
 PAGE = (Path(__file__).parent.parent / "docs" / "versions.md").read_text(encoding="utf-8")
 MACHINE = "format: 1\nbodies: {a: {mass: 1, inertia: [1, 1, 1]}}\nsimulation: {duration: 1 ms, step: 1 ms}\n"
@@ -38,7 +38,7 @@ def test_the_page_has_the_formats_that_the_program_reads():
     assert table == {
         "machine file": str(MACHINE_FORMAT),
         "model of a flexible body": str(model_file.FORMAT),
-        "result file": str(result_format.FORMAT),
+        "result file": str(FORMAT),
         "reduced body": str(body_file.FORMAT),
         "recording of a live run": str(recording.FORMAT),
     }
@@ -97,7 +97,7 @@ def stored(tmp_path):
 
 def test_a_run_writes_its_format_and_its_version(tmp_path):
     result = nivel.Machine.from_record(parse_machine(MACHINE, "machine.yaml")).simulate(out=tmp_path / "run.nc")
-    assert Result.open(result.path).attributes["result_format"] == result_format.FORMAT
+    assert Result.open(result.path).attributes["result_format"] == FORMAT
     assert Result.open(result.path).attributes["nivel_version"] == nivel.__version__
 
 

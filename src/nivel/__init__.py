@@ -15,6 +15,8 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from nivel.lazy import provide
+
 __version__ = "0.2.0"
 
 if TYPE_CHECKING:
@@ -70,7 +72,7 @@ if TYPE_CHECKING:
     from nivel.machine.signals.input import Input as Input
     from nivel.machine.signals.sensor import Sensor as Sensor
     from nivel.machine.signals.state import State as State
-    from nivel.results.comparison.comparison import Comparison as Comparison
+    from nivel.results.comparison import Comparison as Comparison
     from nivel.results.result import Result as Result
     from nivel.studies import load_study as load_study
 
@@ -127,7 +129,7 @@ _HOME = {
     "Torque": "nivel.machine.forces.load",
     "ThreeAxisSpring": "nivel.elements.forces.springs",
     "TorsionalSpringDamper": "nivel.elements.forces.springs",
-    "Comparison": "nivel.results.comparison.comparison",
+    "Comparison": "nivel.results.comparison",
     "Result": "nivel.results.result",
     "load_study": "nivel.studies",
 }
@@ -189,6 +191,23 @@ __all__ = [
     "open_result",
     "sweep",
 ]
+
+
+# functions that results call and that stand in rooms above them
+provide(
+    {
+        "comparison": "nivel.report.compare_page:write_comparison",
+        "efforts": "nivel.report.motion_pages:efforts_html",
+        "linear model": "nivel.report.linear_page:linear_html",
+        "linear sweep": "nivel.report.linear_page:sweep_html",
+        "mechanism": "nivel.report.motion_pages:mechanism_html",
+        "notebook": "nivel.view.page:Inline",
+        "report": "nivel.report.write:write_report",
+        "result file": "nivel.results.store:save",
+        "scene": "nivel.view.page:write_scene",
+        "trust of remains": "nivel.judge.after.report:assess_remains",
+    }
+)
 
 
 def __getattr__(name: str) -> Any:

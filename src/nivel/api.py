@@ -82,7 +82,7 @@ if TYPE_CHECKING:
     from nivel.results.analyses.joint_path import JointPath
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.mechanism import Range
-    from nivel.results.comparison.comparison import Comparison
+    from nivel.results.comparison import Comparison
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 else:  # other words are refused by those who read settings, with the nearest one

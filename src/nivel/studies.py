@@ -16,7 +16,7 @@ from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
 from nivel.machine.study.parameter import Between
-from nivel.results.frames.dataset_file import write_netcdf
+from nivel.results.frames.tabulated import write_netcdf
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:

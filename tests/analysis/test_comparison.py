@@ -10,7 +10,7 @@ import pytest
 from nivel.analysis.compare.compare_grid import Axes, lay_out
 from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
-from nivel.results.comparison.comparison import Comparison
+from nivel.results.comparison import Comparison
 from nivel.results.motion import Motion, distance
 from simulating import hinge, machine, slide, solid, wheel
 

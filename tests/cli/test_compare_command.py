@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
-from nivel.results.comparison.comparison import Comparison
+from nivel.results.comparison import Comparison
 from patience import PATIENCE
 
 PENDULUM = """\

@@ -6,11 +6,10 @@ import re
 import numpy as np
 
 from nivel.integrate.loop.sink import Header
-from nivel.report.beam_shapes import SHAPES, beam_shapes
+from nivel.report.beam_shapes import SHAPES, beam_nodes, beam_shapes, stations
 from nivel.report.panels import panels
 from nivel.report.story import facts
 from nivel.results import Memory
-from nivel.results.beams.beam_nodes import beam_nodes, stations
 from nivel.system.layout import frame_layout
 from synthetic_run import header
 

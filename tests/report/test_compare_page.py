@@ -9,7 +9,7 @@ from browsing import titled, watched
 from nivel.report.compare_page import COLUMNS, comparison_html
 from nivel.report.plots import LogAxis, power_of_ten
 from nivel.report.work_precision import WIDE, curves, diagram
-from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread
+from nivel.results.comparison import Comparison, Reference, Row, Spread
 
 VOID = {"meta", "link", "br", "hr", "img", "input"}
 REFERENCE = Reference("dop853 at tolerance 1e-12", "dop853", 1e-12, "its distance from a run at tolerance 1e-11")

@@ -4,7 +4,7 @@ import pytest
 import xarray
 
 from nivel.errors import ModelError
-from nivel.results.frames.dataset_file import write_dataset
+from nivel.results.frames.tabulated import write_dataset
 
 DATA = xarray.Dataset({"x": ("time", [1.0, 2.0])})
 

@@ -24,7 +24,7 @@ from nivel.settings import CompareSettingsDict
 
 if TYPE_CHECKING:
     from nivel.errors import ModelError
-    from nivel.results.comparison.comparison import Comparison
+    from nivel.results.comparison import Comparison
 
 FORMATS: Final = (".csv", ".json")
 WIDEST: Final = 1000  # a line of the table is a line also in a narrow terminal or a pipe
@@ -165,7 +165,7 @@ def _print(comparison: Comparison) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from nivel.results.comparison.comparison_table import columns, lines
+    from nivel.results.comparison_table import columns, lines
 
     shown = columns(comparison)
     table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)

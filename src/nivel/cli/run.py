@@ -49,7 +49,7 @@ def command(order: Order, inputs: dict[str, str], no_verify: bool, verify_limit:
 
 
 def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:
-    from nivel.results.frames.occurrence import in_words
+    from nivel.results.frames.summary import in_words
 
     out = console()
     trust = result.trust

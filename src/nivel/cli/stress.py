@@ -13,7 +13,7 @@ from nivel.cli.options import file_argument, force_option, json_option, quiet_op
 from nivel.cli.progress import progress_stage
 
 if TYPE_CHECKING:
-    from nivel.results.stress.recovered import RecoveredBody
+    from nivel.results.stress import RecoveredBody
 
 FILE = click.Path(dir_okay=False, path_type=Path)
 
@@ -80,7 +80,7 @@ def command(
     if picture is not None:
         require("plots need", "matplotlib")
     from nivel.results import Result
-    from nivel.results.stress.stress_facts import facts
+    from nivel.results.stress_tables import stress_facts
 
     opened = Result.open(result)
     moments = _times(times or ())
@@ -92,7 +92,7 @@ def command(
             found.frame(moment)
         _refuse_to_replace((table, cycles, picture, vtk), force, [Path(result), found.file])
         stage("looking for hot spots", 0.1)
-        told = facts(found, count=count, nodes=wanted, times=moments)
+        told = stress_facts(found, count=count, nodes=wanted, times=moments)
         stage("writing", 0.6)
         _write(found, wanted, moments, strains=strains, table=table, cycles=cycles, picture=picture)
         if vtk is not None:
@@ -163,7 +163,7 @@ def _write(
     cycles: Path | None,
     picture: Path | None,
 ) -> None:
-    from nivel.results.stress.stress_tables import write_cycles, write_envelope, write_history, write_states
+    from nivel.results.stress_tables import write_cycles, write_envelope, write_history, write_states
 
     if table is not None:
         if nodes:
@@ -175,7 +175,7 @@ def _write(
     if cycles is not None:
         write_cycles(cycles, found, nodes)
     if picture is not None:
-        from nivel.results.stress.stress_plot import save_plot
+        from nivel.results.plots import save_plot
 
         save_plot(picture, found, nodes)
 

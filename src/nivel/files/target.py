@@ -7,6 +7,7 @@ import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from nivel.errors import ModelError
 from nivel.native.store import whole
@@ -100,3 +101,48 @@ def write_file(path: str | os.PathLike[str], what: str, content: str | bytes | m
 def reason_of(error: OSError) -> str:
     """Why a file cannot be read or written: the system's own words, without those of the HDF5 library around them."""
     return os.strerror(error.errno).lower() if error.errno else str(error).lower()
+
+
+def write_text(text: str, path: str | os.PathLike[str] | None, what: str, *, force: bool) -> str:
+    """Write `text` to `path`, if there is one; returns it. `what` it is, for the message where it cannot be written.
+
+    An existing file is replaced with `force` only.
+    """
+    if path is not None:
+        check_target(Path(path), what, force=force)
+        write_file(path, what, text)
+    return text
+
+
+AHEAD = 1024 * 1024  # bytes taken beyond what is needed now, so that small blocks do not take space each time
+PIECE = bytes(256 * 1024)
+
+
+class Space:
+    """Room behind the end of an HDF5 file that is open for writing."""
+
+    def __init__(self, path: Path, file: Any) -> None:
+        self._path = path
+        self._file = file
+
+    def ensure(self, size: int) -> None:
+        """Make sure that the file can grow by `size` bytes. Raises OSError where it cannot."""
+        end, needed = self._path.stat().st_size, self._file.id.get_filesize() + size
+        if end >= needed:
+            return
+        with self._path.open("r+b", buffering=0) as raw:
+            raw.seek(end)
+            try:
+                while end < needed + AHEAD:
+                    end += raw.write(PIECE)
+            except OSError:
+                if end < needed:
+                    raise
+
+    def close(self) -> None:
+        """Close the file, which must be flushed, and give back what HDF5 did not use."""
+        size = self._file.id.get_filesize()
+        self._file.close()
+        with self._path.open("r+b", buffering=0) as raw:
+            raw.truncate(size)
+            os.fsync(raw.fileno())

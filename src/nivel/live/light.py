@@ -19,7 +19,7 @@ from nivel.judge.after.checks.energy import Energy
 from nivel.judge.after.checks.joints import Violation
 from nivel.judge.after.subject import Motion
 from nivel.live.timing import Timing
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 from nivel.results.scales import largest_speed, speed_of_rest
 from nivel.results.trust import Item, Threshold, Verdict, number, worst

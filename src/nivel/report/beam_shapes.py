@@ -16,10 +16,11 @@ from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
 from nivel.report.drawing import WIDTH, Frame, fit
 from nivel.report.labels import Label, place
-from nivel.results.beams.beam_nodes import beam_nodes, stations
+from nivel.results.scales import Readable
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
+
 
 Numbers = NDArray[np.intp]
 SHAPES = 11  # of each beam
@@ -102,3 +103,17 @@ def _svg(frame: Frame, lines: dict[str, Array], colours: list[str], tracks: list
 
 def _path(points: Iterable[Iterable[float]]) -> str:
     return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
+
+
+def beam_nodes(result: Readable) -> dict[str, NDArray[np.intp]]:
+    """Beam → numbers of its nodes among the bodies of the result, from start to end."""
+    record = json.loads(str(result.attributes.get("machine_record", "{}")))
+    owner = np.array([name.partition(".")[0] for name in result.coordinates.get("body", ())])
+    return {beam["name"]: np.flatnonzero(owner == beam["name"]) for beam in record.get("beams") or ()}
+
+
+def stations(result: Readable, beam: str) -> list[str]:
+    """Names of the bodies of a result that are named places on a beam, among them its ends; nodes between them have numbers."""
+    inside = f"{beam}."
+    bodies = result.coordinates.get("body", ())
+    return [name for name in bodies if name.startswith(inside) and not name.removeprefix(inside).isdecimal()]

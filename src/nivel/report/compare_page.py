@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from nivel.files.target import write_text
 from nivel.report.page import page, text_of
 from nivel.report.story import trusted
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
-from nivel.results.comparison.comparison import CONVERGED, Comparison, Row
-from nivel.results.comparison.comparison_files import write_text
-from nivel.results.comparison.comparison_table import (
+from nivel.results.comparison import Comparison, Row
+from nivel.results.comparison_table import (
+    CONVERGED,
     fineness,
     motion,
     not_converged,

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nivel.judge.after.checks import joints
+from nivel.report.beam_shapes import beam_nodes, stations
 from nivel.report.control_diagram import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
-from nivel.results.beams.beam_nodes import beam_nodes, stations
 from nivel.results.scales import bodies, rotated
 
 if TYPE_CHECKING:

@@ -6,12 +6,12 @@ import os
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from nivel.files.target import write_text
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.checks.findings import Findings
 from nivel.report.drawing import between
 from nivel.report.mode_picture import mode_pictures
 from nivel.report.page import page
-from nivel.results.comparison.comparison_files import write_text
 
 PICTURES: Final = 12
 CELL: Final = 15.0  # pixels of a square of the MAC matrix

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from nivel.judge.after.report import titles
-from nivel.results.beams.beam_nodes import beam_nodes
-from nivel.results.frames.occurrence import in_words
+from nivel.report.beam_shapes import beam_nodes
+from nivel.results.frames.summary import in_words
 from nivel.results.trust import NOT_VERIFIED, Item, Trust, Verdict
 from nivel.words.wording import set_in_motion
 

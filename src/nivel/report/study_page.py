@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.files.target import write_text
 from nivel.report.page import page, text_of
 from nivel.report.search_part import SEARCHES, search_of
 from nivel.report.story import trusted
-from nivel.results.comparison.comparison_files import write_text
 from nivel.results.study_statistics import (
     Share,
     Surface,

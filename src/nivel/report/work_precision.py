@@ -8,8 +8,8 @@ from html import escape
 from typing import Final, NamedTuple
 
 from nivel.report.plots import LogAxis, power_of_ten
-from nivel.results.comparison.comparison import Comparison, Method, Row, method_label
-from nivel.results.comparison.comparison_table import fineness, number, seconds
+from nivel.results.comparison import Comparison, Method, Row, method_label
+from nivel.results.comparison_table import fineness, number, seconds
 
 TONES: Final = 8  # colours of the page
 LEAST: Final = 1e-16  # an error of zero is drawn here

@@ -31,8 +31,7 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.tornado import headline as slopes_headline
 from nivel.report.tornado import tornados
-from nivel.results.frames.circuit_balance import component_balances
-from nivel.results.frames.pressures import pressures_at
+from nivel.results.frames.circuit_balance import component_balances, pressures_at
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
 from nivel.view.page import scene_html

@@ -2,40 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.integrate.loop.sink import Header
-from nivel.results.frames.contents import resolved, shape_of
-from nivel.system.layout import Variable
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
+from nivel.results.frames.contents import MemoryContents
+from nivel.results.result import Result
 
 GROWTH = 2  # a full buffer doubles: each frame is copied at most twice on average
 MOST_AT_FIRST = 16_384  # frames: more than that are made room for when they come
-
-
-class MemoryContents:
-    """Frames (frame_count, width) of a run and the names of their columns."""
-
-    def __init__(self, header: Header, frames: NDArray[np.float64], attributes: dict[str, str | float | int]) -> None:
-        self.variables: dict[str, Variable]
-        self.coordinates: dict[str, tuple[str, ...]]
-        self.variables, self.coordinates = resolved(header)
-        self.attributes = attributes
-        self.frame_count = len(frames)
-        self.header = header
-        self.frames = frames
-
-    def read(self, name: str, where: tuple[slice | int, ...] = ()) -> NDArray[np.float64]:
-        if name == "time":
-            return self.frames[:, 0][where or ...].copy()
-        variable = self.variables[name]
-        block = self.frames[:, variable.columns].reshape(self.frame_count, *shape_of(variable, self.coordinates))
-        return np.array(block[where or ...])
 
 
 class Memory:
@@ -84,8 +59,6 @@ class Memory:
         return self._as_result(attributes)
 
     def _as_result(self, attributes: dict[str, str | float | int]) -> Result:
-        from nivel.results.result import Result
-
         if self._header is None:
             raise RuntimeError("a sink must begin before it gives a result")
         # what was taken is never written again, and a result only reads

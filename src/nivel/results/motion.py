@@ -75,3 +75,11 @@ def common_frames(a: Array, b: Array) -> tuple[NDArray[np.intp], NDArray[np.intp
     places = np.minimum(np.searchsorted(b, a - tolerance), len(b) - 1)
     found = np.flatnonzero(np.abs(b[places] - a) <= tolerance)
     return found, places[found]
+
+
+def rotation_matrices(theta: Array) -> Array:
+    """(n, 3, 3) of Euler parameters (n, 4), scalar first and of unit length: columns are the axes of the frames."""
+    e0, e = theta[:, 0], theta[:, 1:]
+    tilde = np.zeros((len(theta), 3, 3))
+    tilde[:, [2, 0, 1], [1, 2, 0]], tilde[:, [1, 2, 0], [2, 0, 1]] = e, -e
+    return np.eye(3) + 2.0 * (e0[:, None, None] * tilde + tilde @ tilde)

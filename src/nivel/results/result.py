@@ -12,16 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import provided
 from nivel.results.estimate import ATTRIBUTE, Estimate
 from nivel.results.frames.contents import Contents
-from nivel.results.frames.names import Selection, selections, unknown_name
-from nivel.results.frames.occurrence import Occurrence, from_json
-from nivel.results.frames.row_units import own_units
+from nivel.results.frames.names import Selection, own_units, selections, unknown_name
 from nivel.results.frames.stored import StoredContents, understood
+from nivel.results.frames.summary import Occurrence, from_json
 from nivel.results.frames.tabulated import Column, Rows, Tabulated
 from nivel.results.iterations import ATTRIBUTE as ITERATIONS
 from nivel.results.iterations import Iterations
-from nivel.results.pages import page_maker, report_of_remains
 from nivel.results.trust import Trust
 from nivel.system.layout import Variable
 from nivel.words.arguments import checked_arguments
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from nivel.results.stress.recovered import RecoveredBody
+    from nivel.results.stress import RecoveredBody
     from nivel.view.page import Inline
 
 
@@ -115,12 +114,12 @@ class Result(Tabulated):
         if "trust" in self.attributes:
             with understood(self._contents, "trust"):
                 return Trust.from_json(str(self.attributes["trust"]))
-        return report_of_remains(self)
+        return provided("trust of remains")(self)
 
     @checked_arguments
     def sections(self, beam: str) -> xarray.Dataset:
-        """Strains, forces and moments along a beam at all times; see `nivel.results.beams.beam_sections`."""
-        from nivel.results.beams.beam_sections import beam_sections
+        """Strains, forces and moments along a beam at all times; see `nivel.results.beams`."""
+        from nivel.results.beams import beam_sections
 
         return beam_sections(self, beam)
 
@@ -262,9 +261,7 @@ class Result(Tabulated):
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Write the result file, which `nivel.open_result` and `nivel report` read. Raises ModelError where it exists and `force` is
         not given."""
-        from nivel.results.saved import save
-
-        return save(self._contents, path, force=force)
+        return provided("result file")(self._contents, path, force=force)
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
@@ -280,7 +277,7 @@ class Result(Tabulated):
         file : where the file of the body is now, if it was moved. Raises ModelError where the body is not flexible, or its file is gone
         or was changed since the run.
         """
-        from nivel.results.stress.recovered import RecoveredBody
+        from nivel.results.stress import RecoveredBody
 
         return RecoveredBody(self, body, file)
 
@@ -292,7 +289,7 @@ class Result(Tabulated):
 
         band : the estimated error of each curve around it, where the run was verified.
         """
-        from nivel.results.frames.plot import plot
+        from nivel.results.plots import plot
 
         return plot(self, names, band)
 
@@ -306,12 +303,12 @@ class Result(Tabulated):
     @checked_arguments
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Write the report as one HTML file that needs no network; an existing file is replaced."""
-        return page_maker("report")(self, path)
+        return provided("report")(self, path)
 
     @checked_arguments
     def animate(self, *others: Result, height: int = 520) -> Inline:
         """Animation of the motion in a notebook, in the viewer; `others` are drawn transparently over it. height : in pixels."""
-        return page_maker("notebook")([self, *others], height)
+        return provided("notebook")([self, *others], height)
 
     @checked_arguments
     def view(self, *others: Result, height: int = 520) -> Inline:
@@ -321,7 +318,7 @@ class Result(Tabulated):
     @checked_arguments
     def export_scene(self, path: str | os.PathLike[str], *others: Result) -> Path:
         """Write the motion as one HTML page that opens anywhere and needs no network; an existing file is replaced."""
-        return page_maker("scene")([self, *others], path)
+        return provided("scene")([self, *others], path)
 
     def reactions(self) -> xarray.Dataset:
         """Peak and RMS force and torque of every joint, and when."""

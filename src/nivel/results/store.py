@@ -11,23 +11,21 @@ from __future__ import annotations
 import os
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from shutil import copyfile
+from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
-from nivel.files.target import check_target, reason_of, status
+from nivel.files.target import Space, check_target, reason_of, status, written
 from nivel.integrate.loop.sink import Header
 from nivel.native.store import whole
-from nivel.results.frames.contents import name_in_file, resolved, shape_of
-from nivel.results.frames.space import Space
+from nivel.results.frames.contents import Contents, MemoryContents, name_in_file, resolved, shape_of
 from nivel.results.frames.stored import StoredContents, opened
+from nivel.results.result import Result
 from nivel.system.layout import Variable
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 Attributes = dict[str, str | float | int]
 
@@ -109,8 +107,6 @@ class Store:
 
     def _given_up(self, reason: str) -> SolveError:
         """Close the file as it is; it says why it ends there."""
-        from nivel.results.result import Result
-
         self._finish()
         times = StoredContents(self.path).read("time")
         until = float(times[-1]) if len(times) else 0.0
@@ -132,14 +128,10 @@ class Store:
 
     def result(self) -> Result:
         """What was written so far; the run may go on."""
-        from nivel.results.result import Result
-
         return Result(StoredContents(self.path))
 
     def close(self, attributes: Attributes) -> Result:
         """Rewrite the file in its final form; `attributes` (`outcome`, `trust`, …) replace those of the header."""
-        from nivel.results.result import Result
-
         if self._file is None:
             raise RuntimeError("a sink must begin before it gives a result")
         self._refuse_foreign()
@@ -163,8 +155,6 @@ def rewrite(path: Path, attributes: Attributes) -> None:
 
 
 def _not_compressed(path: Path, reason: str) -> SolveError:
-    from nivel.results.result import Result
-
     result = Result(StoredContents(path))
     message = f"the result file {path} is complete but could not be compressed: {reason}"
     return SolveError(message, time=float(result.time[-1]) if len(result.time) else 0.0, result=result)
@@ -274,3 +264,19 @@ def _copy(old: Any, new: Any, count: int, space: Space) -> None:
 def _header_size(attributes: Attributes) -> int:
     """Bytes that are enough for the attributes and all that is created before the first frame."""
     return HEADER + sum(4 * len(str(value)) for value in attributes.values())
+
+
+def save(contents: Contents, path: str | os.PathLike[str], *, force: bool) -> Path:
+    """Write a result file, which `nivel.open_result` reads back. Raises ModelError where it exists and `force` is not given."""
+    target = Path(path)
+    if isinstance(contents, MemoryContents):
+        store = Store(target, force)
+        store.begin(contents.header)
+        store.take(contents.frames)
+        store.close(contents.attributes)
+        return target
+    if isinstance(contents, StoredContents):
+        check_target(target, "result file", force=force, sources=[contents.path])
+        with written(target, "result file") as draft:
+            copyfile(contents.path, draft)
+    return target

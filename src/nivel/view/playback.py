@@ -134,7 +134,7 @@ def _circuit(result: Result, record: dict[str, Any]) -> str:
     if not record.get("hydraulics") or not len(result.time):
         return ""
     from nivel.looks.circuit.drawing import circuit_diagram
-    from nivel.results.frames.pressures import pressures_at
+    from nivel.results.frames.circuit_balance import pressures_at
 
     return circuit_diagram(record, pressures_at(result, 0))
 

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.beams.beam_sections import felt, modes_of_nodes
+from nivel.results.beams import felt, modes_of_nodes
 from nivel.results.result import Result
 from nivel.view.package import Block
 from nivel.view.records import Felt, Quantity, Sections

@@ -14,8 +14,7 @@ from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.body.picture import moving_surface
 from nivel.flexible.body.recovery import stress, von_mises
 from nivel.results.result import Result
-from nivel.results.stress.body_sources import ATTRIBUTE
-from nivel.results.stress.recovered import RecoveredBody
+from nivel.results.stress import ATTRIBUTE, RecoveredBody
 from nivel.view.package import Block
 from nivel.view.records import Flexible, Stress
 

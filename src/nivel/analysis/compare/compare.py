@@ -19,10 +19,10 @@ from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Methods
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.comparison.comparison import CONVERGED, Comparison, Method, Row, Spread
-from nivel.results.comparison.comparison_table import number, seconds
-from nivel.results.comparison.measures import constraint_measures, energy_measures
+from nivel.results.comparison import Comparison, Method, Row, Spread
+from nivel.results.comparison_table import CONVERGED, number, seconds
 from nivel.results.motion import Motion, distance
+from nivel.results.peaks import constraint_measures, energy_measures
 from nivel.results.result import Result
 from nivel.results.scales import largest_kinetic_energy, machine_size
 

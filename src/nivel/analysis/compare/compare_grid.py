@@ -21,7 +21,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.compare import Axes
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
-from nivel.results.comparison.comparison import Method
+from nivel.results.comparison import Method
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against
 FEWEST_FRAMES: Final = 10  # a common output interval gives at least so many

@@ -21,8 +21,8 @@ from nivel.judge.after.report import assess, blindness
 from nivel.judge.after.subject import Run
 from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.comparison.comparison import Reference
-from nivel.results.comparison.comparison_table import seconds
+from nivel.results.comparison import Reference
+from nivel.results.comparison_table import seconds
 from nivel.results.motion import Motion, common_frames, distance
 from nivel.results.scales import largest_kinetic_energy, machine_size
 

@@ -18,8 +18,8 @@ from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.model import Model
-from nivel.results.frames.row_units import per
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
+from nivel.results.frames.names import per
 from nivel.results.result import Result
 from nivel.system.layout import FrameLayout
 

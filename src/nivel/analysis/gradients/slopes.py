@@ -25,7 +25,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
 from nivel.native.duals import LANES
 from nivel.results.curve import DOUBT, curve, curve_of
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 
 # steps of the loop between two looks at Ctrl-C

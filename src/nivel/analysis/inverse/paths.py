@@ -26,7 +26,7 @@ from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.analyses.joint_path import JointPath
-from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 
 # a place is reached where position and orientation err by less than these [machine lengths, rad]

@@ -19,7 +19,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import RESIDUAL
 from nivel.native.duals import DUAL, LANES
-from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 
 Index = NDArray[np.intp]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.motion import rotation_matrices
 from nivel.results.result import Result
 from nivel.system.system import Array, System
 

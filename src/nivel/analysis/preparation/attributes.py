@@ -11,9 +11,9 @@ from nivel.analysis.plan.choice import names_no_integrator
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.flexible.body.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.frames.result_format import ATTRIBUTE as RESULT_FORMAT
-from nivel.results.frames.result_format import FORMAT
-from nivel.results.stress.body_sources import ATTRIBUTE, BodySource, as_attribute
+from nivel.results.frames.contents import ATTRIBUTE as RESULT_FORMAT
+from nivel.results.frames.contents import FORMAT
+from nivel.results.stress import ATTRIBUTE, BodySource, as_attribute
 from nivel.system.beams.nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 from nivel.system.scene import scene

@@ -17,7 +17,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.integrate.loop.sink import Header, Sink
 from nivel.kernels.core.arrays import copied
 from nivel.motion.shared_loads import share_loads
-from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 
 FROM_FRAME = ("position", "orientation", "velocity", "angular_velocity", "joint_coordinate")

@@ -74,7 +74,7 @@ from nivel.kernels.core.status import (
 )
 from nivel.kernels.output.observe import observe
 from nivel.native.entry import Entry
-from nivel.results.frames.occurrence import Occurrence
+from nivel.results.frames.summary import Occurrence
 from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at. Steps of one, at most.

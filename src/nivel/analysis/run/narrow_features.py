@@ -26,7 +26,7 @@ from nivel.integrate.loop.run import DONE_STEPS, EVENTS, FRAMES, HORIZON, INTERV
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 
 Array = NDArray[np.float64]

@@ -20,7 +20,7 @@ from nivel.analysis.assembly.velocities import whitened
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import Fault, ModelError, refuse
-from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array, System
 
 # velocities are solved for so often: the second solution takes the round-off of the first one away

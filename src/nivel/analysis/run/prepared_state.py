@@ -17,8 +17,8 @@ from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
-from nivel.results.frames.rotations import rotation_matrices
 from nivel.results.memory import Memory
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 
 # every derivative along directions, none by hand

@@ -20,7 +20,7 @@ from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Run
 from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
-from nivel.results.frames.occurrence import to_json
+from nivel.results.frames.summary import to_json
 from nivel.results.iterations import ATTRIBUTE as ITERATIONS
 from nivel.results.iterations import iterations_in_json
 from nivel.results.memory import Memory

@@ -53,9 +53,10 @@ from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.signals.watch import watch
 from nivel.machine.machine_record import MachineRecord
+from nivel.results.frames.contents import MemoryContents
 from nivel.results.frames.csv_table import columns
-from nivel.results.frames.occurrence import Occurrence
-from nivel.results.memory import Memory, MemoryContents
+from nivel.results.frames.summary import Occurrence
+from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.words.arguments import plain
 from nivel.words.wording import shown, unknown_word

@@ -51,7 +51,7 @@ from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
-from nivel.results.frames.occurrence import Occurrence, to_json
+from nivel.results.frames.summary import Occurrence, to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store

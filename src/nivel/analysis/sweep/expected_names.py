@@ -15,7 +15,7 @@ from nivel.files.study_file import StudyFile
 from nivel.integrate.loop.sink import Header
 from nivel.machine.study import AtEvent, EventTime, Output, PythonOutput
 from nivel.model import Model
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 from nivel.system.build import build
 from nivel.system.system import Equations

@@ -33,7 +33,7 @@ from nivel.kernels.core.status import BUDGET_SPENT, DONE
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 from nivel.words.wording import seconds
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from nivel.results.analyses.efforts import Efforts
     from nivel.results.analyses.joint_path import JointPath
     from nivel.results.analyses.mechanism import Range
-    from nivel.results.comparison.comparison import Reference, Row
+    from nivel.results.comparison import Reference, Row
     from nivel.results.estimate import Estimate
     from nivel.results.result import Result
     from nivel.results.trust import Trust

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.comparison.comparison_files import write_text
+from nivel.files.target import write_text
+from nivel.lazy import provided
 from nivel.results.curve import TOLD, curve
 from nivel.results.frames.tabulated import Tabulated
-from nivel.results.pages import page_maker
 from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.trust import Trust
 
@@ -138,7 +138,7 @@ class Efforts(Tabulated):
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page: efforts, power, peaks and work."""
-        write_text(page_maker("efforts")(self), path, "report", force=force)
+        write_text(provided("efforts")(self), path, "report", force=force)
         return Path(path)
 
     def __str__(self) -> str:

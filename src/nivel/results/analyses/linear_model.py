@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.extras import needed
+from nivel.files.target import write_text
+from nivel.lazy import provided
 from nivel.results.analyses.sampled_model import SampledModel
-from nivel.results.comparison.comparison_files import write_text
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
-from nivel.results.pages import page_maker
 from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
@@ -336,7 +336,7 @@ class LinearModel(Tabulated):
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page of the analysis: eigenvalues, modes, frequency response."""
-        write_text(page_maker("linear model")(self), path, "report", force=force)
+        write_text(provided("linear model")(self), path, "report", force=force)
         return Path(path)
 
     def _need_ports(self) -> None:

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.results.analyses.mode_motion import CYCLES, FRAMES, PERIOD, SHOWN, TURNED, turned
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
+from nivel.results.result import Result
 from nivel.system.layout import FrameLayout, laid_out
 
 if TYPE_CHECKING:
     from nivel.results.analyses.linear_model import LinearModel
-    from nivel.results.result import Result
 
 Array = NDArray[np.float64]
 
@@ -38,8 +38,6 @@ def linear_motion(model: LinearModel, number: int) -> Result:
 
     Raises ModelError where there is no such mode, or where nothing is seen of it.
     """
-    from nivel.results.result import Result
-
     modes = model.modes
     if not model.steady:
         raise ModelError(f"the model has no modes: {' '.join(model.notes)}")

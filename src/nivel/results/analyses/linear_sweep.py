@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
+from nivel.files.target import write_text
+from nivel.lazy import provided
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.linear_model import LinearModel
-from nivel.results.comparison.comparison_files import write_text
-from nivel.results.frames.dataset_file import write_dataset
-from nivel.results.pages import page_maker
+from nivel.results.frames.tabulated import write_dataset
 from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ class LinearSweep:
 
     def report(self, path: str | PathLike[str], orders: Sequence[float] = ()) -> Path:
         """Write a page: frequencies, damping and the paths of the eigenvalues."""
-        write_text(page_maker("linear sweep")(self, orders), path, "report", force=True)
+        write_text(provided("linear sweep")(self, orders), path, "report", force=True)
         return Path(path)
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:

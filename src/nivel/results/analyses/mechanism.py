@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
+from nivel.files.target import write_text
+from nivel.lazy import provided
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.uses.coordinate_reference import unknown_name
-from nivel.results.comparison.comparison_files import write_text
-from nivel.results.frames.rotations import rotation_matrices
-from nivel.results.pages import page_maker
+from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
 from nivel.system.joints.joints import looks_of
 
@@ -270,7 +270,7 @@ class Studies:
 
     def report(self, path: str | PathLike[str]) -> Path:
         """Write a page with the curves."""
-        write_text(page_maker("mechanism")(self), path, "report", force=True)
+        write_text(provided("mechanism")(self), path, "report", force=True)
         return Path(path)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
-from nivel.results.memory import MemoryContents
+from nivel.results.frames.contents import MemoryContents
 from nivel.system.layout import FrameLayout, Variable
 
 if TYPE_CHECKING:
@@ -29,8 +29,6 @@ def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
 
     Raises ModelError where the result has no such vibration.
     """
-    from nivel.results.result import Result
-
     position, orientation, bent = _equilibrium(result, frame)
     shift, turn, bending = _shape(result, number, frame)
     time = np.linspace(0.0, CYCLES * PERIOD, FRAMES)
@@ -62,7 +60,7 @@ def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
     header = Header(
         layout, {**attributes, "machine": name, "settings": json.dumps({"vibration": number}), "outcome": "done"}
     )
-    return Result(MemoryContents(header, np.hstack(blocks), header.attributes))
+    return type(result)(MemoryContents(header, np.hstack(blocks), header.attributes))
 
 
 def _equilibrium(result: Result, frame: int) -> tuple[Array, Array, Array | None]:

@@ -185,3 +185,9 @@ def _pressure(result: Readable, data: Mapping[str, Any], port: str) -> NDArray[n
 
 def _history(result: Readable, name: str) -> NDArray[np.float64] | None:
     return np.asarray(result.array(name), dtype=float).ravel() if name in result.variables else None
+
+
+def pressures_at(result: Readable, frame: int) -> dict[str, float]:
+    """Pressures of circuits [Pa] in one frame, by the name of the variable."""
+    names = [name for name in result.variables if name.startswith("hydraulics.") and ".pressure" in name]
+    return {name: float(np.asarray(result.array(name), dtype=float).ravel()[frame]) for name in names}

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.results.frames.contents import name_in_file, name_of
+from nivel.results.frames.contents import check_format, name_in_file, name_of, written_by_newer
 from nivel.results.frames.json_forms import FORMS, misshapen, strangers
-from nivel.results.frames.result_format import check_format, written_by_newer
 from nivel.system.layout import Variable
 
 # what reading a file raises whose parts are not what they should be

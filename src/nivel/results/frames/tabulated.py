@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from nivel.errors import Fault, ModelError
 from nivel.extras import needed
-from nivel.results.frames.dataset_file import write_dataset
+from nivel.files.target import write_file
+from nivel.results.frames.contents import name_in_file
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word
 
@@ -103,3 +104,18 @@ def chosen(columns: Mapping[str, Column], select: list[str]) -> dict[str, Column
     if faults:
         raise ModelError(faults)
     return found if select else dict(columns)
+
+
+def write_dataset(dataset: xarray.Dataset, path: str | PathLike[str], *, force: bool) -> Path:
+    """Write a dataset as NetCDF; returns where. Raises ModelError where the file exists and `force` is not given, or cannot be written."""
+    target = Path(path)
+    if target.exists() and not force:
+        raise ModelError(f"the file {target} exists; give another name, or replace it with force")
+    names = {name: name_in_file(str(name)) for name in dataset.data_vars if name_in_file(str(name)) != name}
+    return write_netcdf(dataset.rename(names), target)
+
+
+def write_netcdf(dataset: xarray.Dataset, target: Path) -> Path:
+    """Write a dataset as it is; an existing file is replaced. Raises ModelError where it cannot be written."""
+    # in memory first: HDF5 ends the process where a disk is full
+    return write_file(target, "data file", dataset.to_netcdf(engine="h5netcdf"))

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import json
+import math
 import os
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
-from nivel.results.pages import page_maker
+from nivel.errors import ModelError
+from nivel.files.target import write_text
+from nivel.lazy import provided
+from nivel.results.comparison_table import as_html, as_text
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
@@ -15,9 +22,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 CellOutcome = Literal["done", "failed", "refused"]
+UNITS: Final = {
+    "step": "s",
+    "loop_seconds": "s",
+    "seconds_per_step": "s",
+    "constraint_rate_error": "1/s",
+    "constraint_rate_error_mean": "1/s",
+    "energy_error": "J",
+    "motion_error_time": "s",
+}
 RESOLVED: Final = 3.0  # a motion error below this many times that of its reference says nothing more
-
-CONVERGED: Final = 1e-3  # a method whose two finest runs are further apart does not claim to have converged
 
 
 class Method(NamedTuple):
@@ -188,25 +202,46 @@ class Comparison:
 
     @checked_arguments
     def to_csv(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
-        """A table with a line for every row; written to `path` where one is given. force : replace an existing file."""
-        from nivel.results.comparison.comparison_files import csv_text, write_text
-
-        return write_text(csv_text(self), path, "table", force=force)
+        """A table with a header (`step [s]`) and a line for every row; written to `path` where one is given. force : replace an existing
+        file. Numbers are as short as they can be read back exactly, nothing where there is none."""
+        names = list(as_record(Row("", "", "", "", "")))
+        file = io.StringIO()
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow([f"{name} [{UNITS[name]}]" if name in UNITS else name for name in names])
+        for row in self.rows:
+            record = as_record(row)
+            table.writerow(["" if record[name] is None else record[name] for name in names])
+        return write_text(file.getvalue(), path, "table", force=force)
 
     @checked_arguments
     def to_json(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
-        """Everything as JSON; written to `path` where one is given. force : replace an existing file."""
-        from nivel.results.comparison.comparison_files import json_text, write_text
-
-        return write_text(json_text(self), path, "comparison", force=force)
+        """Everything as JSON, null for what is not a number; written to `path` where one is given. force : replace an existing file."""
+        data = as_record(self)
+        data["rows"] = [as_record(row) for row in self.rows]
+        data["references"] = [as_record(each) for each in self.references]
+        data["spread"] = self.spread and as_record(self.spread)
+        data["trust"] = json.loads(self.trust.to_json())
+        text = json.dumps(_finite(data), indent=2, ensure_ascii=False) + "\n"
+        return write_text(text, path, "comparison", force=force)
 
     @classmethod
     @checked_arguments
     def from_json(cls, text: str) -> Comparison:
-        """The comparison that `to_json` wrote."""
-        from nivel.results.comparison.comparison_files import read_json
-
-        return read_json(text)
+        """The comparison that `to_json` wrote. Raises ModelError where `text` is none."""
+        try:
+            data = json.loads(text)
+            return cls(
+                **data
+                | {
+                    "rows": tuple(Row(**row) for row in data["rows"]),
+                    "references": tuple(Reference(**each) for each in data["references"]),
+                    "spread": data["spread"] and Spread(**data["spread"]),
+                    # files of earlier versions have none
+                    "trust": Trust.from_json(json.dumps(data["trust"])) if "trust" in data else Trust("green", "done"),
+                }
+            )
+        except (ValueError, TypeError, KeyError) as error:
+            raise ModelError(f"this is not the text of a comparison, as `to_json` writes it: {error}") from error
 
     @checked_arguments
     def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
@@ -214,16 +249,12 @@ class Comparison:
 
         force : replace an existing file.
         """
-        return page_maker("comparison")(self, path, force=force)
+        return provided("comparison")(self, path, force=force)
 
     def __str__(self) -> str:
-        from nivel.results.comparison.comparison_table import as_text
-
         return as_text(self)
 
     def _repr_html_(self) -> str:
-        from nivel.results.comparison.comparison_table import as_html
-
         return as_html(self)
 
 
@@ -240,3 +271,12 @@ def method_label(method: Method, varying: Iterable[str]) -> str:
 def as_record(item: Any) -> dict[str, Any]:
     """The fields of a flat dataclass by name."""
     return {each.name: getattr(item, each.name) for each in fields(item)}
+
+
+def _finite(value: Any) -> Any:
+    """JSON knows neither NaN nor infinity."""
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from html import escape
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
-from nivel.results.comparison.comparison import CONVERGED, Comparison, Row, Spread
 from nivel.words import wording
 
+if TYPE_CHECKING:
+    from nivel.results.comparison import Comparison, Row, Spread
+
+CONVERGED: Final = 1e-3  # a method whose two finest runs are further apart does not claim to have converged
 MEANING: Final = (
     "constraints and their rates: the largest, lengths as shares of the machine's size; energy: the largest error as a share of the "
     "largest kinetic energy; motion: the largest position error as a share of the size, or rotation error in radians"

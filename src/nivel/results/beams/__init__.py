@@ -1,1 +1,0 @@
-"""Section resultants and shapes of beams."""

@@ -1,1 +1,0 @@
-"""Results of several methods, side by side."""

@@ -1,1 +1,0 @@
-"""Stresses of flexible bodies, recovered from their modes."""

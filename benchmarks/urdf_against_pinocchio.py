@@ -102,7 +102,7 @@ def compared_free(file: Path) -> tuple[int, float, float]:
 
 def clean(name: str) -> str:
     """The name as `nivel import` writes it."""
-    from nivel.exchange.names import Names
+    from nivel.exchange.translation import Names
 
     return Names().name("joint", name)
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from nivel import __version__
 from nivel.analysis.plan.compilation import all_entries
-from nivel.c_library.platforms import PLATFORMS
+from nivel.c_library.writer import PLATFORMS
 from nivel.cli.progress import progress_count
 from nivel.fmu.binary import entries_source, own_sources, tables_source
 from nivel.fmu.binary import link as link_shared

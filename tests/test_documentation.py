@@ -27,7 +27,7 @@ from nivel.cli.failures import fault_line
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.files.mass_file import KEY as MASS_PROPERTIES
+from nivel.files.body_files import KEY as MASS_PROPERTIES
 from nivel.files.outline import FILE_WORDS, TOP_WORDS
 from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.files.writer import write_machine

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from nivel.flexible.model.frame_source import frame_model
+from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model_file import parse_model
 
 FRAME = """

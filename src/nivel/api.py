@@ -25,8 +25,7 @@ from nivel.analysis.plan.settings import waiting_time
 from nivel.analysis.progress.listener import Listener
 from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError, refuse
-from nivel.files.origin import Origin
-from nivel.files.reader import parse_machine, read_text
+from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
@@ -77,9 +76,8 @@ if TYPE_CHECKING:
     from nivel.judge.before.check import Check
     from nivel.methods import StaticCoordinates
     from nivel.native.entry import Entry
-    from nivel.results.analyses.configuration_curve import ConfigurationCurve
+    from nivel.results.analyses.configuration_curve import ConfigurationCurve, JointPath
     from nivel.results.analyses.efforts import Efforts
-    from nivel.results.analyses.joint_path import JointPath
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.mechanism import Range
     from nivel.results.comparison import Comparison

@@ -12,8 +12,8 @@ from typing import Any, Self, TypeVar
 from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
-from nivel.files.known import Known
-from nivel.files.origin import Origin
+from nivel.files.outline import Known
+from nivel.files.reader import Origin
 from nivel.files.scope import FileNames, read_known, read_name_notes, read_names
 from nivel.files.sources import Sources
 from nivel.files.target import write_file

@@ -12,7 +12,7 @@ from nivel.cli import main
 from nivel.exchange import read_model
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import Frame, Link, Look
-from nivel.exchange.notes import Notes
+from nivel.exchange.translation import Notes
 from nivel.files import parse_machine
 
 ROOT = Path(__file__).parents[2]

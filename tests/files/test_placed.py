@@ -6,8 +6,7 @@ import pytest
 from nivel import Body, Joint, Marker, PointForce
 from nivel.files import parse_machine
 from nivel.files.placed import placed
-from nivel.files.placement import Placement
-from nivel.files.scene import Scene
+from nivel.files.placement import Placement, Scene
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.orientation import Orientation, matrix_from_euler_parameters, rotation_matrix

@@ -7,8 +7,7 @@ import pytest
 import nivel
 from nivel.analysis.sweep.resolution import resolve
 from nivel.errors import ModelError
-from nivel.files.study_file import parse_study, read_study
-from nivel.files.study_schema import study_schema
+from nivel.files.study_file import parse_study, read_study, study_schema
 
 MACHINE = """
 format: 1

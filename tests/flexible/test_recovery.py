@@ -13,13 +13,15 @@ from hypothesis import strategies as st
 from models import bar, reduced
 from needing import needs
 from nivel.errors import ModelError
-from nivel.flexible.body.rainflow import counted, rainflow, reversals
 from nivel.flexible.body.recovery import (
     BLOCK,
+    counted,
     displacement,
     envelope,
     hot_spots,
     principal,
+    rainflow,
+    reversals,
     signed_principal,
     stations_at,
     strain,

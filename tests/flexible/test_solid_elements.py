@@ -10,8 +10,8 @@ import scipy.sparse as sp
 from models import reduced
 from nivel.errors import ModelError
 from nivel.flexible.body.recovery import stress
+from nivel.flexible.foreign.calculix import blocks_of, first_inverted
 from nivel.flexible.foreign.mesh import SOLIDS, Mesh
-from nivel.flexible.foreign.solids import blocks_of, first_inverted
 from nivel.flexible.model.solid_elements import SolidElements, elasticity, surface
 from nivel.machine.beams.section import Material
 

@@ -14,7 +14,7 @@ from nivel.flexible.body.recovery import hot_spots, stress, von_mises
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.reduction import factor
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.flexible.reduction.inertia_loads import inertia_loads
+from nivel.flexible.reduction.stiffening import inertia_loads
 from nivel.flexible.reduction.ties import with_interfaces
 from nivel.flexible.source import source_model
 

@@ -18,9 +18,8 @@ from nivel.cli.replay import command
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import DONE, NEXT, SAVED, STRETCHED
-from nivel.live.hand import grip
 from nivel.live.opening import session_of
-from nivel.live.preparation import live_plan, pace_of
+from nivel.live.preparation import grip, live_plan, pace_of
 from nivel.live.recording import Recording, Take, read_recording, write_recording
 from nivel.live.replay import machine_of, replay, rerun
 

@@ -11,7 +11,7 @@ import nivel
 from nivel.analysis.sweep.patched import PatchedRuns, UnsuitedError, differences, learn, read_values
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.files.origin import Origin
+from nivel.files.reader import Origin
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 # paths whose numbers follow formulas; and ones that move the start, or act together

@@ -9,8 +9,7 @@ import pytest
 import synthetic_run as pendulum
 from nivel.looks.solids import Ball, solid
 from nivel.looks.viewpoint import choose_view
-from nivel.report.drawing import HEIGHTS, WIDTH
-from nivel.report.labels import Label, place
+from nivel.report.drawing import HEIGHTS, WIDTH, Label, place
 from nivel.report.picture import machine_picture
 
 X, Y, Z = np.eye(3)

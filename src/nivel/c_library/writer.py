@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import os
+import platform
 import re
 import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import nivel
 from nivel.analysis.plan.plan import Plan
 from nivel.c_library.exported import Exported, export, refusal
 from nivel.c_library.image import LINE
-from nivel.c_library.platforms import PLATFORMS, known_platform, object_codes, this_platform
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.files.target import reason_of, write_file
+from nivel.native import library
 from nivel.native.entry import Entry
+from nivel.native.processor import LEVELS
 from nivel.native.workers import CompilationError
+from nivel.words.wording import unknown_word
 
 RUNTIME = "nivel_machine.h"
 
@@ -163,3 +166,49 @@ def _write_machine_code(folder: Path, entries: Sequence[Entry], system: str) -> 
             write_file(folder / f"{symbol}.o", "object file", code)
     except CompilationError as problem:
         raise refusal(f"a C library is made of object files, and {problem}") from None
+
+
+class Platform(NamedTuple):
+    """What a binary is for. folders : its names in FMI 3.0 and 2.0. target : what LLVM compiles for; compiler : command of the C compiler,
+    where that is not the one of this system.
+    """
+
+    folders: tuple[str, str]
+    suffix: str
+    target: tuple[str, str, str]
+    compiler: str
+
+
+PLATFORMS = {
+    "x86_64-linux": Platform(
+        ("x86_64-linux", "linux64"), ".so", ("x86-64-v3", "", "x86_64-unknown-linux-gnu"), "x86_64-linux-gnu-gcc"
+    ),
+    "x86_64-windows": Platform(
+        ("x86_64-windows", "win64"), ".dll", ("x86-64-v3", "", "x86_64-w64-windows-gnu"), "x86_64-w64-mingw32-gcc"
+    ),
+    "aarch64-linux": Platform(
+        ("aarch64-linux", "aarch64-linux"), ".so", LEVELS["armv8-a"].target, "aarch64-linux-gnu-gcc"
+    ),
+}
+HERE = {"Linux": "linux", "Windows": "windows"}
+
+
+def this_platform() -> str:
+    """The name of the platform on which this runs, as FMI has it; one that is not in PLATFORMS has no units."""
+    machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
+    return f"{machine}-{HERE.get(platform.system(), platform.system().lower())}"
+
+
+def known_platform(name: str) -> str:
+    """The name of a platform; empty: of this one. Raises ModelError where machines are not exported for it."""
+    chosen = name or this_platform()
+    if chosen not in PLATFORMS:
+        raise refusal(unknown_word(chosen, list(PLATFORMS), "platform"))
+    return chosen
+
+
+def object_codes(entries: Sequence[Entry], name: str) -> dict[str, bytes]:
+    """Object files by symbol for a platform; for this one they are those of runs. Raises CompilationError."""
+    if name == this_platform():
+        return {entry.symbol: library.object_code(entry) for entry in entries}
+    return library.object_codes_for(entries, PLATFORMS[name].target)

@@ -234,7 +234,7 @@ def _write_film(result: str, film: str, force: bool) -> None:
 def _write_binary(result: str, tables: dict[str, str | None], names: list[str], force: bool) -> None:
     from nivel.files.target import check_target
     from nivel.results import Result
-    from nivel.results.frames.binary_table import write_mat, write_mcap, write_mdf, write_parquet
+    from nivel.results.frames.csv_table import write_mat, write_mcap, write_mdf, write_parquet
 
     given, suffix = next((given, suffix) for suffix, given in tables.items() if given is not None)
     path = Path(Path(result).with_suffix(suffix).name) if given == BESIDE else Path(given)

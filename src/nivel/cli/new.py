@@ -75,6 +75,6 @@ def _write(target: Path, text: str, force: bool) -> None:
 
 
 def _study_schema_text() -> str:
-    from nivel.files.study_schema import study_schema
+    from nivel.files.study_file import study_schema
 
     return json.dumps(study_schema(), indent=1) + "\n"

@@ -6,8 +6,7 @@ import math
 from typing import Any, Final
 
 from nivel.exchange.mechanism import Actuator, Connection, Mechanism
-from nivel.exchange.names import Names
-from nivel.exchange.numbers import number
+from nivel.exchange.translation import Names, number
 
 STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
 RESTITUTION: Final = 0.2

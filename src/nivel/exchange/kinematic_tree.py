@@ -15,7 +15,7 @@ from nivel.elements.forces.actuators import Motor, Stop
 from nivel.elements.forces.springs import JointSpringDamper
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
-from nivel.exchange.notes import Notes
+from nivel.exchange.translation import Notes
 from nivel.files.rotors import rotors_of
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker

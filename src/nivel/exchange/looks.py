@@ -15,8 +15,7 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.exchange.mechanism import Array, Frame, Link, Look
-from nivel.exchange.notes import Notes
-from nivel.exchange.numbers import number, triple, turn
+from nivel.exchange.translation import Notes, number, triple, turn
 from nivel.files.mesh_file import KINDS, NotReadError, parse
 from nivel.files.sources import read_bytes
 from nivel.machine.bodies.surface import Triangles

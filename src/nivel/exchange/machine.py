@@ -22,9 +22,7 @@ from nivel.exchange.bodies import (
 from nivel.exchange.joint_forces import actuated, coupling_of, forces_of, starts_of
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
-from nivel.exchange.names import Names
-from nivel.exchange.numbers import number, triple, turn
-from nivel.exchange.translation import Translation, refuse
+from nivel.exchange.translation import Names, Translation, number, refuse, triple, turn
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.core.record import GROUND
 

@@ -14,7 +14,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.exchange.notes import Notes
+from nivel.exchange.translation import Notes
 
 Array = NDArray[np.float64]
 Triple = tuple[float, float, float]

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.exchange.geometry import geometries
 from nivel.exchange.kinematic_tree import Branch, KinematicTree, kinematic_tree
 from nivel.exchange.mechanism import Frame
-from nivel.exchange.xml_writer import Lines, words
+from nivel.exchange.xml_writer import Lines, geometries, words
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.record import GROUND

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, Link, Look, Mechanism, turned
-from nivel.exchange.notes import Notes
+from nivel.exchange.translation import Notes
 from nivel.exchange.urdf import digits
 from nivel.files.xml_source import Document, Element
 

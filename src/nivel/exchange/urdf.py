@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.exchange.mechanism import WORLD, Connection, Frame, Inertial, Link, Look, Mechanism, turned
-from nivel.exchange.notes import Notes
+from nivel.exchange.translation import Notes
 from nivel.files.xml_source import Document, Element
 
 KINDS: Final = {

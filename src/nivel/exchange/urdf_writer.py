@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.exchange.geometry import Geometry, geometries
 from nivel.exchange.kinematic_tree import Branch, KinematicTree, Motion, kinematic_tree
 from nivel.exchange.mechanism import Frame
-from nivel.exchange.xml_writer import Lines, words
+from nivel.exchange.xml_writer import Geometry, Lines, geometries, words
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord

@@ -9,10 +9,10 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, ValidationError
 
 from nivel.files.include import FileName, Sections
-from nivel.files.instance import renamed
 from nivel.files.outline import section_of
 from nivel.files.placed import NotRepresentableError, placed
 from nivel.files.placement import Placement
+from nivel.files.substitution import renamed
 from nivel.files.tree import Tree
 from nivel.machine.core.orientation import Orientation
 from nivel.machine.core.record import Record, entry, unknown_word

@@ -13,9 +13,9 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault
+from nivel.files.code import WITH_LAWS
 from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.outline import section_of
-from nivel.files.python_laws import WITH_LAWS
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
 from nivel.machine.core.record import unknown_word

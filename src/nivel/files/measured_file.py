@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import json
+from collections.abc import Iterator
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -11,9 +13,121 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.extras import needed
-from nivel.files import recording_file
+from nivel.words.wording import unknown_word
 
-KINDS: Final = (".mat", ".parquet", *recording_file.KINDS)
+RECORDING_KINDS: Final = (".mf4", ".mcap")
+TIME: Final = "time"
+MOST_ELEMENTS: Final = 64  # of an array in a message
+MOST_LISTED: Final = 40  # names in a message of a fault
+NANO: Final = 1e-9
+
+Signal = tuple[NDArray[np.float64], NDArray[np.float64], str]  # times [s], values, unit
+
+
+def signal_columns(content: bytes, file: str, column: str | None) -> dict[str, tuple[NDArray[np.float64], str]]:
+    """Times and values of the signal `column`, or of the only one. Raises ValueError, and ModelError where a library is missing."""
+    times, values, unit = (_mdf if file.lower().endswith(".mf4") else _mcap)(content, column)
+    name = column or "value"
+    return {TIME: (times, "s"), name: (values, unit)}
+
+
+def _chosen(column: str | None, known: list[str]) -> str:
+    """Raises ValueError."""
+    if column in known:
+        return str(column)
+    if column is None and len(known) == 1:
+        return known[0]
+    listed = ", ".join(f"`{each}`" for each in known[:MOST_LISTED]) + (" …" if len(known) > MOST_LISTED else "")
+    if column is None:
+        raise ValueError(f"`column` is missing: it has the signals {listed or 'of no numbers'}")
+    raise ValueError(unknown_word(column, known[:MOST_LISTED], "signal"))
+
+
+def _mdf(content: bytes, column: str | None) -> Signal:
+    """A channel, with the times of its group."""
+    asammdf: Any = needed("asammdf", "MDF files need")
+    with asammdf.MDF(io.BytesIO(content)) as file:
+        masters = dict(file.masters_db.items())
+        places = {
+            name: found
+            for name, entries in file.channels_db.items()
+            if (found := [each for each in entries if masters.get(each[0]) != each[1]])
+        }
+        name = _chosen(column, list(places))
+        if len(places[name]) > 1:
+            raise ValueError(f"the signal `{name}` stands in {len(places[name])} groups; save it with one of them")
+        signal = file.get(name, *places[name][0])
+    values = np.asarray(signal.samples)
+    if values.dtype.kind not in "fiub" or values.ndim != 1:
+        raise ValueError(f"the signal `{name}` has no numbers")
+    return np.asarray(signal.timestamps, dtype=np.float64), values.astype(np.float64), signal.unit or ""
+
+
+def _mcap(content: bytes, column: str | None) -> Signal:
+    """A number of the messages of a topic, `/joint_states.position[0]`; times are seconds from the first message of the file."""
+    reader: Any = needed("mcap.reader", "MCAP files need")
+    file = reader.make_reader(io.BytesIO(content), decoder_factories=_decoders())
+    summary = file.get_summary()
+    begin = summary.statistics.message_start_time if summary is not None and summary.statistics is not None else None
+    topic = None if column is None else _topic(column, [each.topic for each in _channels(summary)])
+    times: dict[str, list[float]] = {}
+    values: dict[str, list[float]] = {}
+    for schema, channel, message in file.iter_messages(topics=None if topic is None else [topic]):
+        begin = message.log_time if begin is None else begin
+        for path, value in _numbers(_decoded(schema, channel, message), channel.topic):
+            times.setdefault(path, []).append((message.log_time - begin) * NANO)
+            values.setdefault(path, []).append(value)
+    name = _chosen(column, list(values))
+    return np.array(times[name]), np.array(values[name]), ""
+
+
+def _channels(summary: Any) -> list[Any]:
+    return [] if summary is None else [*summary.channels.values()]
+
+
+def _topic(column: str, topics: list[str]) -> str | None:
+    """The topic whose name the name of a signal begins with; None: it has to be looked for."""
+    return max((each for each in topics if column.startswith(f"{each}.")), key=len, default=None)
+
+
+def _decoders() -> list[Any]:
+    """Of messages of ROS 2, where its library is installed."""
+    from nivel.extras import is_installed
+
+    if not is_installed("mcap_ros2.decoder"):
+        return []
+    decoder: Any = needed("mcap_ros2.decoder", "messages of ROS 2 need")
+    return [decoder.DecoderFactory()]
+
+
+def _decoded(schema: Any, channel: Any, message: Any) -> Any:
+    """The content of a message. Raises ValueError."""
+    if channel.message_encoding == "json":
+        return json.loads(message.data)
+    for factory in _decoders():
+        if (decode := factory.decoder_for(channel.message_encoding, schema)) is not None:
+            return decode(message.data)
+    raise ValueError(
+        f"messages of `{channel.topic}` have the encoding `{channel.message_encoding}`; json and ROS 2 are read"
+    )
+
+
+def _numbers(value: Any, path: str) -> Iterator[tuple[str, float]]:
+    """All numbers in a message, by their paths."""
+    if isinstance(value, bool | int | float | np.number):
+        yield path, float(value)
+    elif isinstance(value, dict):
+        for name, each in value.items():
+            yield from _numbers(each, f"{path}.{name}")
+    elif isinstance(value, list | tuple | np.ndarray):
+        for k, each in enumerate(value[:MOST_ELEMENTS]):
+            yield from _numbers(each, f"{path}[{k}]")
+    elif hasattr(type(value), "__slots__") and not isinstance(value, str | bytes):
+        for name in type(value).__slots__:
+            yield from _numbers(getattr(value, name), f"{path}.{name}")
+
+
+KINDS: Final = (".mat", ".parquet", *RECORDING_KINDS)
 MOST_ROWS: Final = 20_000_000  # of a table
 UNIT_KEYS: Final = (b"unit", b"units")  # of the metadata of a field
 
@@ -31,7 +145,7 @@ def measured_columns(
     """
     suffix = FilePath(file).suffix.lower()
     try:
-        if suffix in recording_file.KINDS:
+        if suffix in RECORDING_KINDS:
             found = _of_recording(content, file, column)
         else:
             found = _mat(content) if suffix == ".mat" else _parquet(content)
@@ -52,7 +166,7 @@ def measured_columns(
 
 def _of_recording(content: bytes, file: str, column: str | None) -> dict[str, tuple[NDArray[np.float64], str]]:
     try:
-        return recording_file.signal_columns(content, file, column)
+        return signal_columns(content, file, column)
     except ModelError:
         raise
     except ValueError as problem:

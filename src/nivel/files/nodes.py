@@ -194,3 +194,33 @@ def _place_of_character(at: int, text: str) -> Place:
     """Place of a character that YAML does not allow."""
     before = text[:at]
     return Place(before.count("\n") + 1, len(before) - (before.rfind("\n") + 1) + 1)
+
+
+def cut_at_comma(node: Mapping | Sequence) -> str:
+    """The first expression whose parentheses are closed behind a comma only, as a whole; empty where there is none."""
+    open_parts: list[str] = []
+    for text in _texts_between_commas(node):
+        if open_parts or text.count("(") > text.count(")"):
+            open_parts.append(text)
+            whole = ", ".join(open_parts)
+            if whole.count("(") <= whole.count(")"):
+                return whole
+    return ""
+
+
+def _texts_between_commas(node: Mapping | Sequence) -> list[str]:
+    """What stands between the commas, without keys; a value that was cut goes on in keys that have no value."""
+    if isinstance(node, Sequence):
+        return [_plain_text(entry) for entry in node.entries]
+    return [
+        _plain_text(key) if _plain_text(value) == "" and _is_plain(value) else _plain_text(value)
+        for key, value in node.pairs
+    ]
+
+
+def _plain_text(node: Node) -> str:
+    return node.text if _is_plain(node) and isinstance(node, Scalar) else "…"
+
+
+def _is_plain(node: Node) -> bool:
+    return isinstance(node, Scalar) and node.plain

@@ -8,8 +8,7 @@ from typing import Any
 from nivel.errors import ModelError
 from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
 from nivel.files.placed_forces import placed_ends, placed_force
-from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
-from nivel.files.scene import Scene
+from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement, Scene
 from nivel.files.substitution import NotRepresentableError, negative
 from nivel.machine.control import Block
 from nivel.machine.core.between import Ends

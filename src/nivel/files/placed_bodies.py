@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, triple
-from nivel.files.scene import Scene
+from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, Scene, triple
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body

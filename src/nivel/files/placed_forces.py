@@ -10,8 +10,7 @@ import numpy as np
 from nivel.elements.forces.actuators import Motor, Servo, Stop
 from nivel.elements.forces.bushing import Bushing
 from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
-from nivel.files.placement import AXIAL_Z, POLAR_Z
-from nivel.files.scene import Scene
+from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
 from nivel.machine.core.between import Between, Ends
 from nivel.machine.core.element import ForceElement

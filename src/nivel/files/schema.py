@@ -6,8 +6,8 @@ from copy import deepcopy
 from typing import Any
 
 from nivel.files.assembly import Assembly
+from nivel.files.body_files import KEY as MASS_PROPERTIES
 from nivel.files.include import Include
-from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FORMAT
 from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.machine.core.record import Record

@@ -16,22 +16,19 @@ from pydantic_core import ErrorDetails
 
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
-from nivel.files.body_files import place_body_files
+from nivel.files.body_files import place_body_files, read_mass_properties
+from nivel.files.code import read_python_laws, read_unit_blocks
 from nivel.files.convex_parts import divide_meshes
 from nivel.files.csv_tables import read_csv_tables
 from nivel.files.height_file import read_heights
 from nivel.files.include import include
-from nivel.files.known import Known
-from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import VALUES, as_part, check_sections, check_start, section_of
+from nivel.files.outline import VALUES, Known, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of, with_units
-from nivel.files.python_laws import read_python_laws
 from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
 from nivel.files.sticking_heaps import divide_heaps
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.files.unit_blocks import read_unit_blocks
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions

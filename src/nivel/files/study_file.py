@@ -1,8 +1,9 @@
-"""Study files: from YAML to a StudyRecord, with every fault and its place."""
+"""Study files: from YAML to a StudyRecord, with every fault and its place, and their JSON schema for editors."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any, Final
@@ -10,16 +11,19 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from nivel.errors import Fault, ModelError
+from nivel.files.code import read_python_code
 from nivel.files.csv_tables import CsvError, column_values
 from nivel.files.measured_file import KINDS
 from nivel.files.outline import other_format
 from nivel.files.overrides import override
-from nivel.files.python_laws import read_python_code
 from nivel.files.sources import Sources, beside, read_text
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine.core.checked import without_problems
-from nivel.machine.core.record import field_words
+from nivel.machine.core.record import Record, field_words
 from nivel.machine.study import StudyRecord
+from nivel.machine.study.analyses import SETTINGS
+from nivel.machine.study.output import OUTPUTS
+from nivel.machine.study.parameter import PARAMETERS
 from nivel.machine.units.quantity import FAULT, shown
 
 FORMAT: Final = 1
@@ -168,3 +172,36 @@ def _read_columns(tree: Tree, sources: Sources) -> None:
             continue
         given["values"] = values
         tree.places[(*path, "values")] = tree.places[(*path, "csv")]
+
+
+_DRAFT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def study_schema() -> dict[str, Any]:
+    """JSON schema (2020-12) of the YAML form: lists in place of `type: values`, and the settings of each analysis."""
+    study = deepcopy(StudyRecord.model_json_schema(by_alias=True, mode="validation"))
+    definitions, properties = study["$defs"], study["properties"]
+    for record in (*PARAMETERS[1:], *OUTPUTS):
+        definitions[record.__name__]["required"] = ["type", *_without_type(definitions[record.__name__])]
+    parameter = properties["parameters"]["additionalProperties"]
+    properties["parameters"]["additionalProperties"] = {"anyOf": [{"type": "array"}, parameter]}
+    study["allOf"] = [_settings(name, record, definitions) for name, record in SETTINGS.items()]
+    study["properties"] = {"format": {"const": FORMAT, "description": "version of the file format"}, **properties}
+    study["required"] = ["format", *study.get("required", [])]
+    return {"$schema": _DRAFT, **study, "title": "nivel study"}
+
+
+def _without_type(definition: dict[str, Any]) -> list[str]:
+    return [word for word in definition.get("required", []) if word != "type"]
+
+
+def _settings(name: str, record: type[Record], definitions: dict[str, Any]) -> dict[str, Any]:
+    """Settings of the analysis `name`, which is the default where it is `run`."""
+    its = record.model_json_schema(by_alias=True, mode="validation")
+    definitions |= its.pop("$defs", {})
+    definitions[record.__name__] = its
+    its.pop("required", None)
+    condition: dict[str, Any] = {"properties": {"analysis": {"const": name}}}
+    if name != "run":
+        condition["required"] = ["analysis"]
+    return {"if": condition, "then": {"properties": {"settings": {"$ref": f"#/$defs/{record.__name__}"}}}}

@@ -14,8 +14,19 @@ from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files import nodes
-from nivel.files.commas import cut_at_comma
-from nivel.files.nodes import DEEPEST, MOST, TOO_DEEP, TOO_MANY, Node, NotYamlError, Place, Scalar, Sequence, compose
+from nivel.files.nodes import (
+    DEEPEST,
+    MOST,
+    TOO_DEEP,
+    TOO_MANY,
+    Node,
+    NotYamlError,
+    Place,
+    Scalar,
+    Sequence,
+    compose,
+    cut_at_comma,
+)
 
 Path = tuple[str | int, ...]
 

@@ -7,10 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from nivel.errors import Fault, ModelError
-from nivel.files.known import Known
-from nivel.files.origin import OUTSIDE, Origin
-from nivel.files.outline import TOP_WORDS
-from nivel.files.reader import parse_machine
+from nivel.files.outline import TOP_WORDS, Known
+from nivel.files.reader import OUTSIDE, Origin, parse_machine
 from nivel.files.writer import write_machine
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.record import Record, field_words

@@ -10,9 +10,8 @@ from typing import Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible.body.body import Interface, ReducedBody, StressModes
-from nivel.flexible.body.mass_invariants import invariants
-from nivel.flexible.body.truncated_modes import LeftOut
+from nivel.flexible.body.body import Interface, LeftOut, ReducedBody, StressModes
+from nivel.flexible.body.mass_invariants import beside_kept, invariants, left_out
 from nivel.flexible.checks import checks
 from nivel.flexible.checks.findings import Findings, findings_of
 from nivel.flexible.checks.mesh_error import mesh_error
@@ -21,10 +20,8 @@ from nivel.flexible.model.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model.model_file import Located, read_model
 from nivel.flexible.reduction.bases import Basis, ModeCount, craig_bampton, free_interface, inertia_modes, normal_only
 from nivel.flexible.reduction.factor import NoStiffnessError, Whole
-from nivel.flexible.reduction.free_body import FreeBody
+from nivel.flexible.reduction.free_body import FreeBody, Orthonormal, held_at, orthonormal
 from nivel.flexible.reduction.given_modes import given_modes
-from nivel.flexible.reduction.next_modes import beside_kept, left_out
-from nivel.flexible.reduction.orthonormal import Orthonormal, held_at, orthonormal
 from nivel.flexible.reduction.stiffening import stiffening
 from nivel.flexible.reduction.ties import Attachment, with_interfaces
 from nivel.flexible.source import source_model

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from nivel.flexible.model.frame_source import frame_model
+from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model import FiniteElementModel
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets

@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from nivel.c_library.exported import Exported, refusal
-from nivel.c_library.platforms import PLATFORMS, Platform, object_codes, this_platform
+from nivel.c_library.writer import PLATFORMS, Platform, object_codes, this_platform
 from nivel.native import shipped, store
 from nivel.native.workers import CompilationError
 

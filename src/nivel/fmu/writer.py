@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from nivel.c_library.exported import Exported
-from nivel.c_library.platforms import PLATFORMS, known_platform
+from nivel.c_library.writer import PLATFORMS, known_platform
 from nivel.files.target import written
 from nivel.fmu.binary import binary
 from nivel.fmu.data import machine_data

@@ -39,9 +39,8 @@ from nivel.integrate.loop.paced import (
 from nivel.integrate.loop.run import TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
-from nivel.live.hand import COUNT
 from nivel.live.parts import ENTRIES, shares
-from nivel.live.preparation import LiveRun, Pace, live_plan, prepared_run
+from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import arrays_of, bytes_of, live_in, put_back, taken
 from nivel.live.timing import Timing, clock_addresses, timing_of
 from nivel.machine.machine_record import MachineRecord
@@ -208,7 +207,7 @@ def _cost(name: str, plan: Plan, pace: Pace, exact: Array | None, *, at_rest: bo
         note = f"{note}: this is with levers at rest"
     timing = timing_of(run.live)
     parts = shares(run.its, run.live.control, run.loop)
-    wanted = ends(plan.machine.inputs[:-COUNT])
+    wanted = ends(plan.machine.inputs[:-HAND_INPUTS])
     held, begin = [], time.thread_time()
     run = _Run(prepared_run(plan, pace), moved=False)
     for values in wanted:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
 from typing import Any, Final
@@ -20,12 +20,14 @@ from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
 from nivel.integrate.loop.run import Run
 from nivel.kernels.core.block import Handle
-from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
 from nivel.machine.changes import changed
 from nivel.machine.control import UnitBlock
+from nivel.machine.forces.hand import Hand
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.signals.input import Input
+from nivel.machine.units.expression import Expression
 
 LONGEST: Final = 86400.0  # s of a live run
 LONGEST_TICK: Final = 0.1  # s: beyond it nobody can operate a machine
@@ -119,7 +121,7 @@ class LiveRun:
             live.limit[k, [LOW, HIGH, RATE, REST]] = *each.range, each.rate or np.inf, each.rest_value
             live.target[k] = live.value[k] = each.rest_value
         # a hand that lets go stays where it is
-        live.limit[PULL + 1 - COUNT :, REST] = np.nan
+        live.limit[HAND_PULL + 1 - HAND_INPUTS :, REST] = np.nan
         loop, session = self.loop, Handle(live)
         codes = [entry.address for entry in (advance, loop.evaluate, loop.correct, loop.step)]
 
@@ -145,3 +147,46 @@ def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
             raise ModelError(Fault.at(f"control.{block.name}.file", message))
     prepared = prepare(plan.methods)
     return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))
+
+
+HAND_PULL, BODY, POINT, TOWARDS = 0, 1, 2, 5  # of its inputs
+HAND_INPUTS: Final = 8
+FARTHEST: Final = 1e4  # m
+MOST_BODIES: Final = 10_000
+_PARTS: Final = ("pull", "body", *(f"{what}_{axis}" for what in ("point", "towards") for axis in "xyz"))
+
+
+def with_hand(machine: MachineRecord) -> MachineRecord:
+    """The machine with a hand that rests."""
+    name = _free_name(machine)
+    inputs = [f"{name}_{part}" for part in _PARTS]
+    ranges = [(0.0, 1.0), (0.0, float(MOST_BODIES)), *[(-FARTHEST, FARTHEST)] * 6]
+    values = [Expression(f"{each}.value") for each in inputs]
+    hand = Hand(
+        name=name,
+        pull=values[HAND_PULL],
+        body_number=values[BODY],
+        point=(values[2], values[3], values[4]),
+        towards=(values[5], values[6], values[7]),
+    )
+    added = (Input(name=each, range=limits, hold=True) for each, limits in zip(inputs, ranges, strict=True))
+    return machine.replace(inputs=(*machine.inputs, *added), forces=(*machine.forces, hand))
+
+
+def _free_name(machine: MachineRecord) -> str:
+    taken = {each.name for each in (*machine.forces, *machine.inputs, *machine.sensors)}
+    names = ("hand", *(f"hand{k}" for k in range(2, 100)))
+    return next(name for name in names if not any(each == name or each.startswith(f"{name}_") for each in taken))
+
+
+def grip(present: Sequence[float], body: int, point: Sequence[float], towards: Sequence[float]) -> list[float]:
+    """Wanted values of the inputs that hold a point of a body, towards a point in space. present : values at the end of the last tick.
+
+    A hand that holds another point lets go first, and holds when it has the new one: inputs go straight from value to value.
+    """
+    wanted = [1.0, float(body), *point, *towards]
+    if list(present[BODY:TOWARDS]) == wanted[BODY:TOWARDS]:
+        return wanted
+    if present[HAND_PULL] != 0.0:
+        return [0.0, *present[BODY:]]
+    return [0.0, *wanted[BODY:]]

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.paced import COMMAND, DONE, HEARD, LOST, MODE, SAVED, SPEED, Live
-from nivel.live import hand, shared
+from nivel.live import shared
 from nivel.live.journal import Journal
 from nivel.live.light import Counts, Judge, Light
-from nivel.live.preparation import Pace
+from nivel.live.preparation import HAND_INPUTS, HAND_PULL, Pace, grip
 from nivel.live.recorder import History, Recorder
 from nivel.live.recording import Take, takes_of
 from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
@@ -198,7 +198,7 @@ class Session:
     @property
     def inputs(self) -> tuple[Input, ...]:
         """Those of the machine; the hand has further ones."""
-        return self.plan.machine.inputs[: -hand.COUNT]
+        return self.plan.machine.inputs[:-HAND_INPUTS]
 
     def operate(self, values: Sequence[float]) -> None:
         """The operator wants these values, in the order of `inputs`."""
@@ -209,12 +209,12 @@ class Session:
     def hold(self, body: int, point: Sequence[float], towards: Sequence[float]) -> None:
         """The hand pulls a point of a body, in its frame, towards a point in space [m]; said again and again, as `operate`."""
         if 0 <= body < len(self.plan.machine.bodies):
-            own = slice(-hand.COUNT, None)
-            self.live.target[own] = hand.grip(self.live.value[own].tolist(), body, point, towards)
+            own = slice(-HAND_INPUTS, None)
+            self.live.target[own] = grip(self.live.value[own].tolist(), body, point, towards)
 
     def let_go(self) -> None:
         """The hand pulls no more."""
-        self.live.target[hand.PULL - hand.COUNT] = 0.0
+        self.live.target[HAND_PULL - HAND_INPUTS] = 0.0
 
     def set_speed(self, speed: float) -> None:
         """Simulated over real time, at most 1."""

@@ -14,8 +14,7 @@ from nivel.looks.links import colour_of
 from nivel.looks.poses import Array, body_poses, sliding_axes, turning_axes, upwards
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
-from nivel.report.drawing import WIDTH, Frame, fit
-from nivel.report.labels import Label, place
+from nivel.report.drawing import WIDTH, Frame, Label, fit, place
 from nivel.results.scales import Readable
 
 if TYPE_CHECKING:

@@ -10,8 +10,7 @@ from nivel.looks.links import link_ends
 from nivel.looks.poses import Array, Pose, in_space
 from nivel.looks.solids import Ball, Face, shapes_of, solid
 from nivel.looks.sweeps import sweep_faces
-from nivel.report.drawing import Drawing, Frame, between, mixed, shaded
-from nivel.report.labels import Label
+from nivel.report.drawing import Drawing, Frame, Label, between, mixed, shaded
 from nivel.report.strokes import centre_of_mass_sign
 
 

@@ -1,4 +1,4 @@
-"""Basis of the pictures of machines: a drawing of parts, the frame from metres to pixels, and the shading of colours."""
+"""Drawing of a machine in pixels: parts, the frame from metres to pixels, shading, and names where they hide nothing."""
 
 from __future__ import annotations
 
@@ -8,9 +8,135 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.viewpoint import View
-from nivel.report.labels import Label
 
 Array = NDArray[np.float64]
+Box = tuple[float, float, float, float]  # left, top, right, bottom in pixels
+
+FONT = 13.0  # pixels
+LETTER = 0.58  # width of a letter over its height, on average
+NEAR = 9.0  # pixels from a sign within which a name disturbs it
+SAMPLES = 25  # of a line
+CROWDED = 3.0  # cost above which a name is left out: it would hide more than it says
+MANY = 40  # names; then only those that find room close by are shown
+CLOSE_BY = 0.5
+TRIED = 100  # names; of more, so many evenly taken
+DISTANCES = (15.0, 25.0, 38.0, 56.0)  # pixels from the point to the label
+LEADING = (78.0, 104.0)  # and further ones, where a line leads from the point to the label
+WITHOUT_LINE = "body"  # kind of labels that have none
+APART = 14.0  # pixels between two labels from which on they do not crowd each other
+CLOSE = 1.2  # cost of a label that touches another
+ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
+
+
+@dataclass(frozen=True)
+class Label:
+    """A name at its point; `kind` is its class in the picture."""
+
+    text: str
+    x: float
+    y: float
+    kind: str
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A label in its place: the box of its text."""
+
+    label: Label
+    box: Box
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        return 0.5 * (self.box[0] + self.box[2]), 0.5 * (self.box[1] + self.box[3])
+
+
+def place(labels: list[Label], points: Array, lines: Array, width: float, height: float) -> list[Placed]:
+    """Place labels one after the other, each where it costs least; those that cannot be placed are left out.
+
+    points : (n, 2) signs to keep free. lines : (k, 2, 2) lines better not crossed. All in pixels.
+    """
+    placed: list[Placed] = []
+    limit = CROWDED if len(labels) <= MANY else CLOSE_BY
+    around = _Surroundings(points, lines)
+    for label in labels[:: -(-len(labels) // TRIED) or 1]:
+        near = around.of(label)
+        found = [(_cost(box, far, placed, near, width, height), box) for box, far in _candidates(label)]
+        cost, box = min(found, key=lambda each: each[0])
+        if cost < limit:
+            placed.append(Placed(label, box))
+    return placed
+
+
+class _Surroundings:
+    """Signs, and samples along lines, of which a label meets only those nearby."""
+
+    def __init__(self, points: Array, lines: Array) -> None:
+        along = np.linspace(0.0, 1.0, SAMPLES)[None, :, None]
+        lines = np.reshape(lines, (-1, 2, 2))
+        self.points = np.reshape(points, (-1, 2))
+        self.samples = (lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])).reshape(-1, 2)
+        self.line = np.repeat(np.arange(len(lines)), SAMPLES)
+
+    def of(self, label: Label) -> tuple[Array, Array, NDArray[np.int64]]:
+        """Points, samples and the lines of these that any place of the label may touch."""
+        reach = np.array([text_width(label.text), 1.15 * FONT]) + LEADING[-1] + NEAR
+        place = np.array([label.x, label.y])
+        near, beside = (np.all(np.abs(each - place) <= reach, axis=1) for each in (self.points, self.samples))
+        return self.points[near], self.samples[beside], self.line[beside]
+
+
+def text_width(text: str) -> float:
+    """Estimated width of a text in pixels."""
+    return FONT * LETTER * len(text)
+
+
+def _candidates(label: Label) -> list[tuple[Box, float]]:
+    """Boxes around the point, and how far each is off."""
+    wide, high = text_width(label.text), FONT * 1.15
+    out = []
+    for k, distance in enumerate(DISTANCES if label.kind == WITHOUT_LINE else DISTANCES + LEADING):
+        for angle in ANGLES:
+            dx, dy = np.cos(angle), np.sin(angle)
+            x = label.x + distance * dx + 0.5 * wide * _eased(dx)
+            y = label.y + distance * dy + 0.5 * high * _eased(dy)
+            out.append(((x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high), 0.3 * k + 0.02 * abs(dy)))
+    return out
+
+
+def _eased(direction: float) -> float:
+    """How much of half its size a box moves away from the point in this direction."""
+    return float(np.clip(1.4 * direction, -1.0, 1.0))
+
+
+def _cost(
+    box: Box,
+    far: float,
+    placed: list[Placed],
+    near: tuple[Array, Array, NDArray[np.int64]],
+    width: float,
+    height: float,
+) -> float:
+    left, top, right, bottom = box
+    if left < 2.0 or top < 2.0 or right > width - 2.0 or bottom > height - 2.0:
+        return np.inf
+    points, samples, line = near
+    cost = far
+    for other in placed:
+        a = other.box
+        if left < a[2] + 3.0 and right > a[0] - 3.0 and top < a[3] + 1.0 and bottom > a[1] - 1.0:
+            cost += 10.0
+        else:
+            gap = max(left - a[2], a[0] - right, top - a[3], a[1] - bottom)
+            cost += CLOSE * max(1.0 - gap / APART, 0.0)
+    if len(points):
+        dx = np.maximum(np.maximum(left - points[:, 0], points[:, 0] - right), 0.0)
+        dy = np.maximum(np.maximum(top - points[:, 1], points[:, 1] - bottom), 0.0)
+        cost += 1.5 * float(np.clip(1.0 - np.hypot(dx, dy) / NEAR, 0.0, 1.0).sum())
+    if len(samples):
+        x, y = samples[:, 0], samples[:, 1]
+        inside = (x > left) & (x < right) & (y > top) & (y < bottom)
+        cost += 0.6 * len(np.unique(line[inside]))
+    return cost
 
 
 @dataclass

@@ -9,9 +9,8 @@ import numpy as np
 
 from nivel.looks.poses import Array, Pose, ends_in_space
 from nivel.looks.ropes import belt_line, rope_line
-from nivel.report.drawing import Drawing, Frame
+from nivel.report.drawing import Drawing, Frame, Label
 from nivel.report.joint_drawing import END_ON
-from nivel.report.labels import Label
 from nivel.report.strokes import coil_sign, cylinder_sign, dashed_sign, ground_sign, plane_sign, rope_sign, spring_sign
 
 FAR = 20.0  # a plane further away than this many lengths of the machine is left out

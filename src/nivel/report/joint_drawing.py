@@ -10,8 +10,7 @@ import numpy as np
 from markupsafe import Markup
 
 from nivel.looks.poses import Pose, ends_in_space, joint_axis, stands_at_second
-from nivel.report.drawing import Array, Drawing, Frame
-from nivel.report.labels import Label
+from nivel.report.drawing import Array, Drawing, Frame, Label
 from nivel.report.strokes import Point, ground_sign, plane_sign, rail_sign, rod_sign
 from nivel.system.joints.joints import looks_of, symbol_of
 from nivel.system.joints.symbols import PLANE_GAP

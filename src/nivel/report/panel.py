@@ -1,4 +1,4 @@
-"""Panel of plots in the report: a panel has groups of curves of one unit, of which the reader chooses one."""
+"""Panel of plots in the report: groups of curves of one unit, of which the reader chooses one, and curves with fewer points."""
 
 from __future__ import annotations
 

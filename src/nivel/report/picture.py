@@ -14,10 +14,9 @@ from nivel.looks.sweeps import rings, swept_bodies
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
 from nivel.report.body_drawing import draw_body, draw_sweep
-from nivel.report.drawing import WIDTH, Drawing, Frame, fit
+from nivel.report.drawing import FONT, WIDTH, WITHOUT_LINE, Drawing, Frame, Label, fit, place
 from nivel.report.force_drawing import Plane, belt_points, draw_belt, draw_force, draw_plane, force_points, planes
 from nivel.report.joint_drawing import draw_joint
-from nivel.report.labels import FONT, WITHOUT_LINE, Label, place
 from nivel.system.joints.joints import looks_of
 
 MANY_BODIES, VERY_MANY_BODIES = 20, 200

@@ -16,15 +16,15 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.flexible.body.body import ReducedBody
-from nivel.flexible.body.body_file import read_body
-from nivel.flexible.body.identity import fingerprint
-from nivel.flexible.body.rainflow import Cycle, rainflow
+from nivel.flexible.body.body_file import fingerprint, read_body
 from nivel.flexible.body.recovery import (
+    Cycle,
     Envelope,
     HotSpot,
     displacement,
     envelope,
     hot_spots,
+    rainflow,
     signed_principal,
     stations_at,
     strain,

@@ -145,11 +145,11 @@ def _coloured(
     """Flexible bodies with their stress, what beams feel, and in sentences what is left out. Machines without both load nothing for it."""
     felt, missing = None, []
     if result.scene.get("sweeps"):
-        from nivel.view.section_colours import sections
+        from nivel.view.colours import sections
 
         felt, missing = sections(result, frames, block, budget.sections)
     if bending:
-        from nivel.view.stress_colours import with_stress
+        from nivel.view.colours import with_stress
 
         bending, more = with_stress(result, bending, block, budget.stress)
         missing = [*missing, *more]

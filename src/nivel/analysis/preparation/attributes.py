@@ -9,7 +9,7 @@ from typing import Protocol
 import nivel
 from nivel.analysis.plan.choice import names_no_integrator
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.flexible.body.identity import fingerprint
+from nivel.flexible.body.body_file import fingerprint
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import ATTRIBUTE as RESULT_FORMAT
 from nivel.results.frames.contents import FORMAT

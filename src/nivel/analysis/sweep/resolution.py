@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from nivel.analysis.sweep.expected_names import wrong_names
 from nivel.analysis.sweep.quantiles import Distribution
 from nivel.errors import Fault, ModelError, refuse
-from nivel.files.origin import OUTSIDE
+from nivel.files.reader import OUTSIDE
 from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile
 from nivel.machine.settings.values import settings_of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import fields
@@ -15,9 +16,8 @@ import numpy as np
 from nivel import __version__
 from nivel.errors import ModelError
 from nivel.files.target import write_file
-from nivel.flexible.body.body import Array, Interface, MeshError, ReducedBody, StressModes
+from nivel.flexible.body.body import Array, Interface, LeftOut, MeshError, ReducedBody, StressModes
 from nivel.flexible.body.invariants import UNITS, Invariants
-from nivel.flexible.body.truncated_modes import LeftOut
 
 KIND: Final = "flexible body"
 FORMAT: Final = 1
@@ -262,3 +262,12 @@ def _mesh_error(file: Any) -> MeshError | None:
         if name in file:
             return MeshError(file[name][()], dynamic)
     return None
+
+
+def fingerprint(body: ReducedBody) -> str:
+    """Of the nodes, their modes and the frequencies: what gives modal coordinates a meaning. Stresses may be added to a body later."""
+    digest = hashlib.sha256()
+    for values in (body.eigenvalues, body.node_ids, body.position, body.modes):
+        digest.update(repr(values.shape).encode())
+        digest.update(np.ascontiguousarray(values).tobytes())
+    return digest.hexdigest()

@@ -15,8 +15,7 @@ from nivel.flexible.model.model import AXES, Array
 from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.reduction.bases import Basis
 from nivel.flexible.reduction.factor import Whole
-from nivel.flexible.reduction.free_body import FreeBody
-from nivel.flexible.reduction.orthonormal import Orthonormal
+from nivel.flexible.reduction.free_body import FreeBody, Orthonormal
 from nivel.flexible.reduction.ties import Attachment
 
 MOST: Final = 40  # modes of the whole model that are computed for comparison

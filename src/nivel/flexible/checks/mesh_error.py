@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.body.body import MeshError
-from nivel.flexible.model.frame_source import frame_model
+from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model import FiniteElementModel
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.solid_elements import SolidElements

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from nivel.flexible.model.sparse import Sparse
+from nivel.flexible.model.mass import Sparse
 
 Whole = NDArray[np.int64]
 Label = tuple[int, int]  # node, direction 1 … 6

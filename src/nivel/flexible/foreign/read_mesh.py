@@ -8,13 +8,22 @@ from typing import Final
 
 import numpy as np
 
-from nivel.flexible.foreign.cards import NO_STRESS
-from nivel.flexible.foreign.deck import Card, Line, entries
+from nivel.flexible.foreign.deck import NO_STRESS, Card, Line, entries
 from nivel.flexible.foreign.elasticity import Law, orientation
 from nivel.flexible.foreign.matrix import FormatError, fortran_number
-from nivel.flexible.foreign.mesh import SOLIDS, SPRINGS, Array, Mesh, RigidGroup, Whole
+from nivel.flexible.foreign.mesh import (
+    SHELLS,
+    SOLIDS,
+    SPRINGS,
+    Array,
+    Mesh,
+    RigidGroup,
+    Shell,
+    Whole,
+    shell_section,
+    solid_section,
+)
 from nivel.flexible.foreign.nastran import read_grids, table
-from nivel.flexible.foreign.sections import SHELLS, Shell, shell_section, solid_section
 
 STORING: Final = (
     "SPRING",

@@ -10,8 +10,8 @@ import scipy.sparse as sp
 
 from nivel.flexible.foreign.matrix import Label
 from nivel.flexible.foreign.shells import Expansion
+from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, Whole
-from nivel.flexible.model.sparse import Sparse
 
 
 @dataclass(frozen=True)

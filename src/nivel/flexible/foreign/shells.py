@@ -17,8 +17,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from nivel.flexible.foreign.matrix import FormatError, Label
-from nivel.flexible.foreign.mesh import Array, Mesh
-from nivel.flexible.foreign.sections import SHELLS, Section, Shell
+from nivel.flexible.foreign.mesh import SHELLS, Array, Mesh, Section, Shell
 
 SMOOTH: Final = 0.939693  # cosine of the largest angle, 20°, between normals that are averaged
 FLAT: Final = 0.999962  # cosine of the angle below which normals are the same line

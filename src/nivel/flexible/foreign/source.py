@@ -13,7 +13,14 @@ import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.checks.checks import unsymmetric
-from nivel.flexible.foreign.calculix import incompatible_rows, internal_nodes, refuse_expanded, rigid_rows
+from nivel.flexible.foreign.calculix import (
+    blocks_of,
+    first_inverted,
+    incompatible_rows,
+    internal_nodes,
+    refuse_expanded,
+    rigid_rows,
+)
 from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
 from nivel.flexible.foreign.mesh import Mesh
 from nivel.flexible.foreign.nastran import read_dmig
@@ -21,15 +28,13 @@ from nivel.flexible.foreign.op4 import read_op4
 from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.foreign.shell_nodes import followers
 from nivel.flexible.foreign.shells import Expansion, expansion
-from nivel.flexible.foreign.solids import blocks_of, first_inverted
 from nivel.flexible.foreign.stress import with_elements
 from nivel.flexible.foreign.triplet_files import read_abaqus, read_calculix, read_freedoms, read_matrix_market
-from nivel.flexible.model.mass import from_matrix
+from nivel.flexible.model.mass import Sparse, from_matrix
 from nivel.flexible.model.model import FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import LENGTHS, MASSES, Matrices
 from nivel.flexible.model.selection import NodeSets
-from nivel.flexible.model.sparse import Sparse
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
 STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")

@@ -10,11 +10,10 @@ import numpy as np
 
 from nivel.flexible.foreign.calculix import INCOMPATIBLE
 from nivel.flexible.foreign.elasticity import Law, in_plane, turned
-from nivel.flexible.foreign.mesh import POINTS, SOLIDS, Mesh
-from nivel.flexible.foreign.sections import SHELLS, Section
+from nivel.flexible.foreign.mesh import POINTS, SHELLS, SOLIDS, Mesh, Section
+from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, surface
-from nivel.flexible.model.sparse import Sparse
 
 MEAN: Final = ("C3D8", INCOMPATIBLE)  # elements of one temperature
 C3D20: Final = "C3D20"

@@ -8,12 +8,15 @@ consistent and with lumped mass. `MatrixMass` is a matrix of another program of 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from nivel.flexible.model.sparse import Sparse
+# a scipy.sparse.csr_array or csc_array with two dimensions; SciPy's own types know neither their shape nor their elements
+Sparse = Any
+
 
 Array = NDArray[np.float64]
 
@@ -134,3 +137,22 @@ def scalar_part(mass: MatrixMass) -> Sparse:
         for f in mass.freedoms[:, :3].T
     ]
     return sp.csr_array(sum(S @ mass.full @ S.T for S in selection) / 3.0)
+
+
+def rigid_modes(position: Array, freedoms: NDArray[np.int64], count: int, about: Array | None = None) -> Array:
+    """(count, 6): displacements for unit translations along x, y, z and unit turns about axes through `about`.
+
+    position : (n, 3) [m]; freedoms : (n, 6) row of each freedom of the nodes, -1 where there is none; about : (3,) [m],
+    default the origin.
+    """
+    R = np.zeros((count, 6))
+    x = position - (0.0 if about is None else about)
+    has = freedoms >= 0
+    for a in range(3):
+        b, c = (a + 1) % 3, (a + 2) % 3
+        R[freedoms[has[:, a], a], a] = 1.0
+        R[freedoms[has[:, 3 + a], 3 + a], 3 + a] = 1.0
+        # a turn about a moves c by x_b and b by -x_c
+        R[freedoms[has[:, c], c], 3 + a] = x[has[:, c], b]
+        R[freedoms[has[:, b], b], 3 + a] = -x[has[:, b], c]
+    return R

@@ -9,9 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.flexible.model.mass import Mass
-from nivel.flexible.model.rigid_modes import rigid_modes
-from nivel.flexible.model.sparse import Sparse
+from nivel.flexible.model.mass import Mass, Sparse, rigid_modes
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]

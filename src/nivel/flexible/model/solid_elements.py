@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 import scipy.sparse as sp
 
+from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, Whole
 from nivel.flexible.model.solid_shapes import SolidShape
-from nivel.flexible.model.sparse import Sparse
 from nivel.machine.beams.section import Material
 
 CHUNK: Final = 8  # fields at once

@@ -11,14 +11,13 @@ from scipy.spatial import KDTree
 
 from nivel.errors import ModelError
 from nivel.extras import needed, require
-from nivel.flexible.model.mass import PointMass, at_nodes
+from nivel.flexible.model.mass import PointMass, Sparse, at_nodes
 from nivel.flexible.model.mesher import SolidMesh, meshed
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity, surface
 from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
-from nivel.flexible.model.sparse import Sparse
 from nivel.machine.beams.section import Material
 
 # degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives

@@ -13,11 +13,11 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from nivel.errors import ModelError
+from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array
-from nivel.flexible.model.sparse import Sparse
 from nivel.flexible.reduction.factor import NoStiffnessError, Whole, lowest_modes, pivots
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.flexible.reduction.inertia_loads import inertia_loads
+from nivel.flexible.reduction.stiffening import inertia_loads
 
 LIMIT_START = 16  # modes that are computed first where a frequency is the limit
 MOST_MODES = 1000

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
+from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, FiniteElementModel
-from nivel.flexible.model.sparse import Sparse
 from nivel.flexible.reduction.factor import Factor, NoStiffnessError, Whole, determinate, lowest_modes
 
 
@@ -88,3 +89,83 @@ class FreeBody:
     def elastic_modes(self, count: int) -> tuple[Array, Array]:
         """The lowest eigenvalues [1/s²] and M-orthonormal modes (N, count) of the free body, rigid motions left out."""
         return lowest_modes(self.K, self.M, count, self.elastic_solution, self.rigid)
+
+
+DEPENDENT: Final = 1e-12  # share of the largest: directions of the scaled mass matrix below it are none
+NOTHING: Final = 1e-22  # share of a vector's mass: what round-off leaves of a rigid motion that was taken out
+RIGID: Final = 1e-6  # a mode whose mass is that of a rigid motion but for this share is one
+
+
+@dataclass(frozen=True)
+class Orthonormal:
+    """Modes (N, n) with Φᵀ M Φ = 1, Φᵀ K Φ = diag(`eigenvalues`) [1/s²].
+
+    rigid_frequencies : [Hz] the six that the reduced model had for rigid motions, zero except for round-off; empty where the
+    basis did not span them. condition : of the mass matrix of the basis, each vector scaled to unit mass.
+    dependent : vectors of the basis that the others span.
+    """
+
+    modes: Array
+    eigenvalues: Array
+    rigid_frequencies: Array
+    condition: float
+    dependent: int
+
+
+def orthonormal(body: FreeBody, basis: Array, extra: int = 0) -> Orthonormal:
+    """The modes of the reduced model, without rigid motions: those of a mean-axis frame. Eqs (3.32)–(3.36).
+
+    The rigid motions are known from the nodes, so they are taken out of the basis itself; the reduced eigenproblem would
+    give them frequencies of round-off, which are told for comparison. The basis then has up to six vectors too many.
+    The first `extra` vectors may depend on the others; they do not count for the condition.
+    """
+    rigid_frequencies, condition = _as_given(body, basis[:, extra:])
+    R = body.rigid
+    weight = np.einsum("ij,ij->j", basis, body.M @ basis)
+    basis = basis[:, weight > 0.0] / np.sqrt(weight[weight > 0.0])
+    elastic = basis - R @ (R.T @ (body.M @ basis))
+    mass = elastic.T @ (body.M @ elastic)
+    values, vectors = la.eigh(0.5 * (mass + mass.T))
+    keep = values > max(DEPENDENT * values.max(initial=0.0), NOTHING)
+    spanned = elastic @ (vectors[:, keep] / np.sqrt(values[keep]))
+    stiffness = spanned.T @ (body.K @ spanned)
+    eigenvalues, turned = (
+        la.eigh(0.5 * (stiffness + stiffness.T)) if spanned.shape[1] else (np.zeros(0), np.zeros((0, 0)))
+    )
+    missing = int(np.count_nonzero(~keep)) - len(rigid_frequencies) - extra
+    return Orthonormal(spanned @ turned, eigenvalues, rigid_frequencies, condition, max(missing, 0))
+
+
+def _as_given(body: FreeBody, basis: Array) -> tuple[Array, float]:
+    """Frequencies [Hz] of the rigid motions in the reduced model as it is, and the condition of its scaled mass matrix.
+
+    A mode of the reduced model is a rigid motion where its mass is that of its share of the rigid modes.
+    """
+    if basis.shape[1] == 0:
+        return np.zeros(0), 1.0
+    M, K = basis.T @ (body.M @ basis), basis.T @ (body.K @ basis)
+    scale = np.sqrt(np.maximum(np.diag(M), 1e-300))
+    M, K = M / np.outer(scale, scale), K / np.outer(scale, scale)
+    values, vectors = la.eigh(0.5 * (M + M.T))
+    condition = float(values[-1] / max(values[0], 1e-300))
+    keep = values > DEPENDENT * values[-1]
+    T = vectors[:, keep] / np.sqrt(values[keep])
+    reduced = T.T @ K @ T
+    eigenvalues, turned = la.eigh(0.5 * (reduced + reduced.T))
+    shares = (body.rigid.T @ (body.M @ ((basis / scale) @ (T @ turned)))) ** 2
+    rigid = eigenvalues[shares.sum(axis=0) > 1.0 - RIGID]
+    return np.sqrt(np.abs(rigid)) / (2.0 * np.pi), condition
+
+
+def held_at(body: FreeBody, modes: Array, held: Array) -> tuple[Array, Array]:
+    """The modes (N, n) and eigenvalues where the frame of the body moves with six freedoms instead of the mean axes.
+
+    held : (6, N) rows that give the displacements which are to be zero. The same displacements but for rigid motions,
+    again orthonormal; the frequencies are those of the body clamped at these freedoms.
+    """
+    R = body.model.rigid_modes(body.model.position.mean(axis=0))
+    moved = modes - R @ la.solve(held @ R, held @ modes)
+    mass = moved.T @ (body.M @ moved)
+    stiffness = moved.T @ (body.K @ moved)
+    eigenvalues, turned = la.eigh(0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T))
+    return moved @ turned, eigenvalues

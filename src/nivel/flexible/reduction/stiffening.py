@@ -1,22 +1,14 @@
-"""Geometric stiffness: how the stress of a moving body stiffens or softens it.
-
-A body in motion is stressed by its own inertia forces -ρ (a + α̃ x + ω̃ ω̃ x), a = Aᵀ (R̈ - g), and by what acts on its
-interfaces. Each unit load case gives a static stress, and this a geometric stiffness matrix K_g that is projected on the
-modes: K_g(t) = Σ a_i K_i + Σ α_i K_i + Σ ω_i ω_j K_ij + Σ F_k K_k (Wallrapp & Schwertassek 1991, Int. J. Numer. Meth. Eng. 32).
-
-One load case alone is not in equilibrium, so all are solved with the body held at the same place, the interface
-`support` or six freedoms; in the sum the reactions there vanish, whatever the place. Loads on the support itself cause
-no stress, so a pendulum held at its hinge needs no interface loads.
-"""
+"""Forces of inertia on a model that moves as a rigid body, and the geometric stiffness that their stress gives."""
 
 from __future__ import annotations
+
+from typing import Final
 
 import numpy as np
 
 from nivel.flexible.model.model import Array
 from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.flexible.reduction.inertia_loads import inertia_loads
 
 
 def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, Whole]) -> dict[str, Array]:
@@ -43,3 +35,38 @@ def _units(body: FreeBody, rows: Whole) -> Array:
     loads = np.zeros((body.model.count, len(rows)))
     loads[rows, np.arange(len(rows))] = 1.0
     return loads
+
+
+PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))  # ω_i ω_j of the centrifugal terms
+
+
+def inertia_loads(body: FreeBody) -> dict[str, Array]:
+    """(N, k) nodal forces -M a of unit accelerations of the undeformed body, by name."""
+    model = body.model
+    R = model.rigid_modes()
+    fields = []
+    for i, j in PAIRS:
+        e = np.eye(3)
+        # ω × (ω × x) for ω_i ω_j: the symmetric part, twice it for i ≠ j, since the product stands once in the sum
+        turned = [np.cross(e[a], np.cross(e[b], model.position)) for a, b in {(i, j), (j, i)}]
+        fields.append(_nodal(body, np.sum(turned, axis=0)))
+    return {
+        "acceleration": -(body.M @ R[:, :3]),
+        "angular_acceleration": -(body.M @ R[:, 3:]),
+        "centrifugal": -(body.M @ np.stack(fields, axis=1)),
+    }
+
+
+def _nodal(body: FreeBody, field: Array) -> Array:
+    """(N,) the field (n, 3), linear in x, as displacements of the nodes and turns by half its curl."""
+    model = body.model
+    full = np.zeros(model.expansion.shape[0])
+    values = np.hstack([field, np.zeros_like(field)])
+    x = model.position - model.position.mean(axis=0)
+    gradient = np.linalg.lstsq(np.hstack([x, np.ones((len(x), 1))]), field, rcond=None)[0][:3]  # [b, a] ∂f_a/∂x_b
+    values[:, 3] = 0.5 * (gradient[1, 2] - gradient[2, 1])
+    values[:, 4] = 0.5 * (gradient[2, 0] - gradient[0, 2])
+    values[:, 5] = 0.5 * (gradient[0, 1] - gradient[1, 0])
+    has = model.freedoms >= 0
+    full[model.freedoms[has]] = values[has]
+    return full[model.independent]

@@ -10,12 +10,11 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
+from nivel.flexible.model.mass import Sparse, rigid_modes
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole, numbered
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import InterfaceRecord
-from nivel.flexible.model.rigid_modes import rigid_modes
 from nivel.flexible.model.selection import NodeSets, chosen_nodes
-from nivel.flexible.model.sparse import Sparse
 from nivel.flexible.reduction.factor import pivots
 
 FLAT: Final = 1e-9  # the nodes of a surface must spread in two directions at least by this share of its size

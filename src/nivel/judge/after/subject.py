@@ -29,9 +29,8 @@ if TYPE_CHECKING:
     from nivel.judge.after.other_elements import Compared, Pair
     from nivel.machine.joints.driver import Driver
     from nivel.machine.machine_record import MachineRecord
-    from nivel.results.analyses.configuration_curve import ConfigurationCurve
+    from nivel.results.analyses.configuration_curve import ConfigurationCurve, JointPath
     from nivel.results.analyses.efforts import Efforts
-    from nivel.results.analyses.joint_path import JointPath
     from nivel.results.analyses.mechanism import Range
     from nivel.results.comparison import Reference, Row
     from nivel.results.estimate import Estimate

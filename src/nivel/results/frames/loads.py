@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible.body.rainflow import Cycle, rainflow
+from nivel.flexible.body.recovery import Cycle, rainflow
 from nivel.machine.units.quantity import expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.curve import TOLD, Curve, curve, curve_of, probed

@@ -1,6 +1,6 @@
 """Sufficiency of the modes of a flexible body for its run: how far modes that it leaves out would bend it, under the loads that it bore.
 
-The loads on the modes that are left out are the residual of a finer basis, see `nivel.flexible.body.truncated_modes`: from the
+The loads on the modes that are left out are the residual of a finer basis, see `nivel.flexible.body.body`: from the
 accelerations of the body, and from the forces at its interfaces. Those of joints are known; the others follow from the equations of the
 body itself.
 """
@@ -28,9 +28,8 @@ from nivel.system.joints.joints import composition_of
 
 if TYPE_CHECKING:
     from nivel.analysis.preparation.preparation import Prepared
-    from nivel.flexible.body.body import Interface, MeshError
+    from nivel.flexible.body.body import Interface, LeftOut, MeshError
     from nivel.flexible.body.invariants import Invariants
-    from nivel.flexible.body.truncated_modes import LeftOut
 
 Array = NDArray[np.float64]
 MOST_FRAMES = 4000  # that are looked at, at most

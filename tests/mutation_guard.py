@@ -24,7 +24,7 @@ from pathlib import Path
 
 import mutations
 from nivel.native import store
-from spoilt_lines import NAMED
+from spoilt_lines import NAMED, verification
 from test_house import PLAIN
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -36,12 +36,8 @@ LONGEST = 1800
 BY_DEFAULT, BY_FULL, NOT_AT_ALL = "default", "full", "none"
 
 
-def _verification(*names):
-    return tuple(f"verification/test_{name}.py" for name in names)
-
-
-STATES = _verification("residual_and_tangent", "consistency")
-BEAMS = _verification("beam_elements", "beam_motion", "beam_methods")
+STATES = verification("residual_and_tangent", "consistency")
+BEAMS = verification("beam_elements", "beam_motion", "beam_methods")
 FLEXIBLE = tuple(
     f"flexible/test_{name}.py"
     for name in (
@@ -74,74 +70,75 @@ HYDRAULICS = tuple(
         "crane",
     )
 )
-IMPLICIT = _verification("alpha", "implicit_lagrange", "implicit_independent", "implicit_friction", "tolerance")
+IMPLICIT = verification("alpha", "implicit_lagrange", "implicit_independent", "implicit_friction", "tolerance")
 # tests that touch the kernels of a file, the cheapest first: the entry with the longest beginning of its path is taken
 COVER = {
-    "integrate/": ("integrate/test_orders.py", "integrate/test_chosen_steps.py", *_verification("tolerance", "events")),
+    "integrate/": ("integrate/test_orders.py", "integrate/test_chosen_steps.py", *verification("tolerance", "events")),
     "integrate/explicit/": (
         "integrate/test_runge_kutta_tables.py", "integrate/test_orders.py", "integrate/test_chosen_steps.py",
-        *_verification("tolerance", "events", "motion"),
+        *verification("tolerance", "events", "motion"),
     ),
     "integrate/loop/": (
         "integrate/test_loop.py", "integrate/test_chosen_steps.py",
-        *_verification("events", "contact_location", "driver_corners", "force_corners", "jumps_in_time", "switches", "geometric", "states"),
-        *_verification("tolerance"),
+        *verification("events", "contact_location", "driver_corners", "force_corners", "jumps_in_time", "switches", "geometric", "states"),
+        *verification("tolerance"),
         "live/test_budget.py",
     ),
     "integrate/multistep/": (
         "integrate/test_multistep_weights.py", "integrate/test_multistep.py", "integrate/test_orders.py",
-        *_verification("stiff", "newton_convergence"),
+        *verification("stiff", "newton_convergence"),
     ),
+    "elements/": STATES,
     "elements/forces/": (
-        *_verification("springs", "everyday_forces", "element_references", "motors", "drives", "loads"), *STATES,
+        *verification("springs", "everyday_forces", "element_references", "motors", "drives", "loads"), *STATES,
     ),
-    "integrate/newmark/": (*IMPLICIT, *_verification(
+    "integrate/newmark/": (*IMPLICIT, *verification(
         "implicit_tolerance", "energy_momentum", "stiff_springs", "newton_policy", "implicit_penalties", "stiff_dampers", "jams",
     )),
-    "integrate/radau/": _verification("radau", "implicit_tolerance", "implicit_friction"),
-    "integrate/rosenbrock/": (*_verification("ros2"), *HYDRAULICS),
-    "integrate/stabilise/": _verification("geometric", "formulations", "motion"),
-    "integrate/variable_order/": ("integrate/test_multistep_polynomials.py", *_verification("bdf", "tolerance", "implicit_tolerance")),
+    "integrate/radau/": verification("radau", "implicit_tolerance", "implicit_friction"),
+    "integrate/rosenbrock/": (*verification("ros2"), *HYDRAULICS),
+    "integrate/stabilise/": verification("geometric", "formulations", "motion"),
+    "integrate/variable_order/": ("integrate/test_multistep_polynomials.py", *verification("bdf", "tolerance", "implicit_tolerance")),
     "kernels/": STATES,
     "kernels/algebra/": (
         *(f"kernels/test_{name}.py" for name in ("rotation", "rotation_coordinates", "lu", "sparse_lu", "saddle_solvers", "trigonometry")),
-        *_verification("joints", "motion", "rotations", "euler_angle_sensors"), *STATES,
+        *verification("joints", "motion", "rotations", "euler_angle_sensors"), *STATES,
     ),
     "kernels/bodies/": (
-        *_verification("joints", "motion", "mechanisms", "rolling", "couplings", "driven_poses", "driven_lengths", "rails"),
-        *_verification("special_joints", "compound_joints"), *STATES,
+        *verification("joints", "motion", "mechanisms", "rolling", "couplings", "driven_poses", "driven_lengths", "rails"),
+        *verification("special_joints", "compound_joints"), *STATES,
     ),
     "kernels/bodies/floating": FLEXIBLE,
     "kernels/bodies/geometric": FLEXIBLE,
-    "kernels/bodies/shared": (*_verification("rails", "eliminated_rails"), *FLEXIBLE),
-    "kernels/bodies/rail": (*_verification("rails", "eliminated_rails"), *STATES),
-    "kernels/elements/": (*BEAMS, *_verification("friction", "frictions_together", "held_friction", "implicit_friction")),
+    "kernels/bodies/shared": (*verification("rails", "eliminated_rails"), *FLEXIBLE),
+    "kernels/bodies/rail": (*verification("rails", "eliminated_rails"), *STATES),
+    "kernels/elements/": (*BEAMS, *verification("friction", "frictions_together", "held_friction", "implicit_friction")),
     "kernels/forces/": (
-        *_verification("springs", "everyday_forces", "contact", "element_references", "motors", "drives", "loads"), *STATES,
+        *verification("springs", "everyday_forces", "contact", "element_references", "motors", "drives", "loads"), *STATES,
     ),
-    "kernels/forces/ancf": _verification("gradient_beams"),
-    "kernels/forces/beam": (*_verification("statics_beams"), *BEAMS),
-    "kernels/forces/elastic": (*_verification("statics_beams"), *BEAMS),
-    "kernels/forces/held": (*_verification("statics_beams"), *BEAMS),
-    "kernels/forces/hull": (*_verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
-    "kernels/forces/pressure_cells": (*_verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
-    "kernels/forces/rope": (*_verification("ropes"), *STATES),
+    "kernels/forces/ancf": verification("gradient_beams"),
+    "kernels/forces/beam": (*verification("statics_beams"), *BEAMS),
+    "kernels/forces/elastic": (*verification("statics_beams"), *BEAMS),
+    "kernels/forces/held": (*verification("statics_beams"), *BEAMS),
+    "kernels/forces/hull": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
+    "kernels/forces/pressure_cells": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
+    "kernels/forces/rope": (*verification("ropes"), *STATES),
     "kernels/hydraulics/": HYDRAULICS,
-    "kernels/output/": (*_verification("consistency", "motion", "redundant_loops"), "flexible/test_flexible_motion.py"),
-    "kernels/record/": ("machine/test_time_functions.py", "system/test_programs.py", *_verification("drivers", "laws", "control"), *STATES),
+    "kernels/output/": (*verification("consistency", "motion", "redundant_loops"), "flexible/test_flexible_motion.py"),
+    "kernels/record/": ("machine/test_time_functions.py", "system/test_programs.py", *verification("drivers", "laws", "control"), *STATES),
     "kernels/residual/": (
         *STATES,
-        *_verification("residual", "tangent_structure", "implicit_points", "shifted_parts", "rails", "energy_momentum"), *IMPLICIT,
+        *verification("residual", "tangent_structure", "implicit_points", "shifted_parts", "rails", "energy_momentum"), *IMPLICIT,
     ),
     "kernels/residual/flexible": ("flexible/test_flexible_energy_momentum.py", *FLEXIBLE),
-    "kernels/residual/shared": ("flexible/test_flexible_energy_momentum.py", *_verification("rails", "energy_momentum"), *FLEXIBLE),
-    "kernels/signals/": (*_verification("sensors", "control", "states", "events", "inputs"), "live/test_budget.py"),
+    "kernels/residual/shared": ("flexible/test_flexible_energy_momentum.py", *verification("rails", "energy_momentum"), *FLEXIBLE),
+    "kernels/signals/": (*verification("sensors", "control", "states", "events", "inputs"), "live/test_budget.py"),
     "kernels/solve/": (
         "kernels/test_saddle_solvers.py",
-        *_verification("independent", "formulations", "redundant_loops", "singular_positions", "implicit_independent"), *STATES,
+        *verification("independent", "formulations", "redundant_loops", "singular_positions", "implicit_independent"), *STATES,
     ),
     "kernels/solve/flexible": ("flexible/test_flexible_independent.py", "flexible/test_redundant_flexible.py", *FLEXIBLE),
-    "kernels/tree/": (*_verification("relative", "relative_runs", "relative_turns", "eliminated_rails"), *STATES),
+    "kernels/tree/": (*verification("relative", "relative_runs", "relative_turns", "eliminated_rails"), *STATES),
     "kernels/tree/flexible": ("flexible/test_flexible_tree.py", "flexible/test_mixed_trees.py", *FLEXIBLE),
     "kernels/tree/modal": ("flexible/test_flexible_tree.py", "flexible/test_mixed_trees.py", *FLEXIBLE),
 }  # fmt: skip

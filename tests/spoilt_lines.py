@@ -1,6 +1,14 @@
 """Lines of kernels spoilt by hand, each the mistake that one makes with it, and the tests that are said to notice it."""
 
 from dataclasses import dataclass
+from pathlib import Path
+
+TESTS = Path(__file__).parent
+# paths in `tests` of the tests in folders of `verification`, by name
+PLACES = {
+    path.stem.removeprefix("test_"): path.relative_to(TESTS).as_posix()
+    for path in (TESTS / "verification").rglob("test_*.py")
+}
 
 
 @dataclass(frozen=True)
@@ -14,71 +22,72 @@ class Spoilt:
     tests: tuple[str, ...]
 
 
-def _verification(*names):
-    return tuple(f"verification/test_{name}.py" for name in names)
+def verification(*names):
+    """Paths in `tests` of tests by their names, in whichever folder of `verification` they are."""
+    return tuple(PLACES[name] for name in names)
 
 
 NAMED = [
     # forces
     Spoilt("spring: half the damper", "elements/forces/springs.py", "damping = numbers[SpringRow.DAMPING] * rate",
-             "damping = 0.5 * numbers[SpringRow.DAMPING] * rate", _verification("springs")),
+             "damping = 0.5 * numbers[SpringRow.DAMPING] * rate", verification("springs")),
     Spoilt("spring: energy of the preload", "elements/forces/springs.py",
              "(0.5 * numbers[SpringRow.STIFFNESS] * stretch + numbers[SpringRow.PRELOAD])",
-             "(0.5 * numbers[SpringRow.STIFFNESS] * stretch)", _verification("springs", "consistency")),
+             "(0.5 * numbers[SpringRow.STIFFNESS] * stretch)", verification("springs", "consistency")),
     Spoilt("impact: sign of the loss", "kernels/forces/impact.py", "(1.0 + x / speed * rate)", "(1.0 - x / speed * rate)",
-             _verification("contact", "contact_location")),
+             verification("contact", "contact_location")),
     Spoilt("contact: friction without its normal force", "kernels/forces/contact_law.py",
-             "numbers[FRICTION] * force * tanh", "numbers[FRICTION] * tanh", _verification("contact", "consistency")),
+             "numbers[FRICTION] * force * tanh", "numbers[FRICTION] * tanh", verification("contact", "consistency")),
     Spoilt("stop: the upper one pulls", "elements/forces/actuators.py", "depth[1], rate, stiffness", "depth[1], -rate, stiffness",
-             _verification("contact", "springs", "element_references", "contact_location", "residual_and_tangent")),
+             verification("contact", "springs", "element_references", "contact_location", "residual_and_tangent")),
     Spoilt("bushing: moment of the offset", "elements/forces/bushing.py", "m0 + d1 * f2 - d2 * f1,", "m0 - d1 * f2 + d2 * f1,",
-             _verification("springs", "consistency")),
+             verification("springs", "consistency")),
     Spoilt("motor: speed held the wrong way", "elements/forces/actuators.py", "gain * (effort - coordinates.rate[q])",
-             "gain * (effort - 0.9 * coordinates.rate[q])", _verification("motors")),
+             "gain * (effort - 0.9 * coordinates.rate[q])", verification("motors")),
     Spoilt("push: lever of a point", "kernels/forces/wrench.py", "n0, n1, n2 = u1 * z - u2 * y, u2 * x - u0 * z,",
-             "n0, n1, n2 = u1 * z - u2 * y, u2 * x + u0 * z,", _verification("contact", "contact_location")),
+             "n0, n1, n2 = u1 * z - u2 * y, u2 * x + u0 * z,", verification("contact", "contact_location")),
     Spoilt("table: its slope", "kernels/record/function.py", "c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]),",
              "c[1] + s * (2.0 * c[2] + 2.0 * s * c[3]),",
-             ("machine/test_time_functions.py", *_verification("drivers", "laws"))),
+             ("machine/test_time_functions.py", *verification("drivers", "laws"))),
     # constraints
     Spoilt("coincident points: their acceleration", "kernels/bodies/constraint.py", "markers.bias[i, x] - markers.bias[j, x]",
-             "markers.bias[i, x] + markers.bias[j, x]", _verification("joints")),
+             "markers.bias[i, x] + markers.bias[j, x]", verification("joints")),
     Spoilt("coordinate: Coriolis along an axis", "kernels/bodies/coordinate.py", "- ad * dot(w, w) + 2.0 * (s0",
              "- ad * dot(w, w) + 1.0 * (s0",
-             _verification("joints")),
+             verification("joints")),
     Spoilt("coordinate: bias of an angle", "kernels/bodies/coordinate.py", "- rate * 2.0 * (c * cdot + s * sdot)",
              "- rate * (c * cdot + s * sdot)",
-             _verification("drivers", "joints", "couplings")),
+             verification("drivers", "joints", "couplings")),
     # bodies and trees
     Spoilt("Euler parameters: their rates", "kernels/algebra/rotation.py", "out[2] = theta[3] * x + theta[0] * y - theta[1] * z",
-             "out[2] = theta[3] * x + theta[0] * y + theta[1] * z", ("kernels/test_rotation.py", *_verification("motion"))),
+             "out[2] = theta[3] * x + theta[0] * y + theta[1] * z", ("kernels/test_rotation.py", *verification("motion"))),
     Spoilt("weight: its moment", "kernels/bodies/rigid.py", "F[4] = c[2] * F[0] - c[0] * F[2]", "F[4] = c[2] * F[0] + c[0] * F[2]",
-             _verification("consistency", "motion", "mechanisms")),
-    Spoilt("kinetic energy of turning", "kernels/bodies/rigid.py", "+ 0.5 * turning", "+ 0.49 * turning", _verification("motion")),
+             verification("consistency", "motion", "mechanisms")),
+    Spoilt("kinetic energy of turning", "kernels/bodies/rigid.py", "+ 0.5 * turning", "+ 0.49 * turning", verification("motion")),
     Spoilt("tree: inertia of a child", "kernels/tree/articulated.py", "P[5] - 2.0 * (K6 * y - K7 * x)", "P[5] - (K6 * y - K7 * x)",
-             _verification("relative")),
+             verification("relative")),
     Spoilt("tree: motion of a child", "kernels/tree/articulated.py", "parent[4] + parent[2] * r[0] - parent[0] * r[2]",
-             "parent[4] + parent[2] * r[0] + parent[0] * r[2]", _verification("relative")),
+             "parent[4] + parent[2] * r[0] + parent[0] * r[2]", verification("relative")),
     # friction and sensors
     Spoilt("friction: Stribeck's exponent", "kernels/elements/friction.py", "np.exp(-ratio * ratio)", "np.exp(-ratio)",
-             _verification("friction")),
+             verification("friction")),
     Spoilt("friction: load of a collar", "kernels/elements/friction.py", "return load + n[COLLAR] * absolute(fz)",
              "return load + n[COLLAR] * fz",
-             _verification("friction", "frictions_together")),
+             verification("friction", "frictions_together")),
     Spoilt("friction: multipliers", "kernels/elements/friction.py", "total += friction.response[k, row] * friction.force[k]",
-             "total -= friction.response[k, row] * friction.force[k]", _verification("friction")),
+             "total -= friction.response[k, row] * friction.force[k]", verification("friction")),
     Spoilt("sensor: Coriolis", "kernels/signals/sensor.py", "cross(w, cross(w, d))), coriolis), coriolis)",
              "cross(w, cross(w, d))), coriolis), d)",
-             _verification("sensors")),
+             verification("sensors")),
     Spoilt("sensor: relative angular acceleration", "kernels/signals/sensor.py", "value = less(value, cross(w, turning))",
-             "value = less(value, cross(turning, w))", _verification("sensors")),
+             "value = less(value, cross(turning, w))", verification("sensors")),
     # beams, rails, flexible bodies
-    Spoilt("rail: product of rates", "kernels/bodies/rail.py", "+ 2.0 * dot(a[1], b[1])", "+ dot(a[1], b[1])", _verification("rails")),
+    Spoilt("rail: product of rates", "kernels/bodies/rail.py", "+ 2.0 * dot(a[1], b[1])", "+ dot(a[1], b[1])", verification("rails")),
     Spoilt("beam: stored energy", "kernels/elements/beam_element.py", "stored += 0.5 * elastic * strain",
              "stored += 0.51 * elastic * strain",
-             _verification("beam_elements")),
+             verification("beam_elements")),
     Spoilt("beam: change of the tangent", "kernels/elements/beam_element.py", "outwards = da * along - db * across",
-             "outwards = da * along + db * across", _verification("beam_elements")),
+             "outwards = da * along + db * across", verification("beam_elements")),
     Spoilt("flexible body: inertia of the second order", "kernels/bodies/floating_frame.py", "(2.0 * I8[c, k] + row[k])",
              "(I8[c, k] + row[k])",
              ("flexible/test_invariants.py", "flexible/test_flexible_motion.py", "flexible/test_tumbling.py")),
@@ -89,13 +98,13 @@ NAMED = [
     Spoilt("rk4: a weight", "integrate/explicit/runge_kutta.py", "1 / 6, 1 / 3, 1 / 3, 1 / 6", "1 / 6, 1 / 3, 1 / 6, 1 / 3",
              ("integrate/test_orders.py",)),
     Spoilt("ros2: second stage", "integrate/rosenbrock/rosenbrock.py", "second[i] -= 2.0 * first[i]", "second[i] -= 1.9 * first[i]",
-             _verification("ros2")),
+             verification("ros2")),
     Spoilt("generalised-alpha: order of positions", "integrate/newmark/alpha_step.py", "(0.5 - c[BETA]) * a", "(0.55 - c[BETA]) * a",
-             _verification("alpha")),
+             verification("alpha")),
     Spoilt("geometric stabilisation: the factor", "integrate/loop/energy.py", "np.sqrt(1.0 + missing / kinetic)",
              "1.0 + missing / kinetic",
-             _verification("geometric")),
+             verification("geometric")),
     Spoilt("events: sides are kept", "integrate/loop/events.py", "now != 0.0 else -values[SIDE, k]",
              "now != 0.0 else values[SIDE, k]",
-             _verification("events")),
+             verification("events")),
 ]  # fmt: skip

@@ -10,7 +10,7 @@ from nivel.errors import ModelError, SolveError
 from simulating import machine, simulate
 
 START = 0.5
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
 def parallelogram(speed, axis_offset=0.0):

@@ -22,7 +22,7 @@ from preparing import prepare
 
 pytestmark = pytest.mark.covering
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 
 
 def seeded(make, *arguments, **options):

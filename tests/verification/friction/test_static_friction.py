@@ -18,7 +18,7 @@ from test_friction import DRAWN, MASS, sled
 
 pytestmark = pytest.mark.covering
 
-FAULT = Path(__file__).parents[1] / "faults" / "d_static_lost.yaml"
+FAULT = Path(__file__).parents[2] / "faults" / "d_static_lost.yaml"
 METHODS = pytest.mark.parametrize(
     ("integrator", "coordinates"),
     [

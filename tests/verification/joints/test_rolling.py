@@ -12,8 +12,8 @@ from simulating import G, machine, simulate, slopes, solid
 
 pytestmark = pytest.mark.covering
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-CASE = Path(__file__).parent / "references" / "bicycle_whipple_linear.csv"
+EXAMPLES = Path(__file__).parents[3] / "examples"
+CASE = Path(__file__).parents[1] / "references" / "bicycle_whipple_linear.csv"
 
 
 def coin(lean=0.35, turn=2.0, spin=1.0, radius=0.3, rim=0.04, mass=2.0, **more):

@@ -25,7 +25,7 @@ from simulating import simulate
 
 pytestmark = pytest.mark.covering
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 MACHINES = {
     "slider-crank": machines.slider_crank,
     "four-bar": machines.four_bar,

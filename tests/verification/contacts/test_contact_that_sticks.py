@@ -16,7 +16,7 @@ from simulating import G, machine, simulate, slide, solid
 
 pytestmark = pytest.mark.covering
 
-FAULT = Path(__file__).parents[1] / "faults" / "r02_box_incline.yaml"
+FAULT = Path(__file__).parents[2] / "faults" / "r02_box_incline.yaml"
 METHODS = pytest.mark.parametrize(
     ("integrator", "coordinates", "step"),
     [

@@ -15,7 +15,7 @@ from simulating import G
 
 pytestmark = pytest.mark.covering
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 
 

@@ -12,7 +12,7 @@ from nivel.system.signals.ticks import ratio_of, ticks
 from simulating import simulate, slide, solid
 
 COUNT = 12
-FAULTS = Path(__file__).parents[1] / "faults"
+FAULTS = Path(__file__).parents[2] / "faults"
 
 
 def written(period: str, n: int) -> str:

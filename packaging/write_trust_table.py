@@ -80,7 +80,7 @@ sensitivity: Sensitivity of a motion to its start: neighbouring motions that par
 state: States of elements against their own inequalities: open or closed, slack or taut, held or sliding
 singular, unsearched: Positions passed in a run where constraints depend on each other that do not elsewhere: there a motion may
     continue in more than one way
-start_equilibrium, start_moved, start_velocity: Start, where it is not what was given: positions that were moved to close joints,
+start_equilibrium, start_moved, start_velocity, start_law: Start, where it is not what was given: positions that were moved to close joints,
     velocities that were changed to fit them
 states: First-order states whose errors the tolerance hardly controls: they stay far below the scales by which these are measured
 steady, growth: Steadiness of what linear equations are about: eigenvalues describe a motion where the machine rests in equilibrium, or

@@ -186,7 +186,9 @@ class Trust:
         """How exact the result is, in a sentence: of a run what a second run says of bodies and of the number that is worst beside, or that
         there was none; of other analyses what has examined them, and what nothing has. Where a line is red the first thing said is not a
         small number."""
-        return self._examined() if self.accuracy_estimate is None else f"{self._exactness()}{self._lacks()}"
+        if self.accuracy_estimate is None:
+            return self._examined()
+        return f"{self._exactness()}{self._not_unique()}{self._lacks()}"
 
     def _exactness(self) -> str:
         """What a second run says."""
@@ -220,6 +222,12 @@ class Trust:
         if exact or (red and "accuracy" not in red):
             return f"{name} {'off by up to' if red else 'within'} {error} ({rest['name']} most); {bodies}"
         return f"{motion}; {name} within {error} ({rest['name']} most)"
+
+    def _not_unique(self) -> str:
+        """Numbers that the equations do not determine, of which no error can be stated."""
+        names = [f"reactions of {', '.join(self.non_unique_joints)}"] if self.non_unique_joints else []
+        names += self.undetermined_efforts
+        return f"; not unique: {' and '.join(names)}" if names else ""
 
     def _of_circuit(self) -> str:
         """Errors of a circuit without bodies: pressures and flows first."""

@@ -21,7 +21,7 @@ from nivel.analysis.run.second_run import TENTH, SecondRun, most_work
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import TAKEN
-from nivel.judge.after.report import assess
+from nivel.judge.after.report import assess, lines_apart
 from nivel.judge.during.stop import Status
 from nivel.results.memory import Memory
 from nivel.results.trust import Trust
@@ -192,7 +192,7 @@ def _with_tries(trust: Trust, tries: list[Try], plan: Plan) -> Trust:
     items = []
     for item in trust.items:
         said = ""
-        if item.verdict != "green" and item.name not in OF_STEPS | OF_NOTHING:
+        if item.verdict != "green" and item.name not in OF_STEPS | OF_NOTHING | lines_apart():
             said = "; no step makes this better: it is not of the steps"
         elif item.verdict != "green" and item.name in OF_STEPS and others:
             said = f"; tried: {', '.join(f'{each.words}: {each.gave(item.name)}' for each in others)}"

@@ -47,7 +47,8 @@ class Check(Generic[S, F]):
     place : of its lines in the report, which are in rising order. title : of its lines in the page. threshold : that its numbers are held
     against. line : the name of its lines, by default that of the check.
     blind : why a second run may be wrong alike where a line is not green; `{row}` and `{time}` are those of the line.
-    quiet : green lines are not told. last : it looks at lines of the others, `subject.items`.
+    quiet : green lines are not told. last : it looks at lines of the others, `subject.items`. apart : its colour is that of numbers
+    on which the motion does not depend, so it turns no light.
     """
 
     name: str
@@ -62,6 +63,7 @@ class Check(Generic[S, F]):
     blind: str = ""
     quiet: bool = False
     last: bool = False
+    apart: bool = False
 
     def applies(self, subject: Subject) -> bool:
         """Whether it looks at such a subject."""
@@ -111,7 +113,8 @@ def assess(subject: Subject, given: Mapping[str, Any] | None = None) -> Trust:
         lines[check.name] = check.lines(found.get(check.name))
     items = _in_order(applying, lines)
     kept = {check.name: plain(found[check.name]) for check in applying if check.name in found}
-    return Trust(worst(items), subject.outcome, kept, items)
+    light = worst(item for check in applying if not check.apart for item in lines[check.name])
+    return Trust(light, subject.outcome, kept, items)
 
 
 def assess_remains(result: Result) -> Trust:
@@ -126,6 +129,11 @@ def blindness(items: Iterable[Item]) -> str:
         if item.verdict != "green" and item.name in blind:
             return blind[item.name].format(row=item.row, time=f"{item.time or 0.0:.6g}")
     return ""
+
+
+def lines_apart() -> frozenset[str]:
+    """Names of the lines that turn no light."""
+    return frozenset(check.line or check.name for check in every_check() if check.apart)
 
 
 def thresholds_of(result: Readable, *, quiet: bool = True) -> dict[str, Threshold]:

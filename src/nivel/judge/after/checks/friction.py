@@ -263,4 +263,4 @@ def _basis(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     return every[size > LEFT]
 
 
-CHECKS = (Check("shared_friction", Run, look, say, 70, (FRAMES,), "Friction"),)
+CHECKS = (Check("shared_friction", Run, look, say, 70, (FRAMES,), "Friction", apart=True),)

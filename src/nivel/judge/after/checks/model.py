@@ -169,15 +169,29 @@ class Changed:
 
 
 def look_for_moves(subject: Run | Linearisation) -> Moved | None:
-    """The farthest move to close joints; start values of joints and drivers move bodies too, as was asked for."""
+    """The farthest move to close joints; start values of joints move bodies too, as was asked for, and so do drivers and couplings."""
+    moved = _farthest(subject)
+    return moved if moved is not None and not _is_of_law(subject, moved) else None
+
+
+def look_for_laws(subject: Run | Linearisation) -> Moved | None:
+    """The farthest move to where the law of a driver or a coupling begins, where it is not small."""
+    moved = _farthest(subject)
+    return moved if moved is not None and _is_of_law(subject, moved) and not moved.share < MOVED.green else None
+
+
+def _farthest(subject: Run | Linearisation) -> Moved | None:
     assembly, size = subject.assembly, subject.scales.size
     gap, row = assembly.get("gap", 0.0), assembly.get("gap_row", "")
-    if not gap > ROUND_OFF * max(size, 1.0) or row.partition(".")[0] in {
-        driver.name for driver in subject.machine.drivers
-    }:
+    if not gap > ROUND_OFF * max(size, 1.0):
         return None
     moves = [Moved(name, d, a, max(d / size, a), gap, row) for name, d, a in assembly.get("moved", ())]
-    return max(moves, key=lambda each: each.share, default=None)
+    return max(moves, key=lambda move: move.share, default=None)
+
+
+def _is_of_law(subject: Run | Linearisation, moved: Moved) -> bool:
+    laws = (*subject.machine.drivers, *subject.machine.couplings)
+    return moved.row.partition(".")[0] in {law.name for law in laws}
 
 
 def say_moves(found: Moved) -> Item:
@@ -185,6 +199,13 @@ def say_moves(found: Moved) -> Item:
     amount = f"{number(found.distance)} m and {number(found.angle)} rad"
     why = f"to close {found.row}, which was open by {number(found.gap)} as given"
     return MOVED.item("start", f"Start: {found.name} was moved by {amount} {why}", found.share, 0.0, found.name)
+
+
+def say_law(found: Moved) -> Item:
+    """How far the body was moved, and by what. It is what was asked for."""
+    amount = f"{number(found.distance)} m and {number(found.angle)} rad"
+    text = f"Start: {found.name} was moved by {amount} to where {found.row} begins (said, always green)"
+    return Item("start", "green", text, row=found.name, time=0.0)
 
 
 def look_at_equilibrium(run: Run) -> Settled | None:
@@ -265,5 +286,6 @@ CHECKS = (
         quiet=True,
     ),
     Check("start_moved", OF, look_for_moves, say_moves, 120, (), "Start", MOVED, line="start", quiet=True),
+    Check("start_law", OF, look_for_laws, say_law, 122, (), "Start", line="start"),
     Check("start_velocity", OF, look_for_changes, say_changes, 121, (), "Start", MOVED, line="start", quiet=True),
 )

@@ -8,14 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.judge.after.checks import friction
 from nivel.judge.after.flexible_bodies import MODAL, ModalBody, modal_bodies, point_ranges
 from nivel.judge.after.report import ESTIMATE, Check
 from nivel.judge.after.subject import Run
+from nivel.machine.forces.contact import Contact
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.estimate import Estimate
+from nivel.results.motion import common_frames
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, amount, number
 from nivel.system.layout import Variable
@@ -97,13 +100,25 @@ GROUPS = (
 )
 
 
+@dataclass(frozen=True)
+class _Scales:
+    """By variable, what its numbers are compared with at least: of points of flexible bodies, of contacts. shared : variables without an
+    error of their own."""
+
+    points: dict[str, Array]
+    contacts: dict[str, float]
+    shared: tuple[str, ...]
+
+
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def look(run: Run) -> list[QuantityError]:
     """Of each group the number with the largest share of errors."""
     if run.estimate is None:
         return []
+    shared = friction.look(run)  # how much each takes of a load that several hold is not unique, and has no error
     points = _of_points(run.result, modal_bodies(run.machine))
-    return [found for group in GROUPS if (found := _worst(run, run.estimate, group, points)) is not None]
+    scales = _Scales(points, _of_contacts(run), shared.efforts if shared is not None else ())
+    return [found for group in GROUPS if (found := _worst(run, run.estimate, group, scales)) is not None]
 
 
 def say(found: QuantityError) -> Item:
@@ -120,8 +135,8 @@ def say(found: QuantityError) -> Item:
     return THRESHOLD.item("quantities", said, found.share, row=found.name)
 
 
-def _worst(run: Run, estimate: Estimate, group: Group, points: dict[str, Array]) -> QuantityError | None:
-    finite = [each for each in _errors(run, estimate, group, points) if np.isfinite(each.share)]
+def _worst(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> QuantityError | None:
+    finite = [each for each in _errors(run, estimate, group, scales) if np.isfinite(each.share)]
     if not finite:
         return None
     worst = max(finite, key=lambda each: each.share)
@@ -140,13 +155,16 @@ def group_of(variable: Variable, components: frozenset[str]) -> str:
     return next(group.name for group in GROUPS if group.holds(name, variable.units))
 
 
-def _errors(run: Run, estimate: Estimate, group: Group, points: dict[str, Array]) -> Iterator[QuantityError]:
+def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iterator[QuantityError]:
     result, components = run.result, frozenset(each.name for each in run.machine.hydraulics)
     states = {f"state.{state.name}": state.scale or 0.0 for state in run.machine.states}
     names = [each for each in estimate.mean if group_of(result.variables[each], components) == group.name]
-    extents = {name: _joined(result.variables[name], np.ptp(result.array(name), axis=0)) for name in names}
+    second = run.second.result if run.second is not None and not run.second.ended else None
+    extents = {name: _joined(result.variables[name], least_range(result, second, name)) for name in names}
     sizes = {name: float(np.nanmax(np.abs(result.array(name)), initial=0.0)) for name in names}
     for name in names:
+        if name in scales.shared:
+            continue
         variable = result.variables[name]
         alike = [each for each in names if result.variables[each].units == variable.units]
         largest = max(float(np.max(extents[each], initial=0.0)) for each in alike)
@@ -155,7 +173,8 @@ def _errors(run: Run, estimate: Estimate, group: Group, points: dict[str, Array]
         magnitude = _joined(variable, np.max(np.abs(result.array(name)), axis=0, initial=0.0))
         extent = np.maximum(extents[name], AT_REST * np.maximum(magnitude, natural))
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))
-        moved = np.broadcast_to(points.get(name, 0.0), extent.shape)
+        moved = np.broadcast_to(scales.points.get(name, 0.0), extent.shape)
+        extent = np.maximum(extent, scales.contacts.get(name, 0.0))
         mean = _joined(variable, estimate.mean[name])
         error = _joined(variable, estimate.values[name][-1])
         for k in np.flatnonzero(error > rounded):
@@ -166,6 +185,33 @@ def _errors(run: Run, estimate: Estimate, group: Group, points: dict[str, Array]
             yield QuantityError(
                 group.name, label, own, float(mean[k]), scale, units, own, points=bool(moved[k] >= scale)
             )
+
+
+def least_range(result: Readable, second: Readable | None, name: str) -> Array:
+    """Ranges of the numbers of a variable, the smaller one of both runs: a number that one run alone has in a frame is an error, and no
+    scale of it."""
+    values = result.array(name)
+    extent = np.ptp(values, axis=0)
+    if second is None or name not in second.variables or second.array(name).shape[1:] != values.shape[1:]:
+        return extent
+    here, there = common_frames(result.time, second.time)
+    if len(here) < 2:
+        return extent
+    own, other = np.ptp(values[here], axis=0), np.ptp(second.array(name)[there], axis=0)
+    return np.where(other < own, extent * other / np.where(own > 0.0, own, 1.0), extent)
+
+
+def _of_contacts(run: Run) -> dict[str, float]:
+    """Friction of a contact is compared with the most that it can be, as the others of a body share its load, and slip with the speed of
+    the machine, as what sticks creeps a little."""
+    out: dict[str, float] = {}
+    for force in run.machine.forces:
+        start = f"force.{force.name}."
+        if isinstance(force, Contact) and force.friction > 0.0 and f"{start}normal_force" in run.result.variables:
+            limit = force.static * float(np.nanmax(run.result.array(f"{start}normal_force"), initial=0.0))
+            out |= {f"{start}friction_{part}": limit for part in ("force", "x", "y", "z")}
+            out[f"{start}slip_speed"] = run.scales.speed
+    return out
 
 
 def _of_points(result: Readable, bodies: list[ModalBody]) -> dict[str, Array]:

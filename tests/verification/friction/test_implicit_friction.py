@@ -16,8 +16,9 @@ from unknowns import Unknowns, moving
 
 pytestmark = pytest.mark.covering
 
-ALPHA = [("generalised-alpha", each) for each in ("absolute", "relative", "independent")]
-ALPHA += [("newmark", "absolute"), ("hht", "relative")]
+# each method and all coordinates by default
+ALPHA = [("generalised-alpha", "independent"), ("newmark", "absolute"), ("hht", "relative")]
+ALPHA += [pytest.param("generalised-alpha", each, marks=pytest.mark.full) for each in ("absolute", "relative")]
 CHOSEN = [("radau", "relative"), ("bdf", "relative")]
 FIXED = pytest.mark.parametrize(("integrator", "coordinates"), [*ALPHA, ("ros2", "relative")])
 METHODS = pytest.mark.parametrize(("integrator", "coordinates"), [*ALPHA, ("ros2", "relative"), *CHOSEN])

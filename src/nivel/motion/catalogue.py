@@ -52,6 +52,11 @@ _INDEPENDENT = PathFacts(
     "nivel.motion.newton_euler_residual",
     "nivel.motion.dependent",
 )
+_PARAMETERS_INDEPENDENT = PathFacts(
+    "nivel.motion.lagrange_independent",
+    "nivel.motion.lagrange_independent",
+    "nivel.system.states.parameters_independent",
+)
 _ANGLES, _VECTOR = (
     PathFacts(
         "nivel.motion.lagrange_three",
@@ -96,6 +101,7 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
         "nivel.motion.relative_residual",
     ),
     ("independent", "newton-euler", "euler-parameters"): _INDEPENDENT,
+    ("independent", "lagrange", "euler-parameters"): _PARAMETERS_INDEPENDENT,
 }
 
 # the same for machines with flexible bodies

@@ -12,9 +12,11 @@ from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, finish_forces
 from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.partition import divide
 from nivel.motion.floating_frame import evaluate as evaluate_newton_euler
 from nivel.motion.floating_frame import read_flexible_state, write_rates
-from nivel.motion.independent import embedded_accelerations, keep_independent, take_accelerations
+from nivel.motion.independent import embedded_accelerations, keep_independent, move_dependent, take_accelerations
+from nivel.motion.newton_euler import normalise
 from nivel.native.entry import entry
 from nivel.native.function import stage
 
@@ -60,10 +62,17 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
+@stage
+def read_normalised(machine, t, y):
+    """The same with Euler parameters of length one. Returns a status."""
+    normalise(machine, y)
+    return read_factorised(machine, t, y)
+
+
 @entry(CORRECT)
 def normalise_state(machine, t, y):
     """What depends on the independent coordinates, see `nivel.motion.independent.keep_independent`."""
-    return keep_independent(machine, t, y, read_factorised)
+    return keep_independent(machine, t, y, read_normalised, divide, move_dependent)
 
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly

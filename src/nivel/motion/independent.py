@@ -128,8 +128,8 @@ def move_dependent(machine, y):
         y[7 * count + j] -= D[6 * count + j]
 
 
-@leaf
-def close(machine, y, attempt, factorised, before):
+@shared
+def close(machine, y, attempt, factorised, before, divide, move):
     """One pass of `normalise_state` from the state last read: dependent positions nearer to C = 0, or where these are closed, dependent
     velocities from Ċ = 0.
 
@@ -158,32 +158,38 @@ def close(machine, y, attempt, factorised, before):
         for i in range(partition.D.shape[0]):
             y[first + i] -= partition.D[i]
     else:
-        move_dependent(machine, y)
+        move(machine, y)
     return OK, closed, share <= NEAR, share
 
 
 @shared
-def keep_independent(machine, t, y, read):
+def keep_independent(machine, t, y, read, divide, move):
     """Dependent positions from C = 0 by Newton's method with the independent ones held, then dependent velocities from Ċ = 0.
 
-    read(machine, t, y) : the state, compiled into this one. Returns a status: SINGULAR where the positions cannot be found; control.failure
-    is the row that is farthest open.
+    read(machine, t, y) : the state; divide(machine) : its factors, move(machine, y) : the dependent positions; compiled into this one.
+    Returns a status: SINGULAR where the positions cannot be found; control.failure is the row that is farthest open.
     """
     status, done, factorised, before = OK, False, False, np.inf
     for attempt in range(MOST_PASSES + 1):
-        normalise(machine, y)
         status = read(machine, t, y)
         if status == OK:
-            status, done, factorised, before = close(machine, y, attempt, factorised, before)
+            status, done, factorised, before = close(machine, y, attempt, factorised, before, divide, move)
         if status != OK or done:
             break
     return status
 
 
+@stage
+def read_normalised(machine, t, y):
+    """The state with Euler parameters of length one. Returns a status."""
+    normalise(machine, y)
+    return read_state(machine, t, y)
+
+
 @entry(CORRECT)
 def normalise_state(machine, t, y):
     """What depends on the independent coordinates, see `keep_independent`."""
-    return keep_independent(machine, t, y, read_state)
+    return keep_independent(machine, t, y, read_normalised, divide, move_dependent)
 
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly

@@ -140,8 +140,8 @@ def forward(G, z):
 
 
 @stage
-def whiten_row(machine, y, k):
-    """W of block k: C_q L⁻ᵀ with C_θ = (n + u × f)ᵀ A Ḡ (eq. 27); off the unit sphere γ changes by -κ (n + u × f)ᵀ ω."""
+def fill_row(machine, y, k):
+    """W of block k: C_q with C_θ = (n + u × f)ᵀ A Ḡ (eq. 27); off the unit sphere γ changes by -κ (n + u × f)ᵀ ω."""
     record = record_at(machine)
     bodies, saddle, constraints = record.bodies, record.saddle, record.constraints
     row, part, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
@@ -161,7 +161,14 @@ def whiten_row(machine, y, k):
         for i in range(4):
             W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
         constraints.gamma[row] -= radial_rate(machine, y, b) * (n0 * w[0] + n1 * w[1] + n2 * w[2])
-    forward(G, W)
+
+
+@stage
+def whiten_row(machine, y, k):
+    """W of block k: C_q L⁻ᵀ."""
+    saddle = record_at(machine).saddle
+    fill_row(machine, y, k)
+    forward(saddle.G[saddle.block[k, 3]], saddle.W[k])
 
 
 @stage

@@ -311,7 +311,6 @@ def test_second_run_of_the_same_numbers_chooses_again():
         {"stabilisation": "baumgarte"},
         {"formulation": "penalty"},
         {"formulation": "augmented-lagrangian"},
-        {"formulation": "lagrange"},
     ],
 )
 def test_methods_that_feed_violations_back_are_refused_with_the_reason(settings):

@@ -54,6 +54,12 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     if not facts.residual:
         return faults
     name = f"`integrator: {settings.integrator}`"
+    if coordinates == "independent" and settings.formulation == "lagrange":
+        message = (
+            f"'lagrange' in independent coordinates does not go with {name}, which needs a residual: use newton-euler, which has the same "
+            f"motion, or an explicit or multistep integrator"
+        )
+        faults.append(_fault("formulation", message))
     if facts.needs == "whole steps":
         return faults + _refuse_beside_whole_steps(settings, coordinates)
     if (

@@ -42,7 +42,7 @@ from nivel.kernels.record.record import Record
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system.elimination.partition import refuse_dependent
+from nivel.system.elimination.partition import DIRECTIONS, PARAMETERS, refuse_dependent
 from nivel.system.hydraulics.tangent import with_circuit_tangent
 from nivel.system.system import Array, System
 
@@ -162,7 +162,8 @@ def prepare(
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if wanted := machine.simulation.independent if methods.coordinates == "independent" else ():
         prepared.evaluate(0.0, y)
-        refuse_dependent(prepared.system.record.partition, wanted, system.bodies)
+        ways = PARAMETERS if system.equations.normalisation else DIRECTIONS
+        refuse_dependent(prepared.system.record.partition, wanted, system.bodies, ways)
     if integrator.needs == "circuits":
         prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:

@@ -181,23 +181,42 @@ def divide(machine):
     Nothing is lost by a choice at any state, even inside a step: accelerations and multipliers do not depend on the partition.
     Returns a status; on failure control.failure is the row.
     """
-    record = record_at(machine)
-    partition, rank = record.partition, np.int64(record.control.rank[0])
-    quality = partition.quality
+    partition = record_at(machine).partition
     redundant = partition.null.shape[0] > 0
     fill_rows(machine)
     if partition.choices[0] > 0:
         if redundant:
             weigh_rows(machine)
-        failed, smallest = eliminate(partition, rank, False)
-        if failed < 0:
-            growth = spread(partition, rank)
-            if growth <= quality[2] * max(1.0, quality[0]):
-                quality[0], quality[1] = min(quality[0], growth), smallest
-                return OK
+        if serves(machine):
+            return OK
         fill_rows(machine)
     if redundant:
         weigh_rows(machine)
+    return choose(machine)
+
+
+@leaf
+def serves(machine):
+    """Whether the present partition serves for the rows in E, which are factorised."""
+    record = record_at(machine)
+    partition, rank = record.partition, np.int64(record.control.rank[0])
+    quality = partition.quality
+    failed, smallest = eliminate(partition, rank, False)
+    if failed >= 0:
+        return False
+    growth = spread(partition, rank)
+    if not growth <= quality[2] * max(1.0, quality[0]):
+        return False
+    quality[0], quality[1] = min(quality[0], growth), smallest
+    return True
+
+
+@leaf
+def choose(machine):
+    """A new partition of the rows in E, which are factorised. Returns a status; on failure control.failure is the row."""
+    record = record_at(machine)
+    partition, rank = record.partition, np.int64(record.control.rank[0])
+    quality = partition.quality
     failed, smallest = eliminate(partition, rank, True)
     if failed >= 0:
         record.control.failure[0] = partition.row[failed]

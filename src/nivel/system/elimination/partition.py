@@ -17,6 +17,7 @@ NO_MODES = np.zeros(0)
 # are found among the others unless these are this much smaller.
 RELUCTANCE = 0.01
 DIRECTIONS = ("x", "y", "z", "about_x", "about_y", "about_z")
+PARAMETERS = ("x", "y", "z", "theta_0", "theta_1", "theta_2", "theta_3")
 
 
 def no_partition() -> Partition:
@@ -24,33 +25,38 @@ def no_partition() -> Partition:
     return partition(0, 0, 0, 1.0)
 
 
-def velocities_named(names: Sequence[str], bodies: Sequence[str]) -> list[int]:
-    """Numbers of the velocities `BODY.x` … `BODY.about_z`: of the origin along global axes, angular about axes of the body.
+def velocities_named(names: Sequence[str], bodies: Sequence[str], ways: Sequence[str] = DIRECTIONS) -> list[int]:
+    """Numbers of the velocities `BODY.x` … `BODY.about_z`: of the origin along global axes, angular about axes of the body; or in
+    PARAMETERS, rates of Euler parameters.
 
     Raises ModelError with every name that says no velocity.
     """
-    known = {f"{body}.{way}": 6 * b + i for b, body in enumerate(bodies) for i, way in enumerate(DIRECTIONS)}
+    known = {f"{body}.{way}": len(ways) * b + i for b, body in enumerate(bodies) for i, way in enumerate(ways)}
     unknown = [name for name in names if name not in known]
     if unknown:
-        raise ModelError([Fault("", 0, 0, "simulation.independent", _no_velocity(name, bodies)) for name in unknown])
+        raise ModelError(
+            [Fault("", 0, 0, "simulation.independent", _no_velocity(name, bodies, ways)) for name in unknown]
+        )
     return [known[name] for name in names]
 
 
-def _no_velocity(name: str, bodies: Sequence[str]) -> str:
+def _no_velocity(name: str, bodies: Sequence[str], ways: Sequence[str]) -> str:
     body, _, way = name.rpartition(".")
     if body in bodies:
-        return f"`{name}`: {unknown_word(way, DIRECTIONS, 'velocity')}"
-    return f"`{name}` names no velocity of a body: {unknown_word(body or name, bodies, 'body')}; write e.g. `{bodies[0]}.about_z`"
+        return f"`{name}`: {unknown_word(way, ways, 'velocity')}"
+    return f"`{name}` names no velocity of a body: {unknown_word(body or name, bodies, 'body')}; write e.g. `{bodies[0]}.{ways[-1]}`"
 
 
-def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[str]) -> None:
+def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[str], ways: Sequence[str]) -> None:
     """Refuse `wanted` velocities that cannot all be independent in the state last evaluated."""
     free = len(chosen.B)
     if len(wanted) > free:
         message = f"{len(wanted)} velocities are named, and the machine has {free} {'degree' if free == 1 else 'degrees'} of freedom"
         raise ModelError(Fault("", 0, 0, "simulation.independent", message))
     independent = set(chosen.column[len(chosen.column) - free :].tolist())
-    lost = [name for name, k in zip(wanted, velocities_named(wanted, bodies), strict=True) if k not in independent]
+    lost = [
+        name for name, k in zip(wanted, velocities_named(wanted, bodies, ways), strict=True) if k not in independent
+    ]
     if lost:
         message = (
             f"{', '.join(f'`{name}`' for name in lost)} follows from the constraints{' and the others' if len(wanted) > 1 else ''} at "
@@ -60,15 +66,22 @@ def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[
 
 
 def partition(
-    bodies: int, rows: int, rank: int, size: float, modal: Array = NO_MODES, wanted: Sequence[int] = ()
+    bodies: int,
+    rows: int,
+    rank: int,
+    size: float,
+    modal: Array = NO_MODES,
+    wanted: Sequence[int] = (),
+    turns: int = 3,
 ) -> Partition:
-    """For six velocities (Ṙ, ω̄) a body, `rank` independent ones of `rows` rows and a machine of the length `size` [m]; none chosen yet.
+    """For the velocities Ṙ and `turns` of rotation of each body, `rank` independent ones of `rows` rows and a machine of the length `size`
+    [m]; none chosen yet.
 
     modal : (m,) what modal velocities behind them are measured in [kg^½ m]. wanted : velocities to be independent where they can.
     """
-    n = 6 * bodies + len(modal)
+    n = (3 + turns) * bodies + len(modal)
     free = n - rank
-    unit = np.concatenate([np.tile([size, size, size, 1.0, 1.0, 1.0], bodies), modal])
+    unit = np.concatenate([np.tile([size] * 3 + [1.0] * turns, bodies), modal])
     unit[list(wanted)] *= RELUCTANCE
     return Partition(
         unit=unit,

@@ -53,6 +53,19 @@ def test_iterations_of_the_corrector_are_those_of_the_report(name):
     assert of_report(name, "direct", "gear").iterations == pytest.approx(report_44.ITERATIONS[name], rel=0.01)
 
 
+@pytest.mark.parametrize("name", tail(report_44.MACHINES, ["four-bar"]))
+def test_page_shows_the_iterations_of_every_second(name):
+    """Figure 23; the report has their mean alone."""
+    (row,) = re.findall(rf"^\| {name} \| ([\d.]+) \| ([\d.]+) \| (.*/.*)$", PAGE, re.MULTILINE)
+    assert float(row[0]) == report_44.ITERATIONS[name]
+    assert float(row[1]) == pytest.approx(of_report(name, "direct", "gear").iterations, abs=0.006)
+    shown = [cell.split("/") for cell in row[2].split("|") if "/" in cell]
+    found = report_44.iterations_of_seconds(name)
+    assert [(float(mean), int(most)) for mean, most in shown] == [
+        (pytest.approx(mean, abs=0.006), most) for mean, most in found
+    ]
+
+
 @pytest.mark.full
 def test_the_one_cell_that_is_not_reproduced_is_said_to_be_so():
     found = of_report(*RUNS_AWAY).energy

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from report_44_program import Array, Machine, Settings, simulate
+from report_44_program import Array, Machine, Run, Settings, simulate
 
 import nivel
 
@@ -141,12 +141,26 @@ def revolute(i: int, u_i: Any, f: Any, g: Any, j: int, u_j: Any, h: Any) -> tupl
     return ("s", i, u_i, j, u_j), ("d1", i, f, j, h), ("d1", i, g, j, h)
 
 
-def of_report(name: str, stabilisation: str, integrator: str, **habits: Any) -> Errors:
-    """The report's program; the slider-crank without Q_v unless `habits` say otherwise. Infinite where the motion runs away."""
+def run_of_report(name: str, stabilisation: str, integrator: str, **habits: Any) -> Run:
+    """A run of the report's program; the slider-crank without Q_v unless `habits` say otherwise."""
     machine = four_bar() if name == "four-bar" else slider_crank()
     given = {"gyroscopic": name == "four-bar"} | habits
     with np.errstate(over="ignore", invalid="ignore"):
-        run = simulate(machine, Settings(integrator=integrator, stabilisation=stabilisation, step=STEP, **given))
+        return simulate(machine, Settings(integrator=integrator, stabilisation=stabilisation, step=STEP, **given))
+
+
+def iterations_of_seconds(name: str) -> list[tuple[float, int]]:
+    """Figure 23, second by second: (mean, most) iterations of a step with Gear and direct correction."""
+    run = run_of_report(name, "direct", "gear")
+    time = run.time[-len(run.iterations) :]
+    seconds = np.ceil(time - 1e-9).astype(int)
+    parts = [run.iterations[seconds == k] for k in range(1, seconds.max() + 1)]
+    return [(float(part.mean()), int(part.max())) for part in parts]
+
+
+def of_report(name: str, stabilisation: str, integrator: str, **habits: Any) -> Errors:
+    """What the tables hold of such a run. Infinite where the motion runs away."""
+    run = run_of_report(name, stabilisation, integrator, **habits)
     if not np.all(np.isfinite(run.energy_error)):
         return Errors(np.inf, np.inf, np.inf, NONE)
     iterations = float(np.mean(run.iterations)) if len(run.iterations) else NONE
@@ -221,6 +235,7 @@ def print_tables() -> None:
     print("\nMean iterations of Gear's corrector, direct correction (§7.1)")
     for name in MACHINES:
         print(f"{name:13} report {ITERATIONS[name]:.2f}, again {runs[name, ('direct', 'gear')][0].iterations:.2f}")
+        print(f"{'':13} second by second: {', '.join(f'{mean:.2f}' for mean, _ in iterations_of_seconds(name))}")
 
 
 def print_habits() -> None:

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,12 +11,12 @@ import yaml
 import machines
 import nivel
 from nivel.analysis.plan.settings import complete
-from nivel.analysis.run.dynamics import start_loop
+from nivel.analysis.run.dynamics import march, start_loop
 from nivel.errors import ModelError
 from nivel.kernels.core.status import OK
 from nivel.machine.settings.run import SimulationSettings
 from preparing import prepare
-from running import run
+from running import Frames, run
 
 # of the slider-crank, all joints apart; others have what all have
 ROWS = {"crank_pivot": (3.0, 5.0), "ball": (7.0, 4.0), "ball.s.y": (11.0, 13.0)}
@@ -95,6 +96,38 @@ def test_each_row_has_its_own_penalty(formulation, rng):
     np.testing.assert_allclose(
         lam, alpha * (over + 2 * omega * mu * Cdot + omega**2 * C), rtol=1e-5, atol=1e-6 * np.abs(lam).max()
     )
+
+
+def test_violations_of_each_row_decay_by_its_own_coefficients(rng):
+    """An open start closes as C̈ + 2 α Ċ + β² C = 0 says, each row by itself: roots -α ± √(α² - β²) of what the row has at the start."""
+    pairs = {"hinge": (6.0, 9.0), "pin": (25.0, 15.0), "pin.s.y": (4.0, 20.0)}
+    settings = {
+        "coordinates": "absolute",
+        "stabilisation": "baumgarte",
+        "duration": 0.5,
+        "output_interval": 0.01,
+        "integrator": "rk4",
+    }
+    own = {name: {"alpha": alpha, "beta": beta} for name, (alpha, beta) in pairs.items()}
+    feedback = {"alpha": OTHERS[0], "beta": OTHERS[1], "rows": own}
+    prepared = prepared_with(machines.slider_crank(), baumgarte=feedback, **settings)
+    start = disturbed(prepared, rng)
+    prepared.motion.kernels.normalise_state(prepared.motion.handle.address, 0.0, start)
+    _, C, Cdot, _ = feedback_at(prepared, start)
+    record = machines.slider_crank()
+    asked = complete(record.simulation.replace(baumgarte=feedback, step=5e-4, **settings))
+    sink = Frames()
+    march(replace(prepared, start=start), asked, [sink])
+    frames = np.vstack(sink.blocks)
+    layout = prepared.motion.system.layout
+    (columns,) = (each.columns for each in layout.variables if each.name == "constraint_violation")
+    t, violation = frames[:, :1], frames[:, columns]
+    alpha, beta = wanted(prepared.motion.system, pairs).T
+    root = np.sqrt(alpha**2 - beta**2 + 0j)
+    slow, fast = -alpha + root, -alpha - root
+    expected = ((Cdot - fast * C) * np.exp(slow * t) - (Cdot - slow * C) * np.exp(fast * t)) / (slow - fast)
+    assert np.abs(violation[0]).max() > 1e-3
+    np.testing.assert_allclose(violation, expected.real, atol=1e-7)
 
 
 def test_own_numbers_hold_a_joint_together_where_the_others_drift():

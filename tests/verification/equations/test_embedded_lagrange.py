@@ -97,8 +97,8 @@ def simulated(record, **settings):
     ],
 )
 def test_machines_of_the_report_turn_round_with_chosen_coordinates(make, named):
-    """Past positions in which what was chosen stands still, and others take its place; a run by multipliers with an eighth of the step is the
-    reference, and the error falls with the order of RK4."""
+    """Past positions in which what was chosen stands still, and others take its place; a run by multipliers with an eighth of the step
+    is the reference, and the error falls with the order of RK4."""
     common = {"formulation": "lagrange", "integrator": "rk4", "duration": 2.8, "output_interval": 0.02}
     reference = simulated(make(), step=5e-4, **common, coordinates="absolute").array("position")
     errors = []

@@ -29,6 +29,18 @@ if TYPE_CHECKING:
     from nivel.elements.forces.actuators import Servo as Servo
     from nivel.elements.forces.actuators import Stop as Stop
     from nivel.elements.forces.bushing import Bushing as Bushing
+    from nivel.elements.forces.drive_lines import Brake as Brake
+    from nivel.elements.forces.drive_lines import Clutch as Clutch
+    from nivel.elements.forces.drive_lines import Freewheel as Freewheel
+    from nivel.elements.forces.drive_lines import TransmissionLoss as TransmissionLoss
+    from nivel.elements.forces.friction import Friction as Friction
+    from nivel.elements.forces.loads import PairForce as PairForce
+    from nivel.elements.forces.loads import PointForce as PointForce
+    from nivel.elements.forces.loads import Torque as Torque
+    from nivel.elements.forces.shafts import BeltDrive as BeltDrive
+    from nivel.elements.forces.shafts import Shaft as Shaft
+    from nivel.elements.forces.spring_node import SpringNode as SpringNode
+    from nivel.elements.forces.spring_series import SpringSeries as SpringSeries
     from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
     from nivel.elements.forces.springs import SpringDamper as SpringDamper
     from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
@@ -41,20 +53,8 @@ if TYPE_CHECKING:
     from nivel.machine.bodies.body import Body as Body
     from nivel.machine.control import Block as Block
     from nivel.machine.core.marker import Marker as Marker
-    from nivel.machine.forces.belt_drive import BeltDrive as BeltDrive
-    from nivel.machine.forces.clutch import Brake as Brake
-    from nivel.machine.forces.clutch import Clutch as Clutch
     from nivel.machine.forces.contact import Contact as Contact
-    from nivel.machine.forces.freewheel import Freewheel as Freewheel
-    from nivel.machine.forces.friction import Friction as Friction
-    from nivel.machine.forces.load import PointForce as PointForce
-    from nivel.machine.forces.load import Torque as Torque
-    from nivel.machine.forces.pair_force import PairForce as PairForce
     from nivel.machine.forces.rope import Rope as Rope
-    from nivel.machine.forces.shaft import Shaft as Shaft
-    from nivel.machine.forces.spring_node import SpringNode as SpringNode
-    from nivel.machine.forces.spring_series import SpringSeries as SpringSeries
-    from nivel.machine.forces.transmission_loss import TransmissionLoss as TransmissionLoss
     from nivel.machine.joints.coupling import Belt as Belt
     from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
     from nivel.machine.joints.coupling import Gear as Gear
@@ -96,13 +96,13 @@ _HOME = {
     "Driver": "nivel.machine.joints.driver",
     "Event": "nivel.machine.signals.event",
     "Expression": "nivel.machine.laws.time_function",
-    "BeltDrive": "nivel.machine.forces.belt_drive",
-    "Brake": "nivel.machine.forces.clutch",
-    "Clutch": "nivel.machine.forces.clutch",
-    "Freewheel": "nivel.machine.forces.freewheel",
-    "Shaft": "nivel.machine.forces.shaft",
-    "TransmissionLoss": "nivel.machine.forces.transmission_loss",
-    "Friction": "nivel.machine.forces.friction",
+    "BeltDrive": "nivel.elements.forces.shafts",
+    "Brake": "nivel.elements.forces.drive_lines",
+    "Clutch": "nivel.elements.forces.drive_lines",
+    "Freewheel": "nivel.elements.forces.drive_lines",
+    "Shaft": "nivel.elements.forces.shafts",
+    "TransmissionLoss": "nivel.elements.forces.drive_lines",
+    "Friction": "nivel.elements.forces.friction",
     "FunctionCoupling": "nivel.machine.joints.coupling",
     "Gear": "nivel.machine.joints.coupling",
     "Input": "nivel.machine.signals.input",
@@ -112,8 +112,8 @@ _HOME = {
     "MachineRecord": "nivel.machine.machine_record",
     "Marker": "nivel.machine.core.marker",
     "Motor": "nivel.elements.forces.actuators",
-    "PairForce": "nivel.machine.forces.pair_force",
-    "PointForce": "nivel.machine.forces.load",
+    "PairForce": "nivel.elements.forces.loads",
+    "PointForce": "nivel.elements.forces.loads",
     "PythonLaw": "nivel.machine.laws.time_function",
     "Rack": "nivel.machine.joints.coupling",
     "Rope": "nivel.machine.forces.rope",
@@ -121,12 +121,12 @@ _HOME = {
     "Servo": "nivel.elements.forces.actuators",
     "SimulationSettings": "nivel.machine.settings.run",
     "SpringDamper": "nivel.elements.forces.springs",
-    "SpringNode": "nivel.machine.forces.spring_node",
-    "SpringSeries": "nivel.machine.forces.spring_series",
+    "SpringNode": "nivel.elements.forces.spring_node",
+    "SpringSeries": "nivel.elements.forces.spring_series",
     "State": "nivel.machine.signals.state",
     "Stop": "nivel.elements.forces.actuators",
     "Table": "nivel.machine.laws.time_function",
-    "Torque": "nivel.machine.forces.load",
+    "Torque": "nivel.elements.forces.loads",
     "ThreeAxisSpring": "nivel.elements.forces.springs",
     "TorsionalSpringDamper": "nivel.elements.forces.springs",
     "Comparison": "nivel.results.comparison",

@@ -1,6 +1,7 @@
 """Rows: a kernel and what fills it have the same names, in the same places."""
 
 from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -67,3 +68,11 @@ def third(numbers):
 def test_places_are_constants_of_compiled_functions():
     numbers = np.array([1.0, 2.0, 3.0, 4.0])
     assert third(numbers) == third.py_func(numbers) == 43.0
+
+
+def test_the_rest_of_a_row_is_taken_from_a_record():
+    given = SimpleNamespace(stiffness=(1.0, 2.0, 3.0), damping=4.0, output=None, law=9)
+    row = Pull.of(given, output=5, law=6, parts=())
+    assert row == ([5, 6], [1.0, 2.0, 3.0, 4.0, 0.0, 0.0])
+    with pytest.raises(TypeError, match="Pull needs output"):
+        Pull.of(given, parts=())

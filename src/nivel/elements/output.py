@@ -48,11 +48,8 @@ def is_angle(builder: SystemBuilder, coordinate: int) -> bool:
     return builder.coordinates.what[coordinate][0] <= LAST_ANGLE
 
 
-def add_outputs(
-    builder: SystemBuilder, force: ForceElement, coordinate: int | None = None, without: Collection[str] = ()
-) -> int:
-    """Index of the first output of a force. coordinate : on which it acts. without : outputs that this one does not have."""
-    angle = coordinate is not None and is_angle(builder, coordinate)
+def add_outputs(builder: SystemBuilder, force: ForceElement, angle: bool = False, without: Collection[str] = ()) -> int:
+    """Index of the first output of a force. angle : it acts on an angle. without : outputs that this one does not have."""
     outputs = [each for each in force.outputs if isinstance(each, Output) and each not in without]
     return builder.outputs.add(
         *((f"force.{force.name}.{each}", each.units[angle], f"{each.meaning} of {force.name}") for each in outputs)

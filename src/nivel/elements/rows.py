@@ -8,14 +8,15 @@
         parts: Sequence[float] = several(3)
 
 Whole numbers are columns, indices of other things; the others are numbers. A kernel reads `columns[k, SpringRow.AT]` and
-`number[k, SpringRow.STIFFNESS]`, and `SpringRow(output=…, at=…, stiffness=…)` is a row with everything that it needs, or an error.
+`number[k, SpringRow.STIFFNESS]`. `SpringRow(output=…, at=…, stiffness=…)` is a row with everything that it needs, or an error, and
+`SpringRow.of(force, output=…, at=…)` takes the rest from a record, by the same names.
 """
 
 from __future__ import annotations
 
 from inspect import get_annotations
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, dataclass_transform
 
 _MISSING: Any = object()
 
@@ -72,6 +73,11 @@ class Layout(ModuleType):
             (row.columns if is_column else row.numbers).extend(entries)
         return row
 
+    def of(self, record: object, **values: Any) -> Filled:
+        """The same, in which what is not given is what a record has under the name of the field."""
+        names = [name for name in self._fields if name not in values and getattr(record, name, None) is not None]
+        return self(**values, **{name: getattr(record, name) for name in names})
+
 
 def several(places: int | None = None, *, default: Any = _MISSING) -> Any:
     """A field with several places; with as many as are given, at the end of a row, where their number is not told."""
@@ -89,6 +95,9 @@ if TYPE_CHECKING:
 
         columns: ClassVar[list[int]]
         numbers: ClassVar[list[float]]
+
+        @classmethod
+        def of(cls, record: object, **values: Any) -> Self: ...
 
 else:
 

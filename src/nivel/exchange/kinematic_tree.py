@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from nivel.elements.forces.actuators import Motor, Stop
+from nivel.elements.forces.friction import Friction
 from nivel.elements.forces.springs import JointSpringDamper
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
@@ -21,7 +22,6 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
-from nivel.machine.forces.friction import Friction
 from nivel.machine.joints.joint import JOINT_COORDINATES, Joint
 from nivel.machine.laws.time_function import Expression
 from nivel.machine.machine_record import MachineRecord

@@ -9,25 +9,20 @@ import numpy as np
 
 from nivel.elements.forces.actuators import Motor, Servo, Stop
 from nivel.elements.forces.bushing import Bushing
+from nivel.elements.forces.drive_lines import Brake, Freewheel, TransmissionLoss
+from nivel.elements.forces.friction import Friction
+from nivel.elements.forces.loads import PairForce, PointForce, Torque
+from nivel.elements.forces.shafts import BeltDrive, DriveLine, Shaft
+from nivel.elements.forces.spring_node import SpringNode
+from nivel.elements.forces.spring_series import SpringSeries
 from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
 from nivel.machine.core.between import Between, Ends
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.record import Record
-from nivel.machine.forces.belt_drive import BeltDrive
-from nivel.machine.forces.clutch import Brake
 from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.drive_line import DriveLine
-from nivel.machine.forces.freewheel import Freewheel
-from nivel.machine.forces.friction import Friction
-from nivel.machine.forces.load import PointForce, Torque
-from nivel.machine.forces.pair_force import PairForce
 from nivel.machine.forces.rope import Rope
-from nivel.machine.forces.shaft import Shaft
-from nivel.machine.forces.spring_node import SpringNode
-from nivel.machine.forces.spring_series import SpringSeries
-from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.machine.laws.time_function import Expression, PythonLaw, TimeFunction
 
 Changes = dict[str, Any]

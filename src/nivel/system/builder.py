@@ -123,6 +123,10 @@ class SystemBuilder:
         self._note(self._named[name])
         return self._named[name]
 
+    def place_of(self, marker: str) -> Placed:
+        """Body, point and axes, in the body's frame, of a marker."""
+        return marker_place(self.machine, self.machine.marker_named[marker])
+
     def frame(self, body: str) -> int:
         """Index of the marker that is the frame of a body or of the ground."""
         if body not in self._frames:

@@ -44,6 +44,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.elements.forces import Force
+from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
 from nivel.files.rotors import rotors_of
 from nivel.flexible.body.picture import moving_surface
@@ -54,7 +55,6 @@ from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, S
 from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.between import Between, BetweenMarkers
-from nivel.machine.forces.belt_drive import BeltDrive
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.rope import Rope
 from nivel.machine.hydraulics.actuators import HydraulicCylinder, TelescopicCylinder

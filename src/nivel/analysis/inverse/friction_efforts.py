@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.analysis.inverse.actuators import Actuation
+from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.sticking import holds_by_capacity
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.efforts import Efforts

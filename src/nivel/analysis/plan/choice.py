@@ -19,10 +19,10 @@ from math import ceil
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.elements.forces.actuators import Stop
+from nivel.elements.forces.friction import Friction
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord

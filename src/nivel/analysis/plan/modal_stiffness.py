@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from nivel.analysis.plan.soft_forces import is_soft
+from nivel.elements.forces.loads import PointForce, Torque
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.integrate.facts import IntegratorFacts
-from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.hydraulics import Component
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.laws.time_function import signals_of

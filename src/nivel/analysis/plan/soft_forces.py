@@ -7,14 +7,14 @@ from typing import Final
 
 import numpy as np
 
+from nivel.elements.forces.hand import Hand
+from nivel.elements.forces.loads import PointForce, Torque
 from nivel.elements.forces.springs import JointSpringDamper
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Box, Cylinder, Sphere
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.hand import Hand
-from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.machine_record import MachineRecord

@@ -21,15 +21,14 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.run.preparation import prepare
 from nivel.elements.forces.actuators import Stop
+from nivel.elements.forces.shafts import BeltDrive, Shaft
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.judge.during.fastest import Fastest, fastest
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces.belt_drive import BeltDrive
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.forces.rope import Rope
-from nivel.machine.forces.shaft import Shaft
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 from nivel.system.forces.contacts import tangent_stiffness

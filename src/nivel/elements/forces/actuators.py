@@ -231,15 +231,8 @@ def add_stop(builder: SystemBuilder, force: Stop) -> None:
     coordinate = builder.coordinate(force.coordinate)
     lower = -math.inf if force.lower is None else force.lower
     upper = math.inf if force.upper is None else force.upper
-    row = StopRow(
-        output=add_outputs(builder, force, coordinate),
-        coordinate=coordinate,
-        lower=lower,
-        upper=upper,
-        stiffness=force.stiffness,
-        exponent=force.exponent,
-        loss=damping_of_restitution(force.restitution),
-    )
+    output, loss = add_outputs(builder, force, is_angle(builder, coordinate)), damping_of_restitution(force.restitution)
+    row = StopRow.of(force, output=output, coordinate=coordinate, lower=lower, upper=upper, loss=loss)
     builder.add(stop, row, 2, tuple(k for k, end in enumerate((lower, upper)) if math.isfinite(end)))
 
 
@@ -249,7 +242,7 @@ def add_motor(builder: SystemBuilder, force: Motor) -> None:
     command = force.effort if force.effort is not None else force.speed
     assert command is not None  # the record was checked
     row = MotorRow(
-        output=add_outputs(builder, force, coordinate),
+        output=add_outputs(builder, force, is_angle(builder, coordinate)),
         coordinate=coordinate,
         target=builder.function(command),
         gain=0.0 if force.speed is None else force.gain or 0.0,
@@ -261,22 +254,15 @@ def add_motor(builder: SystemBuilder, force: Motor) -> None:
 def add_servo(builder: SystemBuilder, force: Servo) -> None:
     """A position servo on a joint coordinate."""
     coordinate = builder.coordinate(force.coordinate)
-    first, motion, state = add_outputs(builder, force, coordinate), is_motion(force.target), NONE
+    first, motion, state = add_outputs(builder, force, is_angle(builder, coordinate)), is_motion(force.target), NONE
     if force.integral:
         units = "rad" if is_angle(builder, coordinate) else "m"
         fact = StateFact(f"{force.name}.integral", f"{units} s", f"integrated error of {force.name}", 0.0, 0.01)
         state = builder.own_state(fact)
-    row = ServoRow(
-        output=first,
-        coordinate=coordinate,
-        target=builder.function(force.target, motion=motion),
-        state=state,
-        stiffness=force.stiffness,
-        damping=force.damping,
-        integral=force.integral,
-        limit=math.inf if force.limit is None else force.limit,
-        motion=float(motion),
-    )
+    limit = math.inf if force.limit is None else force.limit
+    target = builder.function(force.target, motion=motion)
+    ends = {"output": first, "coordinate": coordinate, "target": target, "state": state}
+    row = ServoRow.of(force, **ends, limit=limit, motion=float(motion))
     builder.add(servo, row)
 
 

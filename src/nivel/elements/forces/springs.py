@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_effort, of_force, of_value
+from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_force, of_value
 from nivel.elements.rows import Row, several
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.core.status import OK
@@ -316,22 +316,13 @@ def add_joint_spring_damper(builder: SystemBuilder, force: JointSpringDamper) ->
 
 def _add_spring(builder: SystemBuilder, force: Spring, coordinate: int, symbol: str, free: float) -> None:
     coordinate = builder.coordinates.use(coordinate)
-    first, law = add_outputs(builder, force, coordinate), NONE
+    first, law = add_outputs(builder, force, is_angle(builder, coordinate)), NONE
     table, energy = (NONE, NONE) if force.table is None else _characteristic(builder, force.table)
     if force.law is not None:
         symbols = {symbol: (function.COORDINATE, coordinate, 0), "rate": (function.RATE, coordinate, 0)}
         law = builder.function(force.law, symbols)
-    row = SpringRow(
-        output=first,
-        at=coordinate,
-        table=table,
-        energy=energy,
-        law=law,
-        stiffness=force.stiffness or 0.0,
-        damping=force.damping,
-        free=free,
-        preload=force.preload,
-    )
+    ends = {"output": first, "at": coordinate, "table": table, "energy": energy, "law": law}
+    row = SpringRow.of(force, **ends, stiffness=force.stiffness or 0.0, free=free)
     builder.add(resist, row)
 
 
@@ -353,9 +344,7 @@ def _characteristic(builder: SystemBuilder, table: Characteristic) -> tuple[int,
 def add_three_axis_spring(builder: SystemBuilder, force: ThreeAxisSpring) -> None:
     """Springs and dampers along the global axes."""
     first, (i, j), free = add_outputs(builder, force), builder.ends(force.ends), force.free_displacement
-    row = AxesRow(
-        output=first, i=i, j=j, stiffness=force.stiffness, damping=force.damping, free=free, preload=force.preload
-    )
+    row = AxesRow.of(force, output=first, i=i, j=j, free=free)
     builder.add(draw, row)
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from nivel.elements.forces.loads import PointForce
+from nivel.elements.forces.spring_node import SpringNode
 from nivel.machine.core.between import Between, BetweenMarkers, End, Ends
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.load import PointForce
 from nivel.machine.forces.rope import Rope
-from nivel.machine.forces.spring_node import SpringNode
 from nivel.machine.hydraulics import Component
 from nivel.machine.joints.coupling import Coupling, FunctionCoupling
 from nivel.machine.joints.driver import Driver

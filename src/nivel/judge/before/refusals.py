@@ -11,14 +11,14 @@ from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.screw_couplings import screws_as_couplings
 from nivel.elements.forces.actuators import Stop
+from nivel.elements.forces.drive_lines import TransmissionLoss
+from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.sticking import holds_by_capacity, is_sticking
-from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.machine.joints.driver import RATES
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from nivel.elements.forces import FORCES
+from nivel.elements.forces.loads import PointForce
+from nivel.elements.forces.spring_node import SpringNode
 from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
-from nivel.machine.forces.load import PointForce
 from nivel.machine.forces.rope import Rope
-from nivel.machine.forces.spring_node import SpringNode
 from nivel.machine.joints.joint import JOINT_WORDS
 
 if TYPE_CHECKING:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
+from nivel.elements.forces.drive_lines import Brake, Clutch, Freewheel, TransmissionLoss
+from nivel.elements.forces.friction import Friction
 from nivel.machine.core.element import ForceElement
-from nivel.machine.forces.clutch import Brake, Clutch
 from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.freewheel import Freewheel
-from nivel.machine.forces.friction import Friction
-from nivel.machine.forces.transmission_loss import TransmissionLoss
 
 
 def is_sticking(force: ForceElement) -> bool:

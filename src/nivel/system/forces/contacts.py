@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.forces.actuators import Stop
+from nivel.elements.forces.friction import WORK, add_friction_work, add_patch
 from nivel.elements.kind import Kind
 from nivel.elements.restitution import damping_of_restitution
 from nivel.errors import Fault, ModelError
@@ -38,8 +39,6 @@ from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.friction_works import WORK, add_friction_work
-from nivel.system.forces.frictions import add_patch
 from nivel.system.forces.height_fields import numbers_of_heights
 from nivel.system.forces.hulls import hull_of, part_of, polytope_of, row_of
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.forces.friction import WORK, add_friction_work
 from nivel.elements.kind import Kind
 from nivel.kernels.forces import friction_work, heap
 from nivel.kernels.record.record import NONE
@@ -12,7 +13,6 @@ from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.contacts import law_numbers
-from nivel.system.forces.friction_works import WORK, add_friction_work
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 
 # From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.

@@ -9,14 +9,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.forces.drive_lines import TransmissionLoss
+from nivel.elements.forces.friction import Friction
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Hooks, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
 from nivel.machine.bodies.inertia import mass_of
-from nivel.machine.forces.friction import Friction
-from nivel.machine.forces.transmission_loss import TransmissionLoss
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings

@@ -1,10 +1,18 @@
-"""Friction in a joint coordinate, loaded by the joint's reaction."""
+"""Friction in joint coordinates and of patches of contacts, and the work of this."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
+from nivel.elements.kind import Kind
+from nivel.elements.output import Output, add_outputs, is_angle, of_effort
+from nivel.elements.states import StateFact
+from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
+from nivel.kernels.bodies.patch_coordinate import PATCH
+from nivel.kernels.elements import friction
+from nivel.kernels.forces import friction_work
+from nivel.kernels.record.record import NONE
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -17,10 +25,15 @@ from nivel.machine.core.coefficient import (
     PositiveSpeed,
     StiffnessPerLoad,
 )
-from nivel.machine.core.element import OUTPUTS, ForceElement, Holds, Inequalities
+from nivel.machine.core.element import ForceElement, Holds, Inequalities
+from nivel.machine.core.record import GROUND
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
-from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of
+from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of, resolve
+
+if TYPE_CHECKING:
+    from nivel.machine.forces.contact import Contact
+    from nivel.system.builder import SystemBuilder
 
 
 class Friction(ForceElement):
@@ -29,7 +42,11 @@ class Friction(ForceElement):
     Speeds are those of the rubbing surfaces: of an angle `radius` · rate.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "normal_load", "bristle")  # bristle: of the lugre model
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_effort("effort on the coordinate"),
+        Output("normal_load", "N", "normal load"),
+        Output("bristle", "m", "deflection of the bristles"),  # of the lugre model
+    )
 
     stiff: ClassVar[bool] = False
 
@@ -120,3 +137,79 @@ class Friction(ForceElement):
         for name in by_reaction:
             if getattr(self, name):
                 yield superfluous(name, "must not be given with `normal_load`, which is the whole load")
+
+
+# of a contact that is asked for it, behind its other outputs
+WORK = ("friction_work", "J", "work of friction that became heat since the start")
+
+
+def add_friction_work(builder: SystemBuilder, name: str, power: int) -> int:
+    """State with the work of the contact `name`, which has the output WORK; power : output with its rate, or NONE where the patch of the
+    contact adds to the state. Returns the state."""
+    fact = StateFact(f"{name}.friction_work", "J", f"work of friction of {name}", 0.0, 1.0, integral=True)
+    state = builder.own_state(fact)
+    builder.elements.add(friction_work.apply, [builder.outputs.index(f"force.{name}.friction_work"), state, power])
+    return state
+
+
+def add_friction(builder: SystemBuilder, force: Friction) -> None:
+    """Friction in a joint coordinate: an extra row, see `nivel.kernels.elements.friction`."""
+    joint, _ = resolve(force.coordinate, builder.machine.joints)
+    coordinate = builder.coordinate(force.coordinate)
+    angle = is_angle(builder, coordinate)
+    state = NONE
+    if force.model == "lugre":
+        assert force.bristle_stiffness is not None  # the record was checked
+        # deflection of the bristles in steady sliding
+        scale = force.coefficient / force.bristle_stiffness
+        name = f"{force.name}.bristle"
+        state = builder.own_state(StateFact(name, "m", f"deflection of the bristles of {force.name}", 0.0, scale))
+    first = add_outputs(builder, force, angle, without=() if force.model == "lugre" else ("bristle",))
+    model = {"coulomb": friction.COULOMB, "stiction": friction.STICTION, "lugre": friction.LUGRE}[force.model]
+    loaded_by = NONE if force.normal_load is not None else [each.name for each in builder.machine.joints].index(joint)
+    radius = force.radius or 0.0
+    kind, seen_from, to, _ = builder.coordinates.what[coordinate]
+    frame = to if kind == CROSS_SECOND else seen_from
+    # what slides on a beam has its bearing with it: `to` is only the first of the nodes
+    bearing = seen_from if kind == ALONG else _bearing(builder, seen_from, to)
+    index = [coordinate, model, loaded_by, int(angle), state, first, frame, bearing, NONE, NONE]
+    numbers = [
+        force.coefficient,
+        force.static,
+        1.0 if force.stribeck_speed is None else force.stribeck_speed,
+        force.transition_speed or 1.0,
+        force.viscous,
+        force.bristle_stiffness or 0.0,
+        force.bristle_damping,
+        radius if angle else 1.0,
+        force.collar_radius / radius if angle else 0.0,
+        2.0 / force.bearing_length if force.bearing_length else 0.0,
+        1.0 / radius if radius and not angle else 0.0,
+        force.normal_load if force.normal_load is not None else force.preload,
+        0.0,
+    ]
+    builder.frictions.append((index, numbers))
+    builder.friction_names.append(force.name)
+
+
+def add_patch(builder: SystemBuilder, contact: Contact, ends: tuple[int, int], output: int, spins: bool) -> list[int]:
+    """Frictions along two tangents and, where the contact `spins`, about the normal. ends : markers of the two bodies. output : first one
+    of the contact. Returns the first friction, how many there are, and the first coordinate: see `nivel.kernels.elements.patch`."""
+    first, count = len(builder.frictions), 3 if spins else 2
+    coordinates = [builder.coordinates.add(PATCH, *ends, axis) for axis in range(count)]
+    work = add_friction_work(builder, contact.name, NONE) if contact.friction_work else NONE
+    for axis, coordinate in enumerate(coordinates):
+        index = [coordinate, friction.PATCH, NONE, int(axis == 2), work, output, *ends, first, count]
+        numbers = [contact.friction, contact.static, 0.0, 1.0, *[0.0] * 3, 1.0, *[0.0] * 5]
+        builder.frictions.append((index, numbers))
+        builder.friction_names.append(f"{contact.name}.{('slip_x', 'slip_y', 'spin')[axis]}")
+    return [first, count, coordinates[0]]
+
+
+def _bearing(builder: SystemBuilder, first: int, second: int) -> int:
+    """Which of two markers is at the bearing: that of the second body, unless this is the ground and the first is not."""
+    ground = builder.body(GROUND)
+    return first if builder.markers.body[second] == ground != builder.markers.body[first] else second
+
+
+KINDS = (Kind(Friction, add_friction, ()),)

@@ -7,24 +7,130 @@ on the ends are those of the node held: its own motion adds nothing to them, as 
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal
 
+import numpy as np
+from pydantic import BeforeValidator
+
+from nivel.elements.kind import Kind
+from nivel.elements.output import Output, add_outputs, of_force
+from nivel.elements.rows import Row, several
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.machine.core.between import End, GlobalPoint
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import NotNegativeLength, Truth
+from nivel.machine.core.element import ForceElement
+from nivel.machine.core.marker import ManyMarkers
+from nivel.machine.core.record import BodyName
+from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber
+from nivel.machine.units.quantity import Position, Quantity, listed
 from nivel.native.function import leaf, stage
 
-# columns of `columns`; FIRST: the first of COUNT markers; outputs: first tension, power, x, y, z, tensions
-OUTPUT, COUNT, FIRST = 0, 1, 2
-# columns of `number`: at the start x, y, z and a length of the springs; then SPRING for each
-ONLY_PULLS, PLACE, SIZE, STIFF, SPRINGS = 0, 1, 4, 5, 6
-STIFFNESS, FREE = 0, 1
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
+MOST_SPRINGS: Final = 8
+TENSIONS: Final = tuple(Output(f"tension_{k + 1}", "N", f"tension of spring {k + 1}") for k in range(MOST_SPRINGS))
+PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
+
+
+class SpringNode(ForceElement):
+    """Springs from points of bodies to one node without mass, which is where they balance."""
+
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_force("tension of the first spring"),
+        *(Output(axis, "m", f"global {axis} of the node") for axis in "xyz"),
+        *TENSIONS,
+    )
+
+    type: Literal["spring-node"] = "spring-node"
+    node: Position = Field(description="where about it is at the start: global; it is found from there")
+    markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
+        default=None, description="where each spring is held: names or markers"
+    )
+    bodies: Annotated[Maybe[ManyNames[BodyName]], BeforeValidator(listed)] = Field(
+        default=None, description="one for each spring, in place of `markers`; a body may stand there again"
+    )
+    points: Annotated[Maybe[ManyPlaces[Position]], BeforeValidator(listed)] = Field(
+        default=None, description="where each spring is held: global, as placed"
+    )
+    stiffness: Annotated[ManyNumbers[PositiveStiffness], BeforeValidator(listed)] = Field(description="of each spring")
+    free_length: Annotated[ManyNumbers[NotNegativeLength], BeforeValidator(listed)] = Field(
+        description="of each spring, at which it has no force"
+    )
+    only_pulls: Truth = Field(default=False, description="the springs never push, as ropes")
+
+    @property
+    def ends(self) -> tuple[End, ...]:
+        """Where the springs are held."""
+        if self.markers is not None:
+            return self.markers
+        assert self.bodies is not None  # the record was checked
+        assert self.points is not None
+        return tuple(GlobalPoint(body, point) for body, point in zip(self.bodies, self.points, strict=True))
+
+    def problems(self) -> Iterator[Problem]:
+        count = len(self.stiffness)
+        if not 3 <= count <= MOST_SPRINGS:
+            yield Problem(
+                ("stiffness",),
+                f"3 to {MOST_SPRINGS} springs that meet were expected, got {count}; two are a `spring-series`",
+            )
+        if len(self.free_length) != count:
+            yield Problem(
+                ("free_length",), f"one length for each of the {count} springs is needed, got {len(self.free_length)}"
+            )
+        if self.markers is not None:
+            for name in ("bodies", "points"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "must not be given with `markers`, which say where the springs are held")
+            held, name = len(self.markers), "markers"
+        elif self.bodies is None or self.points is None:
+            yield Problem(
+                (), "`markers`, or `bodies` and one of `points` for each, are needed to say where the springs are held"
+            )
+            return
+        else:
+            held, name = len(self.points), "points"
+            if len(self.bodies) != held:
+                yield Problem(
+                    ("bodies",),
+                    f"one body for each point is needed; there are {len(self.bodies)} bodies, {held} points",
+                )
+        if held != count:
+            yield Problem((name,), f"one of the {name} for each of the {count} springs is needed, got {held}")
+        elif self.points is not None and self.markers is None:
+            for k, point in enumerate(self.points):
+                if point == self.node:
+                    yield Problem(
+                        ("points", k), "this point is where the node is; the spring between them has no direction"
+                    )
+
+
+STIFFNESS, FREE = range(2)  # of each spring
 SPRING = 2
 STEPS = 200
 # shares of the size and of the stiffness: a step that is round-off, a pivot that is none, the first shift
 SETTLED, NO_PIVOT, SHIFT = 1e-14, 1e-12, 1e-3
+
+
+class NodeRow(Row):
+    """COUNT springs, with the marker, STIFFNESS and FREE length of each. PLACE : of the node at the start. SIZE : a length of the springs.
+    STIFF : sum of the stiffnesses."""
+
+    output: int
+    count: int
+    first: Sequence[int] = several()
+    only_pulls: float
+    place: Sequence[float] = several(3)
+    size: float
+    stiff: float
+    springs: Sequence[float] = several()
 
 
 @stage
@@ -33,12 +139,12 @@ def energy_at(machine, k, x, y, z):
     record = record_at(machine)
     index, numbers, markers = record.elements.columns[k], record.elements.number[k], record.markers
     V, gx, gy, gz, xx, xy, xz, yy, yz, zz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(np.int64(index[COUNT])):
-        r, at = markers.r[index[FIRST + i]], SPRINGS + SPRING * i
+    for i in range(np.int64(index[NodeRow.COUNT])):
+        r, at = markers.r[index[NodeRow.FIRST + i]], NodeRow.SPRINGS + SPRING * i
         stiffness, free = real(numbers[at + STIFFNESS]), real(numbers[at + FREE])
         ex, ey, ez = x - real(r[0]), y - real(r[1]), z - real(r[2])
         length = np.sqrt(ex * ex + ey * ey + ez * ez)
-        if length == 0.0 or (real(numbers[ONLY_PULLS]) > 0.0 and length < free):
+        if length == 0.0 or (real(numbers[NodeRow.ONLY_PULLS]) > 0.0 and length < free):
             continue
         T = stiffness * (length - free)
         ux, uy, uz, across = ex / length, ey / length, ez / length, T / length
@@ -91,11 +197,11 @@ def balance(machine, k):
     record = record_at(machine)
     numbers, memory = record.elements.number[k], record.elements.memory[k]
     x, y, z = (
-        real(numbers[PLACE]) + memory[0],
-        real(numbers[PLACE + 1]) + memory[1],
-        real(numbers[PLACE + 2]) + memory[2],
+        real(numbers[NodeRow.PLACE]) + memory[0],
+        real(numbers[NodeRow.PLACE + 1]) + memory[1],
+        real(numbers[NodeRow.PLACE + 2]) + memory[2],
     )
-    stiff, size = real(numbers[STIFF]), real(numbers[SIZE])
+    stiff, size = real(numbers[NodeRow.STIFF]), real(numbers[NodeRow.SIZE])
     V, gx, gy, gz, xx, xy, xz, yy, yz, zz = energy_at(machine, k, x, y, z)
     shift = 0.0
     for _ in range(STEPS):
@@ -124,11 +230,12 @@ def refined(machine, k, x, y, z):
     record = record_at(machine)
     index, numbers, markers = record.elements.columns[k], record.elements.number[k], record.markers
     _, _, _, _, xx, xy, xz, yy, yz, zz = energy_at(machine, k, x, y, z)
-    gx, gy, gz = 0.0 * markers.r[index[FIRST], 0], 0.0 * markers.r[index[FIRST], 0], 0.0 * markers.r[index[FIRST], 0]
-    for i in range(np.int64(index[COUNT])):
-        T, ux, uy, uz = pull(markers.r[index[FIRST + i]], numbers, i, x, y, z)
+    zero = 0.0 * markers.r[index[NodeRow.FIRST], 0]
+    gx, gy, gz = zero, zero, zero
+    for i in range(np.int64(index[NodeRow.COUNT])):
+        T, ux, uy, uz = pull(markers.r[index[NodeRow.FIRST + i]], numbers, i, x, y, z)
         gx, gy, gz = gx + T * ux, gy + T * uy, gz + T * uz
-    stiff = real(numbers[STIFF])
+    stiff = real(numbers[NodeRow.STIFF])
     found, dx, dy, dz = step_to_balance((xx, xy, xz, yy, yz, zz), 0.0, NO_PIVOT * stiff, gx, gy, gz)
     if not found:
         # symmetry holds it where its springs push, as in a plane
@@ -144,37 +251,58 @@ def refined(machine, k, x, y, z):
 @leaf
 def pull(r, numbers, i, x, y, z):
     """Tension of spring i from the point r to the node, and its direction; no tension where both are one."""
-    at = SPRINGS + SPRING * i
+    at = NodeRow.SPRINGS + SPRING * i
     ex, ey, ez = x - r[0], y - r[1], z - r[2]
     square = ex * ex + ey * ey + ez * ez
     if real(square) == 0.0:
         return 0.0 * square, 0.0 * square, 0.0 * square, 0.0 * square
     length = np.sqrt(square)
     T = numbers[at + STIFFNESS] * (length - numbers[at + FREE])
-    if real(numbers[ONLY_PULLS]) > 0.0 and real(T) < 0.0:
+    if real(numbers[NodeRow.ONLY_PULLS]) > 0.0 and real(T) < 0.0:
         T = 0.0 * T
     return T, ex / length, ey / length, ez / length
 
 
 @family
-def apply(machine, number, t):
+def meet(machine, number, t):
     """Places of the nodes, and the tensions of their springs on the bodies."""
     record = record_at(machine)
     elements, markers, control, out = record.elements, record.markers, record.control, record.outputs.value
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, numbers = elements.columns[k], elements.number[k]
-        first, count = index[OUTPUT], np.int64(index[COUNT])
+        first, count = index[NodeRow.OUTPUT], np.int64(index[NodeRow.COUNT])
         x0, y0, z0 = balance(machine, k)
         x, y, z = refined(machine, k, x0, y0, z0)
         power = 0.0 * x
         for i in range(count):
-            m = index[FIRST + i]
+            m = index[NodeRow.FIRST + i]
             T, ux, uy, uz = pull(markers.r[m], numbers, i, x, y, z)
             power += add_marker_force(record.bodies, markers, m, T * ux, T * uy, T * uz)
-            control.stored[0] += 0.5 * T * T / numbers[SPRINGS + SPRING * i + STIFFNESS]
+            control.stored[0] += 0.5 * T * T / numbers[NodeRow.SPRINGS + SPRING * i + STIFFNESS]
             out[first + 5 + i] = T
         out[first], out[first + 1] = out[first + 5], power
         out[first + 2], out[first + 3], out[first + 4] = x, y, z
         for i in range(3):
-            elements.proposal[k, i] = out[first + 2 + i] - numbers[PLACE + i]
+            elements.proposal[k, i] = out[first + 2 + i] - numbers[NodeRow.PLACE + i]
     return OK
+
+
+def add_spring_node(builder: SystemBuilder, force: SpringNode) -> None:
+    """Springs from markers to a node that is kept from state to state."""
+    markers = [builder.end(end) for end in force.ends]
+    first = add_outputs(builder, force, without=TENSIONS[len(markers) :])
+    springs = np.column_stack([force.stiffness, force.free_length])
+    row = NodeRow(
+        output=first,
+        count=len(markers),
+        first=markers,
+        only_pulls=float(force.only_pulls),
+        place=force.node,
+        size=max(*force.free_length, 1e-6),
+        stiff=float(np.sum(force.stiffness)),
+        springs=springs.ravel().tolist(),
+    )
+    builder.add(meet, row, memory=3)
+
+
+KINDS = (Kind(SpringNode, add_spring_node, (meet,)),)

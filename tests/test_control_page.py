@@ -8,8 +8,8 @@ import pytest
 
 import nivel
 from nivel.api import Machine
+from nivel.elements.control import BLOCKS
 from nivel.files import parse_machine
-from nivel.machine.control import BLOCKS
 from nivel.machine.control.block import Block
 from nivel.machine.core.record import field_words
 
@@ -20,7 +20,7 @@ MACHINES = re.findall(r"^```yaml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 ROWS = {line.split("|")[1].strip(): line for line in PAGE.splitlines() if line.startswith("|")}
 
 
-@pytest.mark.parametrize("kind", BLOCKS, ids=lambda kind: kind.model_fields["type"].default)
+@pytest.mark.parametrize("kind", BLOCKS.records, ids=lambda kind: kind.model_fields["type"].default)
 def test_every_kind_of_block_has_its_keys_in_the_page(kind):
     word = kind.model_fields["type"].default
     text = ROWS.get(f"`{word}`", PAGE if f"`type: {word}`" in PAGE else "")

@@ -39,8 +39,8 @@ def key_page() -> str:
 def sections() -> dict[str, list[type]]:
     """The records of every section of a machine file."""
     from nivel import MachineRecord
+    from nivel.elements.control import BLOCKS
     from nivel.elements.forces import FORCES
-    from nivel.machine.control import BLOCKS
     from nivel.machine.hydraulics import COMPONENTS
     from nivel.machine.hydraulics.fluid import Fluid, Gas
     from nivel.machine.uses.references import SECTIONS
@@ -48,7 +48,7 @@ def sections() -> dict[str, list[type]]:
     # what is told apart by its type when it is read does not stand in the annotation
     kinds: dict[str, list[type]] = {
         "forces": FORCES.records,
-        "control": [*BLOCKS],
+        "control": BLOCKS.records,
         "fluids": [Fluid, Gas],
         "hydraulics": [*COMPONENTS],
     }

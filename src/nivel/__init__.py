@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
     from nivel.machine.beams.beam import Beam as Beam
     from nivel.machine.bodies.body import Body as Body
-    from nivel.machine.control import Block as Block
+    from nivel.machine.control.block import Block as Block
     from nivel.machine.core.marker import Marker as Marker
     from nivel.machine.forces.contact import Contact as Contact
     from nivel.machine.forces.rope import Rope as Rope
@@ -89,7 +89,7 @@ _HOME = {
     "Baumgarte": "nivel.machine.settings.run",
     "Beam": "nivel.machine.beams.beam",
     "Belt": "nivel.machine.joints.coupling",
-    "Block": "nivel.machine.control",
+    "Block": "nivel.machine.control.block",
     "Body": "nivel.machine.bodies.body",
     "Bushing": "nivel.elements.forces.bushing",
     "Contact": "nivel.machine.forces.contact",

@@ -30,7 +30,7 @@ from nivel.files.values import outside_paths
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
-from nivel.machine.control import Block
+from nivel.machine.control.block import Block
 from nivel.machine.core.marker import Marker
 from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling

@@ -9,6 +9,7 @@ from html import escape
 from os import PathLike
 from typing import Any, Self, TypeVar
 
+from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
@@ -24,7 +25,6 @@ from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.changes import changed
-from nivel.machine.control import ControlBlock
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 import nivel
 from nivel.analysis.run.stepping import Snapshot
 from nivel.cli import main
-from nivel.machine.control import CBlock
+from nivel.elements.control.units import CBlock
 from units import archive, compiled, description
 
 HERE = Path(__file__).parent

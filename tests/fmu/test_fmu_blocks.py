@@ -14,7 +14,7 @@ import nivel
 from needing import needs
 from nivel.analysis.run.stepping import Snapshot
 from nivel.cli import main
-from nivel.machine.control import FmuBlock
+from nivel.elements.control.units import FmuBlock
 from units import archive, compiled, description
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "exchange"

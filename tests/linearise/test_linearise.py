@@ -8,7 +8,7 @@ from scipy.signal import lsim
 
 import nivel
 from example_files import rigid_example
-from nivel.machine.control import Pid
+from nivel.elements.control.controllers import Pid
 from references import four_bar, one_dof, slider_crank
 
 EXAMPLES = "examples"

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from nivel import PythonLaw
+from nivel.elements.control import BLOCKS
+from nivel.elements.control.units import CBlock, FmuBlock, UserBlock
 from nivel.files import parse_machine
 from nivel.kernels.record import program
-from nivel.machine.control import BLOCKS, CBlock, FmuBlock, UserBlock
 from nivel.machine.control.laws import beyond, bounded_rate, limited
 from nivel.machine.control.order import parts_of
 from nivel.machine.machine_record import MachineRecord
@@ -43,7 +44,7 @@ def law_of(block, name):
 
 def test_no_block_but_one_in_python_has_a_law_that_is_compiled():
     machine = MachineRecord.model_validate(EVERYTHING, context={"parameters": {}})
-    assert {type(block) for block in machine.control} == set(BLOCKS) - {
+    assert {type(block) for block in machine.control} == set(BLOCKS.records) - {
         FmuBlock,
         CBlock,
     }  # their files stand beside a machine

@@ -18,13 +18,13 @@ from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
 from nivel.c_library.failures import Failure, failures_of
 from nivel.c_library.image import LINE, WORD, Image, UnknownAddressError
+from nivel.elements.control.units import UnitBlock
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import ALL_STEPS, END, EVERY
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.function import CONSTANT
-from nivel.machine.control import UnitBlock
 from nivel.machine.laws.time_function import Table
 from nivel.machine.signals.input import Input
 from nivel.native.entry import Entry

@@ -22,13 +22,17 @@ if TYPE_CHECKING:
 _WORD = re.compile(r'^    type: Literal\["([\w-]+)"\]', re.MULTILINE)
 
 
+def _nothing(builder: SystemBuilder, element: Any) -> None:
+    """What a kind adds whose record says all."""
+
+
 @dataclass(frozen=True)
 class Kind:
     """record : its keys in machine files. add(builder, record) : adds its rows to the tables of a machine. families : kernels that it may
     need. families_of(machine, record) : those that an element needs, where they are not all."""
 
     record: type[Any]
-    add: Callable[[SystemBuilder, Any], None]
+    add: Callable[[SystemBuilder, Any], None] = _nothing
     families: tuple[Family, ...] = ()
     families_of: Callable[[MachineRecord, Any], tuple[Family, ...]] | None = None
 

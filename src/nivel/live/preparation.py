@@ -15,6 +15,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
 from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.preparation import prepare
+from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces.hand import Hand
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
@@ -23,7 +24,6 @@ from nivel.integrate.loop.run import Run
 from nivel.kernels.core.block import Handle
 from nivel.live.shared import Sizes
 from nivel.machine.changes import changed
-from nivel.machine.control import UnitBlock
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input

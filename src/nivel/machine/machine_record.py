@@ -18,13 +18,13 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
+from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
 from nivel.machine.bodies.shape import Shape, Standing
-from nivel.machine.control import ControlBlock
 from nivel.machine.control.problems import problems_of_control
 from nivel.machine.core.checked import Checked, Problem, lines_of
 from nivel.machine.core.index import Index
@@ -89,7 +89,7 @@ MOVING: Final = ("bodies", "beams", "hydraulics")
 class MachineRecord(Checked):
     """Everything that describes a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "fluids": 2, "hydraulics": 2, "control": 2, "surroundings": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "fluids": 2, "hydraulics": 2, "surroundings": 2}  # noqa: RUF012
     usual: ClassVar[Mapping[str, Usual]] = {"size": SIZE}
 
     name: Title

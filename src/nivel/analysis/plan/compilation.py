@@ -10,6 +10,7 @@ from time import perf_counter
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
+from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
@@ -22,7 +23,6 @@ from nivel.kernels.signals.c_function import output as c_output
 from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
-from nivel.machine.control import UnitBlock
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.hydraulics import Actuator

@@ -10,12 +10,12 @@ import numpy as np
 from nivel.analysis.assembly.equations import equations
 from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces.drive_lines import TransmissionLoss
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault
 from nivel.judge.before.refusals import Refusal, faults_of, rolling
 from nivel.machine.control.order import PartOf, parts_of
-from nivel.machine.control.unit import UnitBlock
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.sticking import holds_by_capacity

@@ -12,8 +12,8 @@ from difflib import get_close_matches
 from functools import lru_cache
 from typing import Any, Final, Literal
 
+from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
-from nivel.machine.control import BLOCK_TYPES
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
 from nivel.machine.hydraulics import COMPONENT_OF
@@ -156,8 +156,8 @@ def follows_control(symbol: Symbol, index: Index) -> bool:
 
 def quantities_of(block: Any) -> tuple[str, ...]:
     """The symbols of a block of a control: its value, and what else its kind has."""
-    kind = BLOCK_TYPES.get(str(entry(block, "type")))
-    return (STATE_QUANTITY,) if kind is None else kind.symbols(block)
+    kind = BLOCKS.get(str(entry(block, "type")))
+    return (STATE_QUANTITY,) if kind is None else kind.record.symbols(block)
 
 
 def _of_frame(body: str, index: Index) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Blocks that remember: delay, rate limit, moving average, hysteresis."""
+"""Blocks that remember: delays, averages, rates, hysteresis."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal
 
-from nivel.machine.control.algebra import OfInput
+from nivel.elements.control.blocks import OfInput
+from nivel.elements.kind import Kind
 from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
 from nivel.machine.control.part import Part
 from nivel.machine.core.checked import Problem
@@ -138,3 +139,6 @@ class Hysteresis(OfInput):
             yield Problem(("off",), f"`off` is less than `on`; got {self.off:g} and {self.on:g}")
         if self.sample_time is None:
             yield Problem((), "`sample_time` is missing: it looks at its input at samples")
+
+
+KINDS = tuple(map(Kind, (Delay, MovingAverage, RateLimit, Hysteresis)))

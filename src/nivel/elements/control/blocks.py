@@ -1,4 +1,4 @@
-"""Blocks without memory: signal, gain, sum, limit, dead zone, switch, lookup table."""
+"""Blocks of signals: algebra, limits, tables, switches."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import beyond, limited
@@ -156,3 +157,6 @@ def refuse_order(limits: tuple[float, float], key: str = "limits") -> Iterator[P
         yield Problem(
             (key,), f"the lower limit comes first and is less than the upper one; got {lower:g} and {upper:g}"
         )
+
+
+KINDS = tuple(map(Kind, (SignalBlock, Gain, Sum, Limit, DeadZone, Switch, Lookup)))

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.part import Part, PartFunction
@@ -186,3 +187,6 @@ def _chosen(state: Node, values: Sequence[Node], first: int = 0) -> Node:
         return values[0]
     before = Operation("<", state, Constant(first + half - 0.5))
     return Call("if", (before, _chosen(state, values[:half], first), _chosen(state, values[half:], first + half)))
+
+
+KINDS = (Kind(StateMachine),)

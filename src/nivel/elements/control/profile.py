@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.core.checked import Problem
@@ -122,3 +123,6 @@ def _sum(terms: Sequence[Node]) -> Node:
     """The sum, by halves, so that many terms nest little."""
     half = len(terms) // 2
     return Operation("+", _sum(terms[:half]), _sum(terms[half:])) if half else terms[0]
+
+
+KINDS = tuple(map(Kind, (Trapezoid, Waypoints)))

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
-from nivel.machine.control.algebra import OfInput, refuse_order
+from nivel.elements.control.blocks import OfInput, refuse_order
+from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.part import VALUE, Part
@@ -323,3 +324,6 @@ def one_of_corner(time_constant: float | None, frequency: float | None) -> Itera
 
 def _sizes(sizes: Sequence[int]) -> str:
     return " and ".join(str(size) for size in dict.fromkeys(sizes)) or "0"
+
+
+KINDS = tuple(map(Kind, (TransferFunction, LowPass, HighPass, Notch, LeadLag, Derivative, StateSpace, Integrator)))

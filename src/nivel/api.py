@@ -156,7 +156,7 @@ class Machine(Model):
         from nivel.system.forces.stretched_ropes import stretched_ropes
 
         with self._faults_in_file():
-            ropes = [Fault.at(f"forces.{name}", said) for name, said in stretched_ropes(self.record)]
+            ropes = [finding.fault for finding in stretched_ropes(self.record)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
             return replace(check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks)))
 

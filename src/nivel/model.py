@@ -229,7 +229,7 @@ class Model(Elements):
     @property
     def remarks(self) -> tuple[Fault, ...]:
         """Values that are far from those of real machines, with the place where each stands; the machine is computed as it is."""
-        return tuple(self.origin.placed(Fault.at(each.place, each.message) for each in remarks(self.record)))
+        return tuple(self.origin.placed(finding.fault for finding in remarks(self.record)))
 
     @property
     def parameters(self) -> Mapping[str, float]:

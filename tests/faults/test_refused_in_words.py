@@ -314,8 +314,8 @@ def test_a_body_of_a_kilometre_is_remarked_on():
     surface = surface_text(*box_mesh(1000.0, 1000.0, 1000.0))
     body = Body(name="cube", shape=Mesh(type="mesh", surface=surface), density=1000)
     (remark,) = [each for each in remarks(MachineRecord(name="m", bodies=(body,))) if each.place == "bodies.cube.shape"]
-    assert "is 1000 m long and has a mass of 1e+12 kg" in remark.message
-    assert remark.message.endswith("with `unit: 1 mm` of its file, make 1 m and 1000 kg")
+    assert "is 1000 m long and has a mass of 1e+12 kg" in remark.text
+    assert remark.text.endswith("with `unit: 1 mm` of its file, make 1 m and 1000 kg")
 
 
 def test_advice_leaves_joints_as_they_are_whose_coordinates_are_used(tmp_path):

@@ -469,7 +469,7 @@ def test_a_box_that_just_touches_a_slope_is_remarked_on(slope, deeper, count):
     sections = box(0.2, 0.3, slope)
     depth = MASS * G * np.cos(slope) / (4 * STIFFNESS)
     sections["bodies"]["box"]["position"] = [0, 0, SIZE[2] / 2 - deeper * depth]
-    found = [each.message for each in remarks(machine(sections).record) if each.place == "forces.touch"]
+    found = [each.text for each in remarks(machine(sections).record) if each.place == "forces.touch"]
     assert len(found) == count
     assert all(f"place it {depth:.2g} m deeper" in each for each in found)
 

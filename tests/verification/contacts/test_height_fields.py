@@ -181,7 +181,7 @@ def test_a_ball_that_is_larger_than_a_valley_is_remarked_on(tmp_path, radius, co
     )
     found = [each for each in remarks(read_machine(tmp_path / "machine.yaml")) if each.place == "forces.rolls.heights"]
     assert len(found) == count
-    assert all("curves with a radius of 0.25 m, less than the 0.3 m of `ball`" in each.message for each in found)
+    assert all("curves with a radius of 0.25 m, less than the 0.3 m of `ball`" in each.text for each in found)
 
 
 def test_an_ellipsoid_refuses_heights():

@@ -363,7 +363,9 @@ def failure_of(
     )
     message, advice = failure(stop)
     if status == NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
-        said = [f"{name}: {remark}" for name, remark in circuit_remarks(prepared.machine.hydraulics)]
+        said = [
+            str(remark.fault).removeprefix("hydraulics.") for remark in circuit_remarks(prepared.machine.hydraulics)
+        ]
         advice = ". ".join(said) if said else advice
     if status in SHRUNK and stop.chosen_by and (joints := branching_joints(prepared, time, run.previous)):
         message, advice = branching_advice(joints, stop.step)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
+from nivel.judge.finding import Finding
 from nivel.machine.hydraulics import (
     Accumulator,
     Actuator,
@@ -33,7 +34,7 @@ from nivel.machine.hydraulics import (
 from nivel.machine.hydraulics.machines import RotaryMachine
 from nivel.machine.hydraulics.usual import PUMP_DISPLACEMENT
 
-Said = Iterator[tuple[str, str]]
+Said = Iterator[Finding]
 LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns
 BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
 LARGEST: Final = PUMP_DISPLACEMENT.most * 1e-6 / (2.0 * math.pi)  # [m³/rad] of pumps that are built
@@ -86,7 +87,7 @@ class Circuit:
 
 
 def circuit_remarks(components: tuple[Component, ...]) -> Said:
-    """(name of a component, with the key after a point where it is one; what is to be said of it)."""
+    """What fits badly together."""
     circuit = Circuit(components)
     for each in components:
         yield from _reversed_pump(circuit, each)
@@ -106,18 +107,20 @@ def _reversed_pump(circuit: Circuit, each: Component) -> Said:
     a, b = each.ports["A"], each.ports["B"]
     if b in circuit.low and a not in circuit.low:
         what = f"the pump is reversed: it takes fluid from `{a}` and delivers it into the tank `{b}`"
-        yield each.name, f"{what}; A is its suction side: write `ports: {_swapped('A', 'B', each)}`"
+        yield Finding(
+            f"hydraulics.{each.name}", f"{what}; A is its suction side: write `ports: {_swapped('A', 'B', each)}`"
+        )
     elif a in circuit.low:
         key = "speed" if isinstance(each, Pump) else "flow"
         given = each.speed if isinstance(each, Pump) else each.flow
         if isinstance(given, float | int) and given < 0.0:
-            yield (
-                f"{each.name}.{key}",
+            yield Finding(
+                f"hydraulics.{each.name}.{key}",
                 f"the pump turns backwards and delivers into the tank `{a}`: write `{key}` without a minus",
             )
         if isinstance(given, float | int) and given == 0.0:
-            yield (
-                f"{each.name}.{key}",
+            yield Finding(
+                f"hydraulics.{each.name}.{key}",
                 f"the pump stands still; write for example `{key}: {'1500 rpm' if key == 'speed' else '40 L/min'}`",
             )
 
@@ -127,7 +130,9 @@ def _reversed_valve(circuit: Circuit, each: Component) -> Said:
     if isinstance(each, DirectionalValve | Section | SpoolValve) and "P" in ports and "T" in ports:
         if ports["P"] in circuit.low and ports["T"] not in circuit.low:
             what = f"P is connected to the tank `{ports['P']}` and T to `{ports['T']}`"
-            yield name, f"the valve is reversed: {what}; write {_swapped('P', 'T', each)} in its `ports`"
+            yield Finding(
+                f"hydraulics.{name}", f"the valve is reversed: {what}; write {_swapped('P', 'T', each)} in its `ports`"
+            )
         tank = next((x for x in circuit.components if x.name == ports["T"]), None)
         if (
             isinstance(tank, Tank)
@@ -136,20 +141,32 @@ def _reversed_valve(circuit: Circuit, each: Component) -> Said:
             and tank.fluid is None
         ):
             what = f"T leads to `{tank.name}`, which has {tank.pressure / BAR:.4g} bar"
-            yield name, f"{what}; a return line has a tank of low pressure: write `{{type: tank, pressure: 2 bar}}`"
+            yield Finding(
+                f"hydraulics.{name}",
+                f"{what}; a return line has a tank of low pressure: write `{{type: tank, pressure: 2 bar}}`",
+            )
     if isinstance(each, ReliefValve) and ports["P"] in circuit.low and ports["T"] not in circuit.low:
         what = f"it would open from the tank `{ports['P']}` to `{ports['T']}`"
-        yield name, f"the relief valve is reversed: {what}; write `ports: {_swapped('P', 'T', each)}`"
+        yield Finding(
+            f"hydraulics.{name}", f"the relief valve is reversed: {what}; write `ports: {_swapped('P', 'T', each)}`"
+        )
     if isinstance(each, CheckValve) and "X" not in ports and ports["B"] in circuit.pumped:
         behind = {*circuit.low, *circuit.pumped}
         what = f"it lets fluid pass from `{ports['A']}` to the pump line `{ports['B']}` alone"
         if ports["A"] not in behind:
-            yield name, f"the check valve is reversed: {what}; write `ports: {_swapped('A', 'B', each)}`"
+            yield Finding(
+                f"hydraulics.{name}", f"the check valve is reversed: {what}; write `ports: {_swapped('A', 'B', each)}`"
+            )
     if isinstance(each, CounterbalanceValve) and ports["V"] in circuit.chambers and ports["L"] not in circuit.chambers:
         what = f"L is the side of the load, and `{ports['V']}` at V is a chamber"
-        yield name, f"the valve is reversed: {what}; write {_swapped('L', 'V', each)} in its `ports`"
+        yield Finding(
+            f"hydraulics.{name}", f"the valve is reversed: {what}; write {_swapped('L', 'V', each)} in its `ports`"
+        )
     if isinstance(each, CounterbalanceValve) and ports["X"] == ports["L"]:
-        yield name, "its pilot X is its own load L; connect X to the other side of the actuator, such as `X: lift.B`"
+        yield Finding(
+            f"hydraulics.{name}",
+            "its pilot X is its own load L; connect X to the other side of the actuator, such as `X: lift.B`",
+        )
 
 
 def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
@@ -160,7 +177,7 @@ def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
         if isinstance(other, Actuator):
             return
         what = f"`{other.name}` alone is connected to the volume `{each.name}`, which leads nowhere"
-        yield each.name, f"{what}; name `{each.name}` in the `ports` of a second component"
+        yield Finding(f"hydraulics.{each.name}", f"{what}; name `{each.name}` in the `ports` of a second component")
 
 
 def _against_relief(circuit: Circuit, each: Component) -> Said:
@@ -173,40 +190,32 @@ def _against_relief(circuit: Circuit, each: Component) -> Said:
         if given > 1.05 * passes > 0.0:
             rated = f"flow: {math.ceil(given / LITRE_PER_MINUTE * 1.2)} L/min, pressure_drop: {setting / BAR:.4g} bar"
             what = f"it passes {passes / LITRE_PER_MINUTE:.3g} L/min where it is wholly open"
-            yield (
-                f"{relief.name}.flow",
-                (
-                    f"{what}, and `{each.name}` delivers {given / LITRE_PER_MINUTE:.3g} L/min: the pressure rises beyond its "
-                    f"setting; write for example `{rated}`"
-                ),
+            yield Finding(
+                f"hydraulics.{relief.name}.flow",
+                f"{what}, and `{each.name}` delivers {given / LITRE_PER_MINUTE:.3g} L/min: the pressure rises beyond its "
+                f"setting; write for example `{rated}`",
             )
         if isinstance(each, Pump) and each.cut_off is not None and each.cut_off >= setting:
-            yield (
-                f"{each.name}.cut_off",
-                (
-                    f"`{relief.name}` opens at {setting / BAR:.4g} bar, before the `cut_off` of {each.cut_off / BAR:.4g} bar; "
-                    f"write for example `cut_off: {0.9 * setting / BAR:.4g} bar`"
-                ),
+            yield Finding(
+                f"hydraulics.{each.name}.cut_off",
+                f"`{relief.name}` opens at {setting / BAR:.4g} bar, before the `cut_off` of {each.cut_off / BAR:.4g} bar; "
+                f"write for example `cut_off: {0.9 * setting / BAR:.4g} bar`",
             )
     if isinstance(each, Accumulator) and each.ports["A"] in circuit.settings:
         relief, setting = circuit.settings[each.ports["A"]]
         if each.precharge >= setting:
-            yield (
-                f"{each.name}.precharge",
-                (
-                    f"`{relief.name}` opens at {setting / BAR:.4g} bar, below the precharge of {each.precharge / BAR:.4g} bar: it stays "
-                    f"empty; write for example `precharge: {0.6 * setting / BAR:.4g} bar`"
-                ),
+            yield Finding(
+                f"hydraulics.{each.name}.precharge",
+                f"`{relief.name}` opens at {setting / BAR:.4g} bar, below the precharge of {each.precharge / BAR:.4g} bar: it stays "
+                f"empty; write for example `precharge: {0.6 * setting / BAR:.4g} bar`",
             )
     if isinstance(each, ReducingValve | PilotReducingValve) and each.ports["P"] in circuit.settings:
         relief, setting = circuit.settings[each.ports["P"]]
         if isinstance(each.pressure, float | int) and each.pressure >= setting:
-            yield (
-                f"{each.name}.pressure",
-                (
-                    f"`{relief.name}` keeps P below {setting / BAR:.4g} bar, and it would reduce to {each.pressure / BAR:.4g} bar: it is "
-                    f"always open; write for example `pressure: {0.5 * setting / BAR:.4g} bar`"
-                ),
+            yield Finding(
+                f"hydraulics.{each.name}.pressure",
+                f"`{relief.name}` keeps P below {setting / BAR:.4g} bar, and it would reduce to {each.pressure / BAR:.4g} bar: it is "
+                f"always open; write for example `pressure: {0.5 * setting / BAR:.4g} bar`",
             )
 
 
@@ -221,8 +230,8 @@ def _flow_of(each: Pump | FlowSource) -> float:
 def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
     if isinstance(each, LoadSensing):
         if not any(each.name in other.ports.values() for other in circuit.components):
-            yield (
-                each.name,
+            yield Finding(
+                f"hydraulics.{each.name}",
                 f"nothing reads this signal; name it in the `ports` of a pump or a compensator: `LS: {each.name}`",
             )
         heard = set(each.valves)
@@ -235,7 +244,7 @@ def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
             if valve.ports.get("P") in lines | behind and {"A", "B", "T"} <= {*valve.ports}:
                 said = ", ".join([*each.valves, valve.name])
                 what = f"takes from the line of the load-sensing pump, and `{each.name}` does not know its load"
-                yield valve.name, f"it {what}; write `valves: [{said}]` there"
+                yield Finding(f"hydraulics.{valve.name}", f"it {what}; write `valves: [{said}]` there")
     if isinstance(each, Pump) and each.margin is not None:
         for other in circuit.components:
             holds = isinstance(other, Compensator) or (isinstance(other, Section) and other.compensation == "pre")
@@ -243,10 +252,8 @@ def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
                 continue
             margin = other.margin  # type: ignore[attr-defined]
             if isinstance(margin, float | int) and margin >= each.margin:
-                yield (
-                    f"{other.name}.margin",
-                    (
-                        f"the pump stands {each.margin / BAR:.4g} bar above LS, and the compensator would hold {margin / BAR:.4g} bar of "
-                        f"it: it is always open; write for example `margin: {0.4 * each.margin / BAR:.3g} bar`"
-                    ),
+                yield Finding(
+                    f"hydraulics.{other.name}.margin",
+                    f"the pump stands {each.margin / BAR:.4g} bar above LS, and the compensator would hold {margin / BAR:.4g} bar of "
+                    f"it: it is always open; write for example `margin: {0.4 * each.margin / BAR:.3g} bar`",
                 )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.judge.before.circuits import circuit_remarks
+from nivel.judge.finding import Finding
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_of, mass_properties
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
@@ -43,20 +43,7 @@ LONGEST: Final = 100.0
 HEAVIEST: Final = 1e6
 
 
-@dataclass(frozen=True)
-class Remark:
-    """What is right by its unit and may be a slip all the same.
-
-    place : as in a machine file, ``hydraulics.pump.displacement``. share : by how many times a value is beyond what is usual; infinite
-    where that is no matter of its size.
-    """
-
-    place: str
-    message: str
-    share: float
-
-
-def remarks(machine: MachineRecord) -> Iterator[Remark]:
+def remarks(machine: MachineRecord) -> Iterator[Finding]:
     """Everything that is unusual in a machine."""
     yield from _of_fields(machine, "")
     for section in SECTIONS:
@@ -67,10 +54,8 @@ def remarks(machine: MachineRecord) -> Iterator[Remark]:
     yield from _hollow(machine)
     yield from _immense(machine)
     yield from _narrow(machine)
-    for name, message in resting_remarks(machine):
-        yield Remark(f"forces.{name}", message, math.inf)
-    for place, message in circuit_remarks(machine.hydraulics):
-        yield Remark(f"hydraulics.{place}", message, math.inf)
+    yield from resting_remarks(machine)
+    yield from circuit_remarks(machine.hydraulics)
 
 
 @cache
@@ -91,7 +76,7 @@ def in_words(value: float, usual: Usual) -> str:
     return f"{value / unit_of(usual):.6g} {usual.unit}, and {span} {usual.unit} is usual"
 
 
-def _of_fields(record: Record, place: str) -> Iterator[Remark]:
+def _of_fields(record: Record, place: str) -> Iterator[Finding]:
     """What is unusual in the fields of a record, and of those that it holds."""
     start = f"{place}." if place else ""
     for name, field in type(record).model_fields.items():
@@ -102,16 +87,16 @@ def _of_fields(record: Record, place: str) -> Iterator[Remark]:
             yield from _of_fields(value, f"{start}{key}")
 
 
-def _of_value(value: Any, usual: Usual, place: str, key: str) -> Iterator[Remark]:
+def _of_value(value: Any, usual: Usual, place: str, key: str) -> Iterator[Finding]:
     numbers = value if isinstance(value, tuple) else (value,)
     shares = [(excess(each, usual), each) for each in numbers if isinstance(each, float | int)]
     share, worst = max(shares, default=(0.0, 0.0))
     if share > 1.0:
         message = f"`{key}` is {in_words(worst, usual)}; for example `{key}: {usual.example}`"
-        yield Remark(place, message, share)
+        yield Finding(place, message, share)
 
 
-def _of_volumes(machine: MachineRecord) -> Iterator[Remark]:
+def _of_volumes(machine: MachineRecord) -> Iterator[Finding]:
     """Displacements of pumps and motors that were given as volumes: per radian they are 2π times those per turn."""
     for component in machine.hydraulics:
         volume = getattr(component, "displacement", None)
@@ -121,10 +106,10 @@ def _of_volumes(machine: MachineRecord) -> Iterator[Remark]:
                 f"`displacement` is a volume per angle: `{size}` counts as {size}/rad, which is {per_turn}; catalogues state it per turn: "
                 f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
             )
-            yield Remark(f"hydraulics.{component.name}.displacement", message, math.inf)
+            yield Finding(f"hydraulics.{component.name}.displacement", message)
 
 
-def _hollow(machine: MachineRecord) -> Iterator[Remark]:
+def _hollow(machine: MachineRecord) -> Iterator[Finding]:
     """Contacts of bodies of which the hull touches, and is much more than the body."""
     bodies = {body.name: body for body in machine.bodies}
     for force in machine.forces:
@@ -142,10 +127,10 @@ def _hollow(machine: MachineRecord) -> Iterator[Remark]:
                     else "divide it into bodies with `fixed` joints, or take a mesh with `convex_parts`"
                 )
                 message = f"`{name}` is concave, and its hull touches, of which it fills {100 * share:.0f} %; {advice}"
-                yield Remark(f"forces.{force.name}", message, math.inf)
+                yield Finding(f"forces.{force.name}", message)
 
 
-def _immense(machine: MachineRecord) -> Iterator[Remark]:
+def _immense(machine: MachineRecord) -> Iterator[Finding]:
     """Bodies that are larger or heavier than those of machines, as where the file of a mesh is in millimetres."""
     for body in machine.bodies:
         shape = body.shape
@@ -164,10 +149,10 @@ def _immense(machine: MachineRecord) -> Iterator[Remark]:
             f"`{body.name}` is {extent:.4g} m long and has a mass of {mass:.4g} kg; is it given in millimetres? Lengths divided by 1000, "
             f"{advice}, make {smaller}"
         )
-        yield Remark(f"bodies.{body.name}.shape", message, math.inf)
+        yield Finding(f"bodies.{body.name}.shape", message)
 
 
-def _narrow(machine: MachineRecord) -> Iterator[Remark]:
+def _narrow(machine: MachineRecord) -> Iterator[Finding]:
     """Balls on ground with heights that curves more than they do."""
     bodies = {body.name: body for body in machine.bodies}
     for force in machine.forces:
@@ -181,10 +166,10 @@ def _narrow(machine: MachineRecord) -> Iterator[Remark]:
             f"a valley of the ground curves with a radius of {1.0 / curvature:.3g} m, less than the {radius:.3g} m of "
             f"`{force.body}`, which touches one side at a time there, and jumps between them; write smoother heights, or a smaller radius"
         )
-        yield Remark(f"forces.{force.name}.heights", message, math.inf)
+        yield Finding(f"forces.{force.name}.heights", message)
 
 
-def _unfillable(machine: MachineRecord) -> Iterator[Remark]:
+def _unfillable(machine: MachineRecord) -> Iterator[Finding]:
     """Chambers and volumes of liquid into which nothing can flow, and whose pressure is not given."""
     gases = {fluid.name for fluid in machine.fluids if fluid.type == "ideal-gas"}
     only_gas = len(gases) == len(machine.fluids) == 1
@@ -197,7 +182,7 @@ def _unfillable(machine: MachineRecord) -> Iterator[Remark]:
         which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
         advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
         message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
-        yield Remark(f"hydraulics.{maker.name}", message, math.inf)
+        yield Finding(f"hydraulics.{maker.name}", message)
 
 
 def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:
@@ -217,8 +202,8 @@ def _filled(components: Iterable[Component]) -> set[str]:
 TOUCHES = 1e-6
 
 
-def resting_remarks(machine: MachineRecord) -> Iterator[tuple[str, str]]:
-    """(name of the contact, message): a contact without overlap has no force, so its body slides before friction can hold it."""
+def resting_remarks(machine: MachineRecord) -> Iterator[Finding]:
+    """A contact without overlap has no force, so its body slides before friction can hold it."""
     if machine.simulation.start == "equilibrium":
         return
     for force in machine.forces:
@@ -242,8 +227,8 @@ def resting_remarks(machine: MachineRecord) -> Iterator[tuple[str, str]]:
             continue
         load = mass_properties(body).mass * pressed / 4
         depth = (load / force.stiffness) ** (1.0 / force.exponent)
-        yield (
-            force.name,
+        yield Finding(
+            f"forces.{force.name}",
             f"`{body.name}` just touches the slope: without overlap there is no force, so it begins to slide, and kinetic friction does "
             f"not stop it; to have it rest, place it {depth:.2g} m deeper (four points that carry its weight)",
         )

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from nivel.errors import ModelError
+from nivel.judge.finding import Finding
 from nivel.machine.forces.rope import Rope
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.forces.ropes import length_as_placed, way_as_placed
@@ -16,15 +17,15 @@ USUAL: Final = 0.1
 RUBBER: Final = 1e4
 
 
-def stretched_ropes(machine: MachineRecord) -> Iterator[tuple[str, str]]:
-    """(name of the rope, message) of each rope whose way as placed is more than 10 % longer than its unstressed length."""
+def stretched_ropes(machine: MachineRecord) -> Iterator[Finding]:
+    """Each rope whose way as placed is more than 10 % longer than its unstressed length."""
     for rope in machine.forces:
         if not isinstance(rope, Rope) or rope.length is None or rope.stiffness * rope.length < RUBBER:
             continue
         way = length_as_placed(machine, rope)
         if way > (1.0 + USUAL) * rope.length:
-            yield (
-                rope.name,
+            yield Finding(
+                f"forces.{rope.name}",
                 f"its way as placed is {way:.4g} m, {100.0 * (way / rope.length - 1.0):.3g} % longer than `length`, so the run begins with "
                 f"a tension of {rope.stiffness * (way - rope.length):.3g} N{_other_side(machine, rope)}",
             )

@@ -60,8 +60,11 @@ class Unusual:
 
 def look_for_unusual(subject: Run | Equilibria | Positions) -> list[Unusual]:
     """What is farthest beyond the usual."""
-    found = [Unusual(each.place, f"{each.place}: {each.message}", each.share) for each in remarks(subject.machine)]
-    found += [Unusual(name, f"forces.{name}: {said}", math.inf) for name, said in stretched_ropes(subject.machine)]
+    found = [Unusual(remark.place, str(remark.fault), remark.number) for remark in remarks(subject.machine)]
+    found += [
+        Unusual(rope.place.removeprefix("forces."), str(rope.fault), rope.number)
+        for rope in stretched_ropes(subject.machine)
+    ]
     found += _of_result(subject)
     return sorted(found, key=lambda each: -each.share)[:SHOWN]
 

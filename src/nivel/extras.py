@@ -60,7 +60,7 @@ def require(needs: str, *modules: str) -> None:
     """Refuse to go on without libraries of LIBRARIES, which `needs` ("plots need"). Raises ModelError with all that are missing."""
     missing = [LIBRARIES[module] for module in modules if not is_installed(module)]
     if missing:
-        raise ModelError([Fault("", 0, 0, "", f"{needs} {each.package}: {_command(each)}") for each in missing])
+        raise ModelError([Fault.at("", f"{needs} {each.package}: {_command(each)}") for each in missing])
 
 
 def _command(library: Library) -> str:

@@ -176,7 +176,7 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
 
 def refusal(message: str) -> ModelError:
     """An error of the machine as a whole."""
-    return ModelError(Fault("", 0, 0, "", message))
+    return ModelError(Fault.at("", message))
 
 
 def _endless(loop: Loop) -> Loop:

@@ -100,10 +100,7 @@ def kinematic_tree(machine: MachineRecord) -> KinematicTree:
     tree = KinematicTree(machine)
     rotors = _rotors(tree)
     faults = [
-        Fault(
-            "",
-            0,
-            0,
+        Fault.at(
             f"joints.{joint.name}",
             f"a joint of type {joint.type} cannot be written; there are {', '.join(IN_TREE)}",
         )
@@ -114,10 +111,8 @@ def kinematic_tree(machine: MachineRecord) -> KinematicTree:
     for body in bodies.values():
         if body.flexible is not None or body.point_mass:
             what = "a flexible body" if body.flexible is not None else "a point mass"
-            faults.append(Fault("", 0, 0, f"bodies.{body.name}", f"{what} cannot be written; rigid bodies can"))
-    faults += [
-        Fault("", 0, 0, f"beams.{beam.name}", "a beam cannot be written; rigid bodies can") for beam in machine.beams
-    ]
+            faults.append(Fault.at(f"bodies.{body.name}", f"{what} cannot be written; rigid bodies can"))
+    faults += [Fault.at(f"beams.{beam.name}", "a beam cannot be written; rigid bodies can") for beam in machine.beams]
     if faults:
         raise ModelError(faults)
     _grow(tree, bodies, rotors)

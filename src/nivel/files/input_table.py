@@ -112,7 +112,7 @@ def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | Pat
 
 def _followed(each: Input | None, given: float | str | PathLike[str] | Table, name: str, known: list[str]) -> Input:
     if each is None:
-        raise ModelError(Fault("", 0, 0, f"inputs.{name}", unknown_name("input", name, known)))
+        raise ModelError(Fault.at(f"inputs.{name}", unknown_name("input", name, known)))
     return each.replace(signal=_signal(given, name))
 
 
@@ -129,7 +129,7 @@ def _of_input(fault: Fault, name: str, given: object) -> Fault:
     """A fault of the record of an input, told with the file that the table came from."""
     if fault.line or not isinstance(given, str | PathLike):
         return fault
-    return Fault("", 0, 0, f"inputs.{name}", f"{fspath(given)}: {fault.message}")
+    return Fault.at(f"inputs.{name}", f"{fspath(given)}: {fault.message}")
 
 
 def _number(row: list[str], column: int, unit: str, kind: Kind, place: Fault, faults: list[Fault]) -> float:

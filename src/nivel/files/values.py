@@ -39,7 +39,7 @@ def whole_path(record: MachineRecord, path: str) -> str:
     sections = list(elements_named(record, first))
     if len(sections) > 1:
         listed = " or ".join(f"`{section}.{path}`" for section in sections)
-        raise ModelError(Fault("", 0, 0, path, f"several elements are called `{first}`: write {listed}"))
+        raise ModelError(Fault.at(path, f"several elements are called `{first}`: write {listed}"))
     return f"{sections[0]}.{path}" if sections else path
 
 
@@ -54,7 +54,7 @@ def value_at(record: MachineRecord, path: str) -> Any:
         try:
             value = _entered(value, step, steps[at - 1] if at else "")
         except ModelError as error:
-            raise ModelError(Fault("", 0, 0, ".".join(steps[: at + 1]), error.faults[0].message)) from None
+            raise ModelError(Fault.at(".".join(steps[: at + 1]), error.faults[0].message)) from None
     return value
 
 
@@ -132,7 +132,7 @@ def replaced(record: MachineRecord, elements: Sequence[Record]) -> dict[str, tup
         records = sections.setdefault(section, list(getattr(record, section)))
         names = [str(getattr(each, "name", "")) for each in records]
         if name not in names:
-            raise ModelError(Fault("", 0, 0, section, f"nothing to replace: {unknown_word(name, names, 'name')}"))
+            raise ModelError(Fault.at(section, f"nothing to replace: {unknown_word(name, names, 'name')}"))
         records[names.index(name)] = element
     return {section: tuple(records) for section, records in sections.items()}
 

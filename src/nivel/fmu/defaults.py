@@ -20,10 +20,10 @@ def defaults_of(machine: Model, paths: Sequence[str]) -> dict[str, float]:
         try:
             value = machine[path]
         except ModelError as error:
-            faults += [Fault("", 0, 0, path, fault.message) for fault in error.faults]
+            faults += [Fault.at(path, fault.message) for fault in error.faults]
             continue
         if isinstance(value, bool) or not isinstance(value, int | float):
-            faults.append(Fault("", 0, 0, path, f"a parameter of an FMU is a number; here is {shown(value)}"))
+            faults.append(Fault.at(path, f"a parameter of an FMU is a number; here is {shown(value)}"))
         else:
             out[path] = float(value)
     if faults:

@@ -57,7 +57,7 @@ class Look:
         if not (np.isfinite(speed) and speed > 0.0):
             faults.append(f"a speed greater than zero was expected, got {speed:g}")
         if faults:
-            raise ModelError([Fault("", 0, 0, "", message) for message in faults])
+            raise ModelError([Fault.at("", message) for message in faults])
         return cls(width, height, side, rate, speed, dark, colours)
 
 

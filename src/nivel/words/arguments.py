@@ -175,7 +175,7 @@ def _title(function: Any, given: tuple[Any, ...]) -> str:
 
 
 def _fault(name: str, message: str) -> Fault:
-    return Fault("", 0, 0, name, message)
+    return Fault.at(name, message)
 
 
 def _fits(value: object, wanted: Any) -> bool:

@@ -221,4 +221,4 @@ def speed_of(unit: str, parameter: str) -> float:
         return TURN * read_quantity(f"1 {unit}", "frequency", {})
     except ExpressionError:
         message = f"orders are multiples of a speed of rotation, e.g. in rpm or rad/s, and {parameter} is in {unit}"
-        raise ModelError(Fault("", 0, 0, "linearise.orders", message)) from None
+        raise ModelError(Fault.at("linearise.orders", message)) from None

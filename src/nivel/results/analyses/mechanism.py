@@ -94,7 +94,7 @@ def read_transmission(machine: MachineRecord, text: str) -> Transmission:
 
 
 def _fault(field: str, message: str) -> ModelError:
-    return ModelError(Fault("", 0, 0, f"kinematics.{field}", message))
+    return ModelError(Fault.at(f"kinematics.{field}", message))
 
 
 def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:

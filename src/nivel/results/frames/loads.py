@@ -170,4 +170,4 @@ def _time(given: float | str) -> float:
     try:
         return read_quantity(given, "time", {})
     except ExpressionError as problem:
-        raise ModelError(Fault("", 0, 0, "loads.period", expression_fault(problem, given).message())) from None
+        raise ModelError(Fault.at("loads.period", expression_fault(problem, given).message())) from None

@@ -50,7 +50,7 @@ class Tabulated(ABC):
     def __getitem__(self, name: str) -> Any:
         """The numbers of this name with their units. Raises ModelError with the nearest name where there is none."""
         if name not in self.keys():
-            raise ModelError(Fault("", 0, 0, "", unknown_word(str(name), list(self.keys()), "name")))
+            raise ModelError(Fault.at("", unknown_word(str(name), list(self.keys()), "name")))
         return self.to_xarray()[name]
 
     def _ipython_key_completions_(self) -> list[str]:
@@ -100,7 +100,7 @@ def chosen(columns: Mapping[str, Column], select: list[str]) -> dict[str, Column
         its = {name: each for name, each in columns.items() if name == entry or fnmatchcase(name, entry)}
         found |= its
         if not its:
-            faults.append(Fault("", 0, 0, "select", unknown_word(entry, list(columns), "name")))
+            faults.append(Fault.at("select", unknown_word(entry, list(columns), "name")))
     if faults:
         raise ModelError(faults)
     return found if select else dict(columns)

@@ -170,3 +170,37 @@ def test_lateral_friction_of_wheels_is_compared_with_the_most_that_it_can_be(tmp
             max(np.abs(result.array(f"force.c{k}.friction_y")).max() for k in range(4))
             < 1e-2 * 0.9 * 2200 * GRAVITY / 4
         )
+
+
+def belt(integrator):
+    """A parcel is put on a belt at 0.8 m/s: it slides for v/(μ g) = 0.163 s and then sticks."""
+    sections = {
+        "gravity": [0, 0, -GRAVITY],
+        "bodies": {"parcel": {"position": [0, 0, 0.05], "shape": {"type": "box", "size": [0.3, 0.2, 0.1]}, "mass": 6}},
+        "forces": {
+            "carry": {
+                **{
+                    "type": "contact",
+                    "body": "parcel",
+                    "plane": {"body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]},
+                },
+                **{"stiffness": 1e6, "restitution": 0.2, "friction": 0.5, "surface_velocity": [0.8, 0, 0]},
+            }
+        },
+        "simulation": {"duration": 1.0, **integrator},
+    }
+    return machine(sections).simulate(verify=True)
+
+
+@pytest.mark.parametrize(("integrator", "right"), [({}, True), ({"integrator": "rk4", "step": 2e-3}, False)])
+def test_slip_of_what_sticks_is_compared_with_the_speed_of_the_machine(integrator, right):
+    result = belt(integrator)
+    stuck = result.time > 0.3
+    assert right == (result.trust.verdict == "green")
+    if right:
+        assert result.array("parcel.velocity")[stuck, 0] == pytest.approx(0.8, rel=1e-4)
+        # v²/(2 μ g) less than the belt, which goes on from the start
+        assert result.array("parcel.position")[-1, 0] == pytest.approx(
+            0.8 * 1.0 - 0.8**2 / (2 * 0.5 * GRAVITY), rel=1e-2
+        )
+        assert result.array("force.carry.slip_speed")[stuck].max() < 1e-4 * 0.8

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -20,67 +19,26 @@ from nivel.analysis.run.preparation import prepare
 from nivel.errors import SolveError
 from nivel.files.rotors import rotors_of
 from nivel.judge.before.in_words import (
+    block_in_words,
     component_in_words,
+    control_in_words,
     coupling_in_words,
     driver_in_words,
     event_in_words,
     force_in_words,
-    function_in_words,
     input_in_words,
     sensor_in_words,
     state_in_words,
 )
 from nivel.kernels.core.status import OK
-from nivel.machine.control.block import Block
-from nivel.machine.control.part import PartFunction
-from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.formula import Formula
-from nivel.machine.units.linear_function import LinearFunction
 from nivel.system.flexible import bending_bodies
 from nivel.system.hydraulics.elements import without_slopes
 from nivel.system.joints.joints import JOINTS, composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 from nivel.words.wording import set_in_motion
-
-
-def block_in_words(block: Block) -> str:
-    """Kind of a block, what it takes, and when."""
-    taken = [_in_words(part.function) for part in block.parts if part.key]
-    of = f" of {', '.join(dict.fromkeys(taken))}" if taken else ""
-    return f"{block.name}: {block.type}{of}{_times(block)}"
-
-
-def control_in_words(blocks: Sequence[Block]) -> str:
-    """How many blocks, continuous states and sampled values there are."""
-    roles = [part.role for block in blocks for part in block.parts]
-    states, values = roles.count("state"), roles.count("sample") + roles.count("memory")
-    periods = sorted({block.period for block in blocks if block.is_sampled})
-    often = f" every {', '.join(f'{period:.6g} s' for period in periods)}" if periods else ""
-    count = f"{len(blocks)} block{'s' * (len(blocks) != 1)}"
-    return (
-        f"{count}, {states} continuous state{'s' * (states != 1)}, {values} sampled value{'s' * (values != 1)}{often}"
-    )
-
-
-def _in_words(function: PartFunction) -> str:
-    if isinstance(function, LinearFunction):
-        return " + ".join(f"{factor:.6g}*{path}" for factor, path in function.terms)
-    if isinstance(function, UnitOutput):
-        return f"{function.facts.outputs[function.number]} of {Path(function.facts.file).name}"
-    assert not isinstance(function, Formula)  # made by the block, not given
-    return function_in_words(function)
-
-
-def _times(block: Block) -> str:
-    if not block.is_sampled:
-        return ", continuous"
-    later = f" from {block.offset:.6g} s" if block.offset else ""
-    late = f", {block.latency:.6g} s late" if block.latency else ""
-    return f", every {block.period:.6g} s{later}{late}"
-
 
 ROUND_OFF = 1e-14  # [m or rad] a smaller gap is none
 

@@ -18,8 +18,8 @@ import numpy as np
 
 import hydraulic_arms_data as data
 import nivel
+from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.files.reader import parse_machine
-from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from step_time import call_peer
 
 PEER = Path(__file__).resolve().parent / "peers" / "exudyn_hydraulic_arms.py"

@@ -20,14 +20,12 @@ from scipy.special import ellipj
 import nivel
 from lanes import tail
 from nivel import MachineRecord
+from nivel.elements.circuits import COMPONENTS
+from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.tanks import Volume, volume_nodes
 from nivel.elements.forces import FORCES
 from nivel.looks.circuit.drawing import circuit_diagram
-from nivel.machine.hydraulics import COMPONENT_OF, Volume
-from nivel.machine.hydraulics import COMPONENTS as COMPONENT_WORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS, Joint
-from nivel.system.hydraulics.components import COMPONENTS, register_component
-from nivel.system.hydraulics.kind import ComponentKind
-from nivel.system.hydraulics.nodes import volume_nodes
 from nivel.system.joints.joints import JOINTS, register_joint
 
 ROOT = Path(__file__).parent.parent
@@ -68,19 +66,13 @@ def withdraw_words(word):
     Joint.model_rebuild(force=True)
 
 
-def withdraw_component(word):
-    COMPONENT_WORDS.remove(COMPONENTS.pop(word).words)
-    del COMPONENT_OF[word]
-    MachineRecord.model_rebuild(force=True)
-
-
 @pytest.fixture(scope="module")
 def vessel(folder):
     """The same with the component of the page."""
     importlib.import_module("capillary")
     yield nivel.load(folder / "vessel.yaml")
     del sys.modules["capillary"]
-    withdraw_component("capillary")
+    COMPONENTS.withdraw("capillary")
 
 
 def solution(times):
@@ -234,10 +226,15 @@ def test_the_capillary_is_drawn_in_report_and_viewer(vessel, tmp_path):
         assert "500 mm × 1 mm" in text
 
 
-def test_without_its_symbol_the_capillary_is_a_box_with_its_type(vessel, monkeypatch):
+def test_without_its_symbol_the_capillary_is_a_box_with_its_type(vessel):
     kind = COMPONENTS["capillary"]
-    monkeypatch.setitem(COMPONENTS, "capillary", replace(kind, symbol=None))
-    drawn = circuit_diagram(vessel.record.model_dump(mode="json"), {})
+    COMPONENTS.withdraw("capillary")
+    COMPONENTS.register(replace(kind, symbol=None))
+    try:
+        drawn = circuit_diagram(vessel.record.model_dump(mode="json"), {})
+    finally:
+        COMPONENTS.withdraw("capillary")
+        COMPONENTS.register(kind)
     assert '<text text-anchor="middle" y="4">capillary</text>' in drawn
 
 
@@ -265,7 +262,7 @@ class Hose(Volume):
 
 
 def test_a_component_outside_the_package_may_be_a_node(vessel, folder):
-    register_component(ComponentKind(Hose, None, (), nodes=volume_nodes))
+    COMPONENTS.register(ComponentKind(Hose, None, (), nodes=volume_nodes))
     try:
         (folder / "hose.yaml").write_text(FILES["vessel.yaml"].replace("type: volume", "type: hose"), encoding="utf-8")
         hose = nivel.load(folder / "hose.yaml")
@@ -274,7 +271,7 @@ def test_a_component_outside_the_package_may_be_a_node(vessel, folder):
         drawn = (circuit_diagram(each.record.model_dump(mode="json"), {}) for each in (hose, vessel))
         assert len({*drawn}) == 1
     finally:
-        withdraw_component("hose")
+        COMPONENTS.withdraw("hose")
 
 
 def test_nodes_that_words_name_are_made():
@@ -288,7 +285,7 @@ def test_a_component_states_the_phase_of_its_kernels(vessel):
     with pytest.raises(ValueError, match=r"Phase\.FLOWS"):
         replace(kind, families=(maxwell,))
     with pytest.raises(ValueError, match="already"):
-        sys.modules["capillary"].register_component(kind)
+        COMPONENTS.register(kind)
 
 
 MACHINE = """

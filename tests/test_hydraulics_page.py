@@ -9,8 +9,11 @@ import pytest
 
 import nivel
 from nivel.api import Machine
+from nivel.elements.circuits import COMPONENTS
+from nivel.elements.circuits.actuators import Cushion
+from nivel.elements.circuits.fluids import Fluid, Gas
+from nivel.elements.circuits.pistons import PistonFriction
 from nivel.files import parse_machine
-from nivel.machine.hydraulics import COMPONENTS, Cushion, Fluid, Gas, PistonFriction
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "hydraulics.md").read_text(encoding="utf-8")
@@ -25,7 +28,9 @@ def test_the_machine_of_the_page_runs():
     assert result.outcome == "done"
 
 
-@pytest.mark.parametrize("record", [*COMPONENTS, Fluid, Gas, PistonFriction, Cushion], ids=lambda each: each.__name__)
+@pytest.mark.parametrize(
+    "record", [*COMPONENTS.records, Fluid, Gas, PistonFriction, Cushion], ids=lambda each: each.__name__
+)
 def test_every_key_of_a_component_is_on_the_page(record):
     assert not set(record.model_fields) - KNOWN - WORDS
     if "type" in record.model_fields:

@@ -4,6 +4,7 @@ import pickle
 import subprocess
 import sys
 from collections import Counter
+from importlib import import_module
 from pathlib import Path
 from typing import get_args
 
@@ -11,6 +12,7 @@ import pytest
 
 import nivel.integrate
 from nivel.cli.run import command as run_command
+from nivel.elements.circuits import COMPONENTS
 from nivel.elements.forces import FORCES
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
@@ -19,13 +21,11 @@ from nivel.judge.during.failure import FAILURES
 from nivel.judge.during.stop import Status
 from nivel.kernels.core import status
 from nivel.lazy import PLACES, provided
-from nivel.machine.hydraulics import COMPONENTS as COMPONENT_RECORDS
 from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.native.entry import Entry
-from nivel.system.hydraulics.components import COMPONENTS
 from nivel.system.joints.joints import JOINTS
 from settings_keywords import kind_of
 
@@ -98,13 +98,18 @@ def test_forces_are_found_by_their_words_without_being_imported():
     assert not {"numba", "nivel.elements.forces.springs", "nivel.machine.machine_record"} & {*loaded}
 
 
-def test_components_have_the_types_that_the_builder_knows():
-    assert {record.model_fields["type"].default for record in COMPONENT_RECORDS} == set(COMPONENTS)
+def test_components_are_found_by_their_words_without_being_imported():
+    for word, kind in COMPONENTS.items():
+        assert vars(import_module(COMPONENTS.homes[word]))[kind.record.__name__] is kind.record
+    script = "import sys; from nivel.elements.circuits import COMPONENTS; COMPONENTS['orifice']; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
+    assert "nivel.elements.circuits.orifices" in loaded
+    assert not {"numba", "nivel.elements.circuits.pumps", "nivel.machine.machine_record"} & {*loaded}
 
 
 def test_components_of_gas_alone_have_no_slopes_by_hand():
     without = {word for word, kind in COMPONENTS.items() if not kind.has_slopes}
-    assert without == {word for word, kind in COMPONENTS.items() if not kind.words.liquids}
+    assert without == {word for word, kind in COMPONENTS.items() if not kind.record.liquids}
 
 
 @pytest.mark.parametrize("subject", PLACES)

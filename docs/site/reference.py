@@ -39,10 +39,10 @@ def key_page() -> str:
 def sections() -> dict[str, list[type]]:
     """The records of every section of a machine file."""
     from nivel import MachineRecord
+    from nivel.elements.circuits import COMPONENTS
+    from nivel.elements.circuits.fluids import Fluid, Gas
     from nivel.elements.control import BLOCKS
     from nivel.elements.forces import FORCES
-    from nivel.machine.hydraulics import COMPONENTS
-    from nivel.machine.hydraulics.fluid import Fluid, Gas
     from nivel.machine.uses.references import SECTIONS
 
     # what is told apart by its type when it is read does not stand in the annotation
@@ -50,7 +50,7 @@ def sections() -> dict[str, list[type]]:
         "forces": FORCES.records,
         "control": BLOCKS.records,
         "fluids": [Fluid, Gas],
-        "hydraulics": [*COMPONENTS],
+        "hydraulics": COMPONENTS.records,
     }
     names = (*SECTIONS, "assembly", "simulation")
     return {name: kinds.get(name) or list(_records(MachineRecord.model_fields[name].annotation)) for name in names}

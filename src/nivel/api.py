@@ -23,6 +23,8 @@ from nivel.analysis.plan.compilation import (
 from nivel.analysis.plan.plan import Plan, methods_of, plan_run
 from nivel.analysis.plan.settings import waiting_time
 from nivel.analysis.progress.listener import Listener
+from nivel.elements.circuits import HydraulicComponent
+from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import Origin, parse_machine, read_text
@@ -32,7 +34,6 @@ from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.control.block import Block
 from nivel.machine.core.marker import Marker
-from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint

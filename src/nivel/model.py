@@ -9,6 +9,8 @@ from html import escape
 from os import PathLike
 from typing import Any, Self, TypeVar
 
+from nivel.elements.circuits import HydraulicComponent
+from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError
@@ -28,7 +30,6 @@ from nivel.machine.changes import changed
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry
-from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint

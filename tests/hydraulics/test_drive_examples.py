@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from circuits import BAR, LITRE_PER_MINUTE, PA, history
 from nivel.api import load
-from nivel.machine.hydraulics.grades import GRADES
+from nivel.elements.circuits.fluids import GRADES
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "hydraulics"
 END = 0.7

@@ -8,14 +8,14 @@ import pytest
 
 from circuits import history
 from hydraulic_zoo import machine_with_circuits, machine_with_gas, machine_with_warm_oil
-from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.elements.circuits import COMPONENTS
 
 # tests of mistakes and of several components together are no closed forms
 OTHERS = {"test_circuit_mistakes.py", "test_every_component.py", "test_circuit_tangents.py"}
 ZOOS = pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas, machine_with_warm_oil])
 
 
-@pytest.mark.parametrize("word", COMPONENT_OF)
+@pytest.mark.parametrize("word", COMPONENTS)
 def test_every_component_is_in_a_test_of_closed_forms(word):
     files = [path for path in Path(__file__).parent.glob("test_*.py") if path.name not in OTHERS]
     assert any(f'"{word}"' in path.read_text(encoding="utf-8") for path in files)

@@ -7,12 +7,9 @@ import numpy as np
 import pytest
 
 from circuits import BAR, PA, circuit, history
+from nivel.elements.circuits.density import fluid_constants, specific_volume
+from nivel.elements.circuits.fluids import GRADES, Fluid, GradeName
 from nivel.errors import ModelError
-from nivel.kernels.hydraulics.fluid import specific_volume
-from nivel.machine.hydraulics import Fluid
-from nivel.machine.hydraulics.fluid import GradeName
-from nivel.machine.hydraulics.grades import GRADES
-from nivel.system.hydraulics.nodes import fluid_constants
 
 LAW = getattr(specific_volume, "py_func", specific_volume)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from circuits import BAR, PA, circuit, history, steady
-from nivel.kernels.hydraulics.line import RATES, WEIGHTS
+from nivel.elements.circuits.lines import RATES, WEIGHTS
 
 pytestmark = pytest.mark.covering
 
@@ -139,10 +139,8 @@ def test_mass_is_kept_to_round_off():
 @pytest.mark.parametrize(("p", "grown"), [(50.0, 5.0), (100.0, 10.0), (150.0, 12.0), (250.0, 16.0)])
 def test_a_hose_grows_along_its_curve(p, grown):
     """The mass at a pressure above the air is that of the density times the volume of the curve."""
-    from nivel.kernels.hydraulics.volume import hose_room
-    from nivel.machine.hydraulics.maps import VolumeExpansion
-    from nivel.system.hydraulics.circuit import filled_room
-    from nivel.system.hydraulics.nodes import hose_points
+    from nivel.elements.circuits.hoses import VolumeExpansion, hose_points
+    from nivel.elements.circuits.volumes import filled_room, hose_room
 
     curve = VolumeExpansion(pressures=("100 bar", "200 bar"), volumes=("10 cm^3", "14 cm^3"))
     law = getattr(hose_room, "py_func", hose_room)

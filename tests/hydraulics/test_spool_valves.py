@@ -7,8 +7,8 @@ import pytest
 
 from circuits import BAR, LITRE_PER_MINUTE, between, circuit, history, steady
 from nivel.api import load
+from nivel.elements.circuits.edges import Notch
 from nivel.files import parse_machine
-from nivel.machine.hydraulics import Notch
 from test_characteristics import root
 
 CORNER = 0.5 * BAR

@@ -7,9 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from circuits import BAR, PA, between, circuit, history, steady
+from nivel.elements.circuits.masses import density_at
+from nivel.elements.circuits.nitrogen import gas_state
 from nivel.errors import ModelError
-from nivel.kernels.hydraulics.nitrogen import gas_state
-from nivel.system.hydraulics.nitrogen_gas import density_at
 from simulating import slide, solid
 
 STIFF = {"oil": {"air": 0, "bulk_modulus": "25 GPa", "bulk_modulus_slope": 0}}

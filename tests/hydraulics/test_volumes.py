@@ -7,10 +7,8 @@ import pytest
 from scipy.optimize import brentq
 
 from circuits import BAR, PA, circuit, density, history
-from nivel.kernels.hydraulics.fluid import specific_volume
-from nivel.machine.hydraulics.fluid import OIL
-from nivel.system.hydraulics.fluid_law import density_and_modulus
-from nivel.system.hydraulics.nodes import fluid_constants
+from nivel.elements.circuits.density import density_and_modulus, fluid_constants, specific_volume
+from nivel.elements.circuits.fluids import OIL
 from simulating import hinge, machine, slide
 
 pytestmark = pytest.mark.covering

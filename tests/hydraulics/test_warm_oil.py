@@ -7,8 +7,8 @@ import pytest
 
 from circuits import BAR, PA, circuit, history
 from hydraulic_zoo import machine_with_warm_oil
+from nivel.elements.circuits.fluids import GRADES
 from nivel.errors import ModelError
-from nivel.machine.hydraulics.grades import GRADES
 
 pytestmark = pytest.mark.covering
 

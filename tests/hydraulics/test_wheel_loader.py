@@ -8,7 +8,7 @@ import numpy as np
 from circuits import BAR, history
 from laws_anew import Arm, Circuit, Link, Oil, Ram, bar, radau, rated, sensing, turned
 from nivel.api import load
-from nivel.machine.hydraulics.grades import GRADES
+from nivel.elements.circuits.fluids import GRADES
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "hydraulics" / "wheel-loader.yaml"
 BEGIN, END = 1.5, 2.2

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from nivel.kernels.hydraulics.gas_flow import reduced_flow
-from nivel.kernels.hydraulics.pipe import loss
-from nivel.kernels.hydraulics.smooth import maximum_within, ramp, root_flow, step
-from nivel.kernels.hydraulics.spool import clipped
+from nivel.elements.circuits.pipe_losses import loss
+from nivel.elements.circuits.restrictions import reduced_flow
+from nivel.elements.circuits.smooth import clipped, maximum_within, ramp, root_flow, step
 
 KINKS = [0.0, 1e-9, -1e-9, 0.5, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 2.0, -3.0]
 

@@ -8,13 +8,13 @@ from everything import EVERYTHING
 
 from lanes import parts
 from nivel import MachineRecord
+from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.control.units import CBlock, FmuBlock
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
 from nivel.machine.core.index import SECTIONS
-from nivel.machine.hydraulics import COMPONENTS
 from nivel.machine.joints.joint import JOINT_COORDINATES
 
 MACHINE = MachineRecord(**EVERYTHING)
@@ -43,7 +43,9 @@ def test_every_kind_is_in_it():
     assert {type(force) for force in MACHINE.forces} == set(FORCES.records)
     # FMUs and C functions need a file, and have tests of their own
     assert {type(block) for block in MACHINE.control} == set(BLOCKS.records) - {FmuBlock, CBlock}
-    assert {type(component) for component in MACHINE.hydraulics} == {each for each in COMPONENTS if each.liquids}
+    assert {type(component) for component in MACHINE.hydraulics} == {
+        each for each in COMPONENTS.records if each.liquids
+    }
     assert {coupling.type for coupling in MACHINE.couplings} == {"gear", "belt", "rack", "linear", "function"}
     assert all(getattr(MACHINE, section) for section in SECTIONS)
     assert {joint.type for joint in MACHINE.joints} <= set(JOINT_COORDINATES)

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import nivel
+from nivel.elements.circuits import COMPONENTS
 from nivel.files import parse_machine
 from nivel.looks.circuit.drawing import circuit_diagram, laid_out
 from nivel.looks.circuit.parts import circuit_of
-from nivel.system.hydraulics.components import COMPONENTS
 
 FILES = sorted((Path(__file__).parents[2] / "examples" / "hydraulics").glob("*.yaml"))
 SVG = "{http://www.w3.org/2000/svg}"

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import bisect
 
+from nivel.elements.circuits.fluids import GRADES
 from nivel.looks.circuit.characteristics import valve_charts, valve_diagram
-from nivel.machine.hydraulics.grades import GRADES
 
 BAR = 1e5
 

@@ -93,7 +93,7 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
         return iter(sorted(self._kinds))
 
     def __len__(self) -> int:
-        return len([*self])
+        return sum(1 for _ in self)  # a list of them would ask for their number
 
     @property
     def records(self) -> list[Any]:

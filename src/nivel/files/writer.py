@@ -8,12 +8,12 @@ from typing import Any
 
 import yaml
 
+from nivel.elements.circuits.curves import Curve
 from nivel.files.outline import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.record import Record
-from nivel.machine.hydraulics.curve import Curve
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings

@@ -15,7 +15,7 @@ from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
 from nivel.live.preparation import LiveRun
 from nivel.native.entry import Entry
-from nivel.system.hydraulics.elements import families_of
+from nivel.system.circuit_elements import families_of
 
 REPEATED: Final = 100  # calls of a part, of which the median counts
 AT_ONCE: Final = 20  # of short ones

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
+from nivel.elements.circuits import COMPONENTS, record_of
 from nivel.machine.core.index import Place, elements
 from nivel.machine.core.record import entry
-from nivel.machine.hydraulics import COMPONENT_OF
 
 Faults = Iterator[tuple[Place, str]]
 GAS: Final = "ideal-gas"
@@ -49,7 +49,7 @@ def _touched(component: Any, nodes: Mapping[str, Any], kinds: Mapping[str, str])
 
 
 def _holds_fluid(maker: Any) -> bool:
-    kind = COMPONENT_OF.get(str(entry(maker, "type")))
+    kind = record_of(entry(maker, "type"))
     return kind is not None and "fluid" in kind.model_fields
 
 
@@ -60,12 +60,12 @@ def _only(kinds: Mapping[str, str]) -> str | None:
 def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
     """What does not belong to liquids, or to gases."""
     type_ = str(entry(component, "type"))
-    kind = COMPONENT_OF.get(type_)
+    kind = record_of(type_)
     if kind is None:
         return
     name = f"{'an' if type_[0] in 'aeiou' else 'a'} {type_}"
     if gas and not kind.gases:
-        known = ", ".join(f"`{word}`" for word, each in COMPONENT_OF.items() if each.gases)
+        known = ", ".join(f"`{word}`" for word, each in COMPONENTS.items() if each.record.gases)
         yield (*place, "type"), f"{name} is for liquids; circuits of gas know {known}"
         return
     if not gas and not kind.liquids:

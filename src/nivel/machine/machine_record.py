@@ -18,6 +18,8 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
+from nivel.elements.circuits import HydraulicComponent
+from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
 from nivel.machine.assembly_settings import AssemblySettings
@@ -34,7 +36,6 @@ from nivel.machine.core.placement import placement
 from nivel.machine.core.record import entry, restated
 from nivel.machine.core.usual import GRAVITY, SIZE
 from nivel.machine.given import Field, ManyNames, ManyRecords, OneRecord, Usual
-from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.joints.coupling import Coupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint
@@ -89,7 +90,7 @@ MOVING: Final = ("bodies", "beams", "hydraulics")
 class MachineRecord(Checked):
     """Everything that describes a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "fluids": 2, "hydraulics": 2, "surroundings": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "fluids": 2, "surroundings": 2}  # noqa: RUF012
     usual: ClassVar[Mapping[str, Usual]] = {"size": SIZE}
 
     name: Title

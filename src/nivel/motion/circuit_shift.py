@@ -3,7 +3,7 @@
     k_x = f_x + s (G_x k_x + G_s k_s + G_r k_r)        k_r = J o_v + s C (E_x k_x + E_s k_s + E_r k_r)        k_s = J f_q + s k_r
 
 for states x of circuits, coordinates s on which they act and their rates r, with the slopes G of ẋ and E of the efforts e by hand
-(`nivel.kernels.hydraulics.tangent`) and the compliance C = J M⁻¹ Jᵀ of the mechanics (`nivel.motion.compliance`). Then
+(`nivel.elements.circuits.tangent`) and the compliance C = J M⁻¹ Jᵀ of the mechanics (`nivel.motion.compliance`). Then
 
     k_v = o_v + s M⁻¹ Jᵀ e        k_q = f_q + s T k_v
 
@@ -17,8 +17,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.circuits.ledger import TAKEN_IN, mass_apart
 from nivel.kernels.core.status import NOT_CONVERGED, OK
-from nivel.kernels.hydraulics.ledger import TAKEN_IN, mass_apart
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.tree_motion import write_positions
 from nivel.native.function import leaf
@@ -152,7 +152,7 @@ def advance_circuit(machine, number, s, f, other, y, into):
     for j in range(tangent.unknown.shape[0]):
         if tangent.unknown[j] != NONE:
             into[first + j] = y[first + j] + s * tangent.b[tangent.unknown[j]]
-    # what tanks give by the same rule: see `nivel.kernels.hydraulics.ledger`
+    # what tanks give by the same rule: see `nivel.elements.circuits.ledger`
     gained, node = mass_apart(machine, f), record.circuit.node
     for k in range(node.shape[0]):
         if node[k, 1] != NONE:

@@ -54,10 +54,10 @@ from nivel.system.beams.beams import add_beam, no_tangent, shared_mass
 from nivel.system.beams.gradient_beams import point_inertia
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
+from nivel.system.circuit_elements import add_circuits, add_components, add_ledger, sensed_and_acting
 from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
-from nivel.system.hydraulics.elements import add_circuits, add_components, add_ledger, sensed_and_acting
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.joints.driver_rows import add_drivers
 from nivel.system.joints.interfaces import refuse_unknown_interfaces
@@ -162,7 +162,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():
                 builder.coordinate(f"{joint.name}.{name}")
-    sensed, acting = sensed_and_acting()
+    sensed, acting = sensed_and_acting(machine)
     # what reads or computes signals, each after what it reads; all other elements follow, last what reads their outputs
     builder.elements.order((read_inputs, *sensed, compute, *acting), (friction_work.apply,))
     return builder, rows

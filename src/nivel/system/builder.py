@@ -21,7 +21,7 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve
-from nivel.system.hydraulics.circuit import CircuitTable
+from nivel.system.circuit_tables import CircuitTable
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import Placed, seen_from
 from nivel.system.joints.parallel_axes import Directions

@@ -43,6 +43,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from nivel.elements.circuits.actuators import HydraulicCylinder, TelescopicCylinder
 from nivel.elements.forces import Force
 from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
@@ -57,7 +58,6 @@ from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.between import Between, BetweenMarkers
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.rope import Rope
-from nivel.machine.hydraulics.actuators import HydraulicCylinder, TelescopicCylinder
 from nivel.machine.joints.coupling import Belt
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord

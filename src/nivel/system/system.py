@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.circuits.nodes import Node
 from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.record.record import Control, Record
 from nivel.machine.units.tree import Node as Tree
-from nivel.system.hydraulics.circuit import Node
 from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout
 from nivel.system.tables import Array, index_array

@@ -19,18 +19,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.elements.circuits.actuators import RotaryActuator
+from nivel.elements.circuits.chambers import Actuator, chamber_node
+from nivel.elements.circuits.density import ATMOSPHERE
+from nivel.elements.circuits.engines import Engine
+from nivel.elements.circuits.gases import GAS_CONSTANT, RATIO, SURROUNDINGS
+from nivel.elements.circuits.masses import mass_at
+from nivel.elements.circuits.nodes import Node
+from nivel.elements.circuits.pistons import ORIGIN, guide
+from nivel.elements.circuits.pumps import HydraulicMotor
+from nivel.elements.circuits.tanks import Reservoir
+from nivel.elements.circuits.volumes import VOLUME
 from nivel.errors import Fault, refuse
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.fluid import ATMOSPHERE
-from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, SURROUNDINGS
-from nivel.kernels.hydraulics.piston import ORIGIN, guide
-from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record.record import NONE
-from nivel.machine.hydraulics import Actuator, Engine, HydraulicMotor, Reservoir, RotaryActuator
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.hydraulics.circuit import Node
-from nivel.system.hydraulics.fluid_law import mass_at
-from nivel.system.hydraulics.nodes import chamber_node, stroke_of
 from nivel.system.system import Array, System
 
 # what a pressure is moved by to see what it does [Pa]
@@ -102,14 +105,14 @@ def _values_of(machine: MachineRecord, system: System) -> Iterator[tuple[Actuato
 def _shares_of_strokes(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float]]:
     """Every actuator with the share of its stroke in the state last evaluated."""
     for actuator, value, origin in _values_of(machine, system):
-        yield actuator, (value - origin) / stroke_of(actuator)
+        yield actuator, (value - origin) / actuator.way
 
 
 def _refuse_strokes(machine: MachineRecord, system: System) -> None:
     """Actuators that are too long or too short for where they are, in the state last evaluated."""
     faults = []
     for actuator, value, origin in _values_of(machine, system):
-        stroke = stroke_of(actuator)
+        stroke = actuator.way
         if -BEYOND * stroke <= value - origin <= (1.0 + BEYOND) * stroke:
             continue
         turns = isinstance(actuator, RotaryActuator)

@@ -49,8 +49,8 @@ from nivel.system.beams.tangent import (
     rail_of,
     tangent_tables,
 )
+from nivel.system.circuit_tangent import slope_hooks
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
-from nivel.system.hydraulics.tangent import slope_hooks
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import dual_address
 from nivel.system.system import Array, System

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
+from nivel.elements.circuits.component import Component
 from nivel.errors import Fault, ModelError
-from nivel.machine.hydraulics import Component
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.state import State

@@ -10,13 +10,14 @@ from time import perf_counter
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.listener import Listener
+from nivel.elements.circuits.chambers import Actuator
+from nivel.elements.circuits.phase import SLOPES
 from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
-from nivel.kernels.hydraulics.phase import SLOPES
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.c_function import output as c_output
@@ -25,7 +26,6 @@ from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces.sticking import is_sticking
-from nivel.machine.hydraulics import Actuator
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
@@ -34,8 +34,8 @@ from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
 from nivel.system.beams.beams import ELASTIC, family_of
 from nivel.system.beams.beams import FAMILIES as BEAMS
-from nivel.system.hydraulics.elements import families as families_of_circuits
-from nivel.system.hydraulics.elements import families_of
+from nivel.system.circuit_elements import families as families_of_circuits
+from nivel.system.circuit_elements import families_of
 from nivel.system.joints.joints import JOINTS
 
 # in these equations every machine is assembled

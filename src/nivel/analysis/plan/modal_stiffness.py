@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from nivel.analysis.plan.soft_forces import is_soft
+from nivel.elements.circuits.component import Component
 from nivel.elements.forces.loads import PointForce, Torque
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.integrate.facts import IntegratorFacts
-from nivel.machine.hydraulics import Component
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.hydraulics.elements import has_slopes
+from nivel.system.circuit_elements import has_slopes
 
 MOVING = ("joints", "inputs", "markers", "bodies")  # what signals of the motion are read from
 

@@ -42,8 +42,8 @@ from nivel.kernels.record.record import Record
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
+from nivel.system.circuit_tangent import with_circuit_tangent
 from nivel.system.elimination.partition import DIRECTIONS, PARAMETERS, refuse_dependent
-from nivel.system.hydraulics.tangent import with_circuit_tangent
 from nivel.system.system import Array, System
 
 

@@ -21,8 +21,8 @@ from scipy.linalg import null_space
 from scipy.sparse import bmat, csc_matrix
 
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.elements.circuits.volumes import VOLUME
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.output import static_entries
 from nivel.kernels.record.record import NONE
 from nivel.kernels.residual import tangent_entries

@@ -20,6 +20,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.circuits.pistons import a_stop_is_met, pushing_stops
+from nivel.elements.circuits.tangent import find_slopes, slope_by_mass
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.integrate.rosenbrock.extrapolated_euler import (
@@ -34,8 +36,6 @@ from nivel.integrate.rosenbrock.extrapolated_euler import (
 )
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.piston import a_stop_is_met, pushing_stops
-from nivel.kernels.hydraulics.tangent import find_slopes, slope_by_mass
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.circuit_shift import advance_circuit, factorise_circuit, soften

@@ -16,11 +16,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.circuits.ledger import balance_mass, mass_apart
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
-from nivel.kernels.hydraulics.ledger import balance_mass, mass_apart
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.residual.shifted_along import prepare_shifted, return_to, solve_shifted
 from nivel.kernels.residual.shifted_slopes import ROWS as OF_SLOPES

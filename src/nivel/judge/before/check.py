@@ -33,8 +33,8 @@ from nivel.judge.before.in_words import (
 from nivel.kernels.core.status import OK
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.circuit_elements import without_slopes
 from nivel.system.flexible import bending_bodies
-from nivel.system.hydraulics.elements import without_slopes
 from nivel.system.joints.joints import JOINTS, composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System

@@ -10,29 +10,23 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
+from nivel.elements.circuits.accumulators import Accumulator
+from nivel.elements.circuits.chambers import Actuator
+from nivel.elements.circuits.check_valves import CheckValve
+from nivel.elements.circuits.component import Component
+from nivel.elements.circuits.directional_valves import DirectionalValve
+from nivel.elements.circuits.holding_valves import CounterbalanceValve
+from nivel.elements.circuits.load_sensing import LoadSensing
+from nivel.elements.circuits.pilot_valves import PilotReducingValve
+from nivel.elements.circuits.pumps import FlowSource, Pump
+from nivel.elements.circuits.ranges import PUMP_DISPLACEMENT
+from nivel.elements.circuits.reducing_valves import Compensator, ReducingValve
+from nivel.elements.circuits.relief_valves import ReliefValve
+from nivel.elements.circuits.rotary import RotaryMachine
+from nivel.elements.circuits.sections import Section
+from nivel.elements.circuits.spool_valves import SpoolValve
+from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
 from nivel.judge.finding import Finding
-from nivel.machine.hydraulics import (
-    Accumulator,
-    Actuator,
-    CheckValve,
-    Compensator,
-    Component,
-    CounterbalanceValve,
-    DirectionalValve,
-    FlowSource,
-    LoadSensing,
-    PilotReducingValve,
-    Pump,
-    ReducingValve,
-    ReliefValve,
-    Reservoir,
-    Section,
-    SpoolValve,
-    Tank,
-    Volume,
-)
-from nivel.machine.hydraulics.machines import RotaryMachine
-from nivel.machine.hydraulics.usual import PUMP_DISPLACEMENT
 
 Said = Iterator[Finding]
 LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from nivel.elements.circuits.component import Component
 from nivel.elements.forces.loads import PointForce
 from nivel.elements.forces.spring_node import SpringNode
 from nivel.machine.control.block import Block
@@ -15,7 +16,6 @@ from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.forces.rope import Rope
-from nivel.machine.hydraulics import Component
 from nivel.machine.joints.coupling import Coupling, FunctionCoupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.python_law import PythonLaw

@@ -11,6 +11,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.circuits.chambers import Actuator
+from nivel.elements.circuits.component import Component
+from nivel.elements.circuits.rotary import RotaryMachine
+from nivel.elements.circuits.tanks import Volume
 from nivel.judge.before.circuits import circuit_remarks
 from nivel.judge.finding import Finding
 from nivel.machine.bodies.body import Body
@@ -29,8 +33,6 @@ from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
 from nivel.machine.forces.contact import Contact
 from nivel.machine.given import Shown, Usual
-from nivel.machine.hydraulics import Actuator, Component, Volume
-from nivel.machine.hydraulics.machines import RotaryMachine
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
 from nivel.machine.uses.hydraulic_uses import makers, ports_of

@@ -1,4 +1,4 @@
-"""Record of derivatives for linearly implicit steps of machines with circuits, see `nivel.kernels.hydraulics.tangent`."""
+"""Record of derivatives for linearly implicit steps of machines with circuits, see `nivel.elements.circuits.tangent`."""
 
 from __future__ import annotations
 

@@ -186,14 +186,14 @@ class Circuit(NamedTuple):
     """Nodes of hydraulic and pneumatic circuits, N of them: volumes, given pressures, pressures that are signals."""
 
     node: U2  # (N, 2) fluid, state that is the mass [kg], or NONE: what flows there leaves the circuit
-    fluid: F2  # (fluids, ·) constants of each law of density, see `nivel.kernels.hydraulics.fluid`
-    room: F2  # (N, 5) of each volume what pistons do not change, see `nivel.kernels.hydraulics.volume`
+    fluid: F2  # (fluids, ·) constants of each law of density, see `nivel.elements.circuits.density`
+    room: F2  # (N, 5) of each volume what pistons do not change, see `nivel.elements.circuits.volumes`
     secant: U1  # (1,) 1: restrictions have secants in place of tangents, for linearly implicit steps
     # steps of `nivel.integrate.rosenbrock.extrapolated_euler` whose extrapolation was not taken, largest difference of pressures in one
     # [Pa]
     guard: F1  # (2,)
     kept: F1  # (N,) [Pa] pressures of another state
-    # (N, 8) of each volume the last mass and room, real numbers, with all that follows from them: see `nivel.kernels.hydraulics.volume`
+    # (N, 8) of each volume the last mass and room, real numbers, with all that follows from them: see `nivel.elements.circuits.volumes`
     known: F2
     # work
     volume: W1  # (N,) [m³] that pistons leave open, without what is constant

@@ -2,5 +2,5 @@
 channels.
 
 `parts` reads a machine, `placing` puts its parts into rows and columns, `routing` lays lines and labels, `drawing` writes the SVG. Symbols
-are those of each `nivel.system.hydraulics.kind.ComponentKind`.
+are those of each `nivel.elements.circuits.kind.ComponentKind`.
 """

@@ -9,32 +9,24 @@ from typing import Any, Final
 
 import numpy as np
 
+from nivel.elements.circuits import COMPONENTS
+from nivel.elements.circuits.check_valves import CheckValve
+from nivel.elements.circuits.component import Component, Rating
+from nivel.elements.circuits.directional_valves import DirectionalValve
+from nivel.elements.circuits.ejectors import Ejector
+from nivel.elements.circuits.flow_valves import FlowControl
+from nivel.elements.circuits.fluids import OIL, Fluid, Gas
+from nivel.elements.circuits.holding_valves import CounterbalanceValve
+from nivel.elements.circuits.orifices import Orifice
+from nivel.elements.circuits.pilot_valves import CartridgeValve
+from nivel.elements.circuits.reducing_valves import ReducingValve, SequenceValve
+from nivel.elements.circuits.relief_valves import CrossPortRelief, ReliefValve, UnloadingValve
+from nivel.elements.circuits.restrictions import CRITICAL_RATIO
+from nivel.elements.circuits.sections import Section
+from nivel.elements.circuits.spool_valves import SpoolValve, conductances
+from nivel.elements.circuits.ways import CENTRED, EDGES
 from nivel.looks.circuit.composed_characteristics import OF_COMPOSED
 from nivel.looks.circuit.curves import BAR, LITRE_PER_MINUTE, POINTS, Array, Chart, Curve, constant, root, step
-from nivel.machine.hydraulics import (
-    COMPONENT_OF,
-    CartridgeValve,
-    CheckValve,
-    CounterbalanceValve,
-    CrossPortRelief,
-    DirectionalValve,
-    Ejector,
-    FlowControl,
-    Fluid,
-    Gas,
-    Orifice,
-    ReducingValve,
-    ReliefValve,
-    Section,
-    SequenceValve,
-    SpoolValve,
-    UnloadingValve,
-)
-from nivel.machine.hydraulics.component import Component, Rating
-from nivel.machine.hydraulics.directional import CENTRED, EDGES
-from nivel.machine.hydraulics.fluid import OIL
-from nivel.system.hydraulics.components.spools import conductances
-from nivel.system.hydraulics.restrictions import CRITICAL_RATIO
 
 SUPPLY: Final = 7e5  # Pa absolute, before valves of gas
 STATED: Final = 10e5  # Pa over an edge whose catalogue states no difference of pressure
@@ -57,7 +49,7 @@ def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
     density = next(iter(densities.values()), OIL.mixed_density)
     out = []
     for data in record.get("hydraulics") or ():
-        component = COMPONENT_OF[str(data["type"])].model_validate(data) if data["type"] in COMPONENT_OF else None
+        component = COMPONENTS[str(data["type"])].record.model_validate(data) if data["type"] in COMPONENTS else None
         if isinstance(component, Rating) and component.is_of_gas:
             out.append(_of_gas(component))
             continue

@@ -7,15 +7,11 @@ from typing import Any, Final
 
 import numpy as np
 
+from nivel.elements.circuits.check_valves import ShuttleValve
+from nivel.elements.circuits.flow_valves import FlowDivider, PriorityValve
+from nivel.elements.circuits.holding_valves import BrakeValve
+from nivel.elements.circuits.pilot_valves import PilotReducingValve, PilotReliefValve
 from nivel.looks.circuit.curves import BAR, LITRE_PER_MINUTE, POINTS, Array, Chart, Curve, constant, root, step
-from nivel.machine.hydraulics import (
-    BrakeValve,
-    FlowDivider,
-    PilotReducingValve,
-    PilotReliefValve,
-    PriorityValve,
-    ShuttleValve,
-)
 
 HALVINGS: Final = 60
 

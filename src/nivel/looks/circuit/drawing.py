@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
+from nivel.elements.circuits.symbol import Symbol
 from nivel.looks.circuit.parts import Circuit, Part, circuit_of, variable_of
 from nivel.looks.circuit.placing import place
 from nivel.looks.circuit.routing import Drawing, Line, Router
-from nivel.system.hydraulics.symbols import Symbol
 
 LARGEST = 120  # components that can be read in one drawing
 COLD, KEYS = 220.0, 6  # hue of no pressure; patches of the key of colours

@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
-from nivel.machine.hydraulics import COMPONENT_OF
-from nivel.machine.hydraulics.component import SENSING
-from nivel.system.hydraulics.components import COMPONENTS
-from nivel.system.hydraulics.symbols import LETTER, Symbol, box
+from nivel.elements.circuits import COMPONENTS
+from nivel.elements.circuits.component import SENSING
+from nivel.elements.circuits.symbol import LETTER, Symbol, box
 
 HIGHEST: Final = 5e5  # Pa; a tank of a constant pressure above is a supply, others have a symbol at each of their pins
 VALUE: Final = "000.0 bar"  # room for a pressure
@@ -34,7 +33,7 @@ class Part:
     @property
     def sensing(self) -> tuple[str, ...]:
         """Ports that feel a pressure and take no flow."""
-        return COMPONENT_OF[self.type].sensing if self.type in COMPONENT_OF else SENSING
+        return COMPONENTS[self.type].record.sensing if self.type in COMPONENTS else SENSING
 
     @property
     def label(self) -> str:
@@ -118,7 +117,7 @@ def _ports(data: Mapping[str, Any]) -> dict[str, str]:
 
 def _nodes(kind: str) -> tuple[str, ...]:
     """Its nodes that others connect to: "" for itself, ".A" for its chamber A."""
-    return COMPONENT_OF[kind].nodes if kind in COMPONENT_OF else ()
+    return COMPONENTS[kind].record.nodes if kind in COMPONENTS else ()
 
 
 def _symbol(data: Mapping[str, Any], kind: str) -> Symbol:

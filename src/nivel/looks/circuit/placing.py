@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
+from nivel.elements.circuits.symbol import flipped
 from nivel.looks.circuit.parts import Circuit, Part
-from nivel.system.hydraulics.symbols import flipped
 
 ACTUATOR, LOAD, VALVE, BEFORE, SUPPLY = 0, 1, 2, 3, 4
 RANKS: Final = {"actuator": ACTUATOR, "valve": VALVE, "supply": SUPPLY}

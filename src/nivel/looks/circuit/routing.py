@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from nivel.elements.circuits.symbol import LETTER
 from nivel.looks.circuit.parts import VALUE, Circuit, Part
-from nivel.system.hydraulics.symbols import LETTER
 
 TRACK, LANE, MARGIN, EDGE = 19.0, 11.0, 14.0, 10.0  # [px] between tracks and lanes; above and below tracks; around all
 DRAIN = 26.0  # height of a tank with its line

@@ -12,12 +12,11 @@ from difflib import get_close_matches
 from functools import lru_cache
 from typing import Any, Final, Literal
 
+from nivel.elements.circuits import record_of
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
-from nivel.machine.hydraulics import COMPONENT_OF
-from nivel.machine.hydraulics.signals import signals_of
 from nivel.machine.joints.joint import JOINT_COORDINATES
 from nivel.machine.laws.table import SIGNAL_PATH
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
@@ -101,6 +100,12 @@ def find_in(path: str, index: Index) -> Symbol:
     raise UnknownSymbolError(f"{what}{hint}")
 
 
+def _of_component(component: Any) -> tuple[str, ...]:
+    """Names of the quantities of a component, a record or raw data: `pressure`, `flow_PA`, …"""
+    kind = record_of(entry(component, "type"))
+    return () if kind is None else kind.signals_in(component)
+
+
 @lru_cache(maxsize=4)
 def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     """Section → element → the quantities that it has."""
@@ -110,7 +115,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
         "control": {name: quantities_of(block) for name, block in index.control.items()},
         "forces": {name: (*states_of(force), *outputs_of(force)) for name, force in index.forces.items()},
-        "hydraulics": {name: signals_of(each) for name, each in index.hydraulics.items()},
+        "hydraulics": {name: _of_component(each) for name, each in index.hydraulics.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
         "bodies": {name: _of_frame(name, index) for name in index.bodies if "." not in name},
@@ -150,7 +155,7 @@ def follows_control(symbol: Symbol, index: Index) -> bool:
     """Whether it follows from flows, and these from the control."""
     if symbol.section != "hydraulics":
         return False
-    kind = COMPONENT_OF.get(str(entry(index.hydraulics[symbol.name], "type")))
+    kind = record_of(entry(index.hydraulics[symbol.name], "type"))
     return kind is not None and symbol.quantity not in kind.early
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
+from nivel.elements.circuits import COMPONENTS, record_of
+from nivel.elements.circuits.chambers import SINGLE, Actuator
+from nivel.elements.circuits.component import SENSING, Component
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.record import entry
 from nivel.machine.hydraulic_fluids import fluid_faults
-from nivel.machine.hydraulics import COMPONENT_OF, Actuator, Component
-from nivel.machine.hydraulics.actuators import SINGLE
-from nivel.machine.hydraulics.component import SENSING
 from nivel.machine.laws.symbols import paths_in, symbol_faults
 from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, find, unknown_name
@@ -28,7 +28,7 @@ def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faul
     used: set[str] = set()
     for at, component in enumerate(components):
         place: Place = ("hydraulics", at)
-        kind = COMPONENT_OF.get(str(entry(component, "type")))
+        kind = record_of(entry(component, "type"))
         yield from _of_ports(component, nodes, used, place)
         yield from _of_fluid(component, index, place)
         yield from _of_signal(component, index, used, place)
@@ -48,11 +48,11 @@ def node_types(components: Any) -> dict[str, str]:
     out: dict[str, str] = {}
     for component in components:
         name, type_ = entry(component, "name"), str(entry(component, "type"))
-        if not isinstance(name, str) or type_ not in COMPONENT_OF:
+        if not isinstance(name, str) or type_ not in COMPONENTS:
             continue
         ports = ports_of(component)
         single = entry(component, "acting") in SINGLE
-        for node in COMPONENT_OF[type_].nodes_in(component):
+        for node in COMPONENTS[type_].record.nodes_in(component):
             attached = node[1:] in ports and _has_chambers(type_)
             if not attached and not (single and node == ".B"):
                 out[f"{name}{node}"] = type_
@@ -60,7 +60,7 @@ def node_types(components: Any) -> dict[str, str]:
 
 
 def _has_chambers(type_: str) -> bool:
-    return type_ in COMPONENT_OF and issubclass(COMPONENT_OF[type_], Actuator)
+    return type_ in COMPONENTS and issubclass(COMPONENTS[type_].record, Actuator)
 
 
 def makers(components: Any) -> dict[str, Any]:
@@ -77,7 +77,7 @@ def ports_of(component: Any) -> Mapping[str, str]:
 def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: Place) -> Faults:
     type_ = str(entry(component, "type"))
     seen: dict[str, str] = {}
-    sensing = COMPONENT_OF.get(type_, Component).sensing
+    sensing = (record_of(type_) or Component).sensing
     for port, node in ports_of(component).items():
         where = (*place, "ports", port)
         if port not in sensing or nodes.get(node) != "volume":  # a tank may be felt alone
@@ -101,7 +101,7 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
 
 
 def _of_fluid(component: Any, index: Index, place: Place) -> Faults:
-    type_ = COMPONENT_OF.get(str(entry(component, "type")))
+    type_ = record_of(entry(component, "type"))
     if type_ is None or "fluid" not in type_.model_fields:
         return
     fluid = entry(component, "fluid")
@@ -126,7 +126,7 @@ def _of_signal(component: Any, index: Index, used: set[str], place: Place) -> Fa
 
 def _has_a_load(valve: Any) -> bool:
     """Whether a valve feeds A or B, one at a time, from P."""
-    kind = COMPONENT_OF.get(str(entry(valve, "type")))
+    kind = record_of(entry(valve, "type"))
     if kind is None or not kind.loads:
         return False
     return kind.ports_in(valve) >= {"P", "T", "A", "B"}
@@ -164,7 +164,7 @@ def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Param
     for key in keys:
         for where, path in paths_in(entry(component, key), (*place, key), index, parameters):
             name, _, quantity = path.partition(".")
-            kind = COMPONENT_OF.get(str(entry(index.hydraulics.get(name), "type")))
+            kind = record_of(entry(index.hydraulics.get(name), "type"))
             if kind is not None and quantity in kind.late and name not in index.joints and name not in index.states:
                 early = [f"`{name}.{each}`" for each in kind.early]
                 hint = f"{' or '.join(early)}, or " if early else ""
@@ -196,7 +196,7 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
     joined: dict[str, set[str]] = {}
     safe: set[str] = set()
     for component in components:
-        kind, ports = COMPONENT_OF.get(str(entry(component, "type")), Component), ports_of(component)
+        kind, ports = (record_of(entry(component, "type")) or Component), ports_of(component)
         if kind.relieves in ports:
             safe.add(ports[kind.relieves])
         for a, b in kind.passes:
@@ -204,7 +204,7 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
                 joined.setdefault(ports[a], set()).add(ports[b])
     tanks = {name for name, type_ in nodes.items() if type_ in ("tank", "reservoir")}
     for at, component in enumerate(components):
-        kind, ports = COMPONENT_OF.get(str(entry(component, "type")), Component), ports_of(component)
+        kind, ports = (record_of(entry(component, "type")) or Component), ports_of(component)
         if kind.delivers not in ports or any(entry(component, key) is not None for key in BOUNDING):
             continue
         node = ports[kind.delivers]

@@ -16,9 +16,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.hydraulics.fluid import REFERENCE_PRESSURE
-from nivel.machine.hydraulics.nodes import ATMOSPHERE
-from nivel.machine.hydraulics.spool_valve import ends_of
+from nivel.elements.circuits.fluids import ATMOSPHERE, REFERENCE_PRESSURE
+from nivel.elements.circuits.spool_valves import ends_of
 from nivel.results.scales import Readable
 
 START: Final = "hydraulics."

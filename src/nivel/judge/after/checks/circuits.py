@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.circuits.ways import CENTRED
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Motion, Run
-from nivel.machine.hydraulics.directional import CENTRED
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number, quantity
 

@@ -1,0 +1,20 @@
+"""Components of hydraulic and pneumatic circuits, a file for each family of kinds."""
+
+from typing import TYPE_CHECKING, Annotated, Final
+
+from nivel.elements.circuits.component import Component
+from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.kind import Kinds, OneOf
+
+COMPONENTS: Final = Kinds[ComponentKind](__name__)
+
+if TYPE_CHECKING:
+    HydraulicComponent = Component
+else:
+    HydraulicComponent = Annotated[Component, OneOf(COMPONENTS)]
+
+
+def record_of(word: object) -> type[Component] | None:
+    """The record of components of a type; None where there are none."""
+    kind = COMPONENTS.get(str(word))
+    return None if kind is None else kind.record

@@ -1,0 +1,248 @@
+"""Accumulators: a volume with gas in it, behind an inlet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+
+from nivel.elements.circuits import ranges
+from nivel.elements.circuits.chambers import DEAD_SHARE
+from nivel.elements.circuits.charges import OUTPUT, charge, charge_nitrogen, exchange_heat, warm_nitrogen
+from nivel.elements.circuits.component import Component
+from nivel.elements.circuits.fluids import ROOM
+from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.ledger import lose_between, transfer
+from nivel.elements.circuits.masses import nitrogen_room
+from nivel.elements.circuits.nodes import volume_node
+from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.restrictions import TRANSITION, add_flow, restrict
+from nivel.elements.circuits.smooth import ramp, root_flow, step
+from nivel.elements.circuits.symbol import Symbol, path, setting
+from nivel.elements.circuits.tangent import add_flow_by_pressure
+from nivel.elements.circuits.volumes import THETA
+from nivel.elements.states import StateFact
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Exponent, NotNegativePressure, Pressure, Temperature, VolumeFlow
+from nivel.machine.core.coefficient import Volume as VolumeSize
+from nivel.machine.core.record import Name, entry
+from nivel.machine.given import Field, Maybe
+from nivel.machine.units.quantity import Duration
+from nivel.native.function import leaf
+
+if TYPE_CHECKING:
+    from nivel.elements.circuits.kind import Swept
+    from nivel.elements.circuits.nodes import Node
+    from nivel.system.builder import SystemBuilder
+
+LEAST_NITROGEN, MOST_NITROGEN, COLD, HOT = 1e5, 4e7, 233.0, 423.0  # Pa, K: of the precharge of nitrogen
+
+
+class Accumulator(Component):
+    """A volume with gas in it, behind an inlet."""
+
+    needs: ClassVar[tuple[str, ...]] = ("A",)
+    nodes: ClassVar[tuple[str, ...]] = ("",)
+    early: ClassVar[tuple[str, ...]] = ("pressure",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "temperature")
+
+    type: Literal["accumulator"] = "accumulator"
+    volume: VolumeSize = Field(description="of the gas at its precharge", usual=ranges.VOLUME)
+    precharge: Pressure = Field(description="pressure of the gas without oil, absolute", usual=ranges.PRESSURE)
+    gas_exponent: Maybe[Exponent] = Field(
+        default=None,
+        description="polytropic exponent of the gas, default 1.3; with a `thermal_time` the adiabatic one, default 1.4",
+    )
+    thermal_time: Maybe[Duration] = Field(
+        default=None, description="time constant with which the gas takes the temperature of its surroundings"
+    )
+    temperature: Temperature = Field(
+        default=ROOM, description="of the surroundings, with a `thermal_time`", usual=ranges.TEMPERATURE
+    )
+    gas: Literal["ideal", "nitrogen"] = Field(
+        default="ideal", description="with a `thermal_time` also `nitrogen` by its own equation of state"
+    )
+    piston_friction: NotNegativePressure = Field(
+        default=0.0,
+        description="difference of pressure that moves the piston between oil and gas",
+        usual=ranges.DIFFERENCE,
+    )
+    dead_volume: Maybe[VolumeSize] = Field(
+        default=None, description="of oil when it is empty; default 2 % of the volume"
+    )
+    flow: VolumeFlow = Field(description="through the inlet at `pressure_drop`", usual=ranges.FLOW)
+    pressure_drop: Pressure = Field(description="at which `flow` is measured", usual=ranges.DIFFERENCE)
+    start: Maybe[Pressure] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit", usual=ranges.PRESSURE
+    )
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+    @property
+    def exponent(self) -> float:
+        """Of the law p Vⁿ of the gas."""
+        return self.gas_exponent or (1.3 if self.thermal_time is None else 1.4)
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        warm = entry(data, "thermal_time") is not None
+        return (*cls.early, *cls.late[: None if warm else 1])
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.gas == "nitrogen":
+            if self.thermal_time is None:
+                yield Problem(
+                    ("gas",),
+                    "nitrogen with its own equation of state needs a `thermal_time`, such as `thermal_time: 20 s`",
+                )
+            if self.gas_exponent is not None:
+                yield superfluous("gas_exponent", "belongs to an ideal gas; nitrogen has its own equation of state")
+            if not LEAST_NITROGEN <= self.precharge <= MOST_NITROGEN or not COLD <= self.temperature <= HOT:
+                told = "the equation of nitrogen holds from 1 to 400 bar of precharge and from 233 to 423 K"
+                yield Problem(("gas",), f"{told}, got {self.precharge:g} Pa at {self.temperature:g} K")
+        if self.thermal_time is None and self.temperature != ROOM:
+            yield superfluous("temperature", "belongs to a `thermal_time`, and none is given")
+        if self.thermal_time is not None and self.exponent == 1.0:
+            yield Problem(("gas_exponent",), "with a `thermal_time` an adiabatic exponent above 1 was expected, got 1")
+
+
+# inlets of accumulators with pistons: columns of `columns`, then of `number`: K [m³/s/√Pa], corner c [Pa], friction F [Pa],
+# creep G [m³/s/Pa]
+FROM, TO = 1, 2
+FLOW, CORNER, STICK, CREEP = 0, 1, 2, 3
+ROUNDED = 0.1  # share of the friction within which it is rounded
+
+
+@called(Phase.FLOWS, 15)
+@family
+def rub(machine, number, t):
+    """Inlets of accumulators with pistons: what is left of the difference of pressure beyond their friction drives the flow,
+
+    Q = K e (e² + c²)^(-1/4) + G Δp, e = R(Δp - F) - R(-Δp - F)
+
+    A piston that sticks creeps by G: without it a step would not see that it breaks loose.
+    """
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    secant = circuit.secant[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        left = beyond(difference, n[STICK])
+        flow = n[FLOW] * root_flow(left, n[CORNER], secant) + n[CREEP] * difference
+        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+        record.outputs.value[index[OUTPUT]] = flow
+    return OK
+
+
+@leaf
+def beyond(difference, friction):
+    """What of a difference of pressure is beyond the friction of a piston, with its sign."""
+    width = ROUNDED * friction
+    return ramp(difference - friction, width) - ramp(-difference - friction, width)
+
+
+@slopes_of(rub)
+@family
+def add_slopes_of_inlets(machine, number, t):
+    """Slopes of the flows through such inlets, as secants from F on."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        left = beyond(difference, n[STICK])
+        density = 0.5 * (circuit.density[a] + circuit.density[b])
+        opened = step((np.abs(difference) - n[STICK]) / (ROUNDED * n[STICK]))
+        slope = density * (n[FLOW] * opened / np.sqrt(np.sqrt(left * left + n[CORNER] * n[CORNER])) + n[CREEP])
+        add_flow_by_pressure(circuit, a, b, a, slope)
+        add_flow_by_pressure(circuit, a, b, b, -slope)
+    return OK
+
+
+def accumulator_nodes(builder: SystemBuilder, component: Accumulator, swept: Swept) -> Iterator[Node]:
+    """The node behind the inlet of an accumulator."""
+    dead = component.dead_volume or DEAD_SHARE * component.volume
+    if component.gas == "nitrogen":
+        room = nitrogen_room(dead, component.volume, component.precharge, component.temperature, component.start)
+    else:
+        room = (dead, 0.0, component.volume, first_charge(component), component.exponent)
+    yield volume_node(
+        builder, component, component.name, "", room, component.start, swept, temperature="oil_temperature"
+    )
+
+
+def first_charge(component: Accumulator) -> float:
+    """The precharge; with a thermal time that of the compression without heat that ends at the start at the temperature around it."""
+    if component.thermal_time is None or component.start is None:
+        return component.precharge
+    return component.precharge * min(1.0, component.precharge / component.start) ** (component.exponent - 1.0)
+
+
+CREEP_SHARE = 1e-3  # share of the rated flow by which a piston that sticks moves at the limit of its friction
+
+
+def add_inlet(builder: SystemBuilder, component: Accumulator) -> None:
+    """The inlet of an accumulator."""
+    conductance = component.flow / math.sqrt(component.pressure_drop)
+    ends = component.ports["A"], component.name
+    if component.piston_friction:
+        name = f"hydraulics.{component.name}.flow"
+        first = builder.outputs.add((name, "m^3/s", f"flow of {component.name}"))
+        columns = [first, builder.node(ends[0]), builder.node(ends[1])]
+        friction = component.piston_friction
+        builder.elements.add(rub, columns, [conductance, TRANSITION, friction, CREEP_SHARE * component.flow / friction])
+    else:
+        add_flow(builder, component.name, "flow", ends, [conductance, TRANSITION, 0.0])
+    if component.thermal_time is not None:
+        _add_gas(builder, component, component.thermal_time)
+
+
+def _add_gas(builder: SystemBuilder, component: Accumulator, time: float) -> None:
+    """The temperature of the gas of an accumulator."""
+    real = component.gas == "nitrogen"
+    if real:
+        words = f"temperature of the gas in {component.name} on its adiabat at the density of its precharge"
+        theta = builder.circuit.nodes[component.name].room[THETA]
+        state = builder.own_state(
+            StateFact(f"{component.name}.gas_temperature", "K", words, theta, component.temperature)
+        )
+    else:
+        words = f"P of the gas in {component.name}, as of a precharge"
+        state = builder.own_state(
+            StateFact(f"{component.name}.charge", "Pa", words, first_charge(component), component.precharge)
+        )
+    first = builder.outputs.add(
+        (f"hydraulics.{component.name}.temperature", "K", f"temperature of the gas in {component.name}")
+    )
+    columns = [first, builder.node(component.name), state]
+    builder.elements.add(charge_nitrogen if real else charge, columns)
+    numbers = [component.precharge, time, component.temperature]
+    builder.elements.add(warm_nitrogen if real else exchange_heat, columns, numbers)
+
+
+OF_ACCUMULATORS = (
+    restrict,
+    charge,
+    exchange_heat,
+    charge_nitrogen,
+    warm_nitrogen,
+    rub,
+)
+
+
+def accumulator(data: Mapping[str, Any]) -> Symbol:
+    """An accumulator."""
+    body = path("M-10 -10 A10 10 0 0 1 10 -10 V6 A10 10 0 0 1 -10 6 Z M-10 -2 H10 M0 16 V22 M-4 -8 h8 l-4 5 z")
+    return Symbol(body, 10.0, 22.0, {}, {"A": 0.0}, "supply", setting(data, "volume", 1e3, "L"))
+
+
+KINDS = (ComponentKind(Accumulator, add_inlet, OF_ACCUMULATORS, symbol=accumulator, nodes=accumulator_nodes),)

@@ -1,0 +1,146 @@
+"""Curves and tables of catalogues: of spools, of machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, core_schema
+
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import Numbers, Pressure
+from nivel.machine.given import Field, Given, ManyNumbers, OneNumber
+from nivel.machine.laws.table import Table, read_table
+from nivel.machine.units import dimension
+from nivel.machine.units.quantity import Quantity, fault, listed, parameters_of, shown
+
+SMOOTH = ("linear", "cubic", "monotone")
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A table whose values are not negative. It is none of the functions of a machine: only its own component reads it."""
+
+    table: Table
+
+    @property
+    def points(self) -> tuple[float, ...]:
+        """Where it is known, increasing."""
+        return self.table.times
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """What it is there, SI."""
+        return self.table.values
+
+    def __call__(self, at: float) -> float:
+        """Its value; beyond its ends, that at the end."""
+        return self.table(at)
+
+    def written(self) -> dict[str, Any]:
+        """The curve as a mapping of a machine file."""
+        return self.table.written()
+
+
+SomeCurve = Given[Curve, Curve, Curve | Table | Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class CurveOf:
+    """Annotation of a field that is a Curve of a quantity of `kind` over the symbol `over`."""
+
+    kind: str
+    over: str
+
+    def read(self, value: Any, info: ValidationInfo) -> Curve:
+        value = value.table if isinstance(value, Curve) else value
+        if not isinstance(value, Table) and not (isinstance(value, dict) and ("points" in value or "times" in value)):
+            example = f"{{of: {self.over}, points: [0, 1], values: [0, …]}}"
+            raise fault(f"a curve over `{self.over}` such as {example} was expected, got {shown(value)}")
+        table = read_table(value, self.kind, parameters_of(info), (self.over,))
+        if table.of != self.over:
+            raise fault(f"a curve over `{self.over}` was expected: write `of: {self.over}`, got `of: {table.of}`")
+        if table.interpolation not in SMOOTH:
+            raise fault(f"a curve is linear, cubic or monotone, not {table.interpolation}")
+        if min(table.values) < 0.0:
+            raise fault(f"a curve without negative values was expected, got {min(table.values):g}")
+        return Curve(table)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        written = core_schema.plain_serializer_function_ser_schema(Curve.written)
+        return core_schema.with_info_plain_validator_function(self.read, serialization=written)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        numbers = {"type": "array", "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}}
+        inline = {"of": {"const": self.over}, "points": numbers, "values": numbers}
+        text = {"type": "string"}
+        filed = {"of": {"const": self.over}, "csv": text, "column": text, "time": text, "units": text}
+        more = {"interpolation": {"enum": list(SMOOTH)}}
+        return {
+            "anyOf": [
+                {
+                    "type": "object",
+                    "properties": {**given, **more},
+                    "required": ["of", *required],
+                    "additionalProperties": False,
+                }
+                for given, required in ((inline, ("points", "values")), (filed, ("csv",)))
+            ],
+            "description": f"{dimension.KINDS[self.kind][0]} over `{self.over}`: a table, inline or from a CSV file",
+        }
+
+
+Pressures = Annotated[ManyNumbers[Pressure], BeforeValidator(listed)]
+Speeds = Annotated[
+    ManyNumbers[Annotated[OneNumber, Quantity("angular velocity", positive=True)]], BeforeValidator(listed)
+]
+
+
+def rising(key: str, values: Sequence[float]) -> Iterator[Problem]:
+    for at in range(1, len(values)):
+        if values[at] <= values[at - 1]:
+            yield Problem((key, at), f"{key} increase; {values[at]:g} does not come after {values[at - 1]:g}")
+            return
+
+
+def as_many(key: str, values: Sequence[float], over: str, count: int) -> Iterator[Problem]:
+    if len(values) != count:
+        yield Problem((key,), f"{count} {key} were expected, one for each of {over}, got {len(values)}")
+
+
+class EfficiencyMap(Checked):
+    """Efficiencies at points of speed, difference of pressure and setting, all magnitudes.
+
+    `volumetric` and `mechanical` have one number for each point; the setting changes first, then the pressure, then the speed.
+    """
+
+    speeds: Speeds = Field(description="of the shaft, increasing")
+    pressures: Pressures = Field(description="difference of pressure, increasing")
+    settings: Numbers = Field(default=(1.0,), description="share of the displacement, increasing")
+    volumetric: Numbers = Field(description="volumetric efficiency of each point")
+    mechanical: Numbers = Field(description="hydraulic-mechanical efficiency of each point")
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Points along speeds, pressures and settings."""
+        return len(self.speeds), len(self.pressures), len(self.settings)
+
+    def points(self) -> tuple[np.ndarray, ...]:
+        """(ω [rad/s], Δp [Pa], ε, η_v, η_hm), each of the `shape`."""
+        axes = np.meshgrid(self.speeds, self.pressures, self.settings, indexing="ij")
+        return (*axes, *(np.reshape(each, self.shape) for each in (self.volumetric, self.mechanical)))
+
+    def problems(self) -> Iterator[Problem]:
+        for key in ("speeds", "pressures", "settings"):
+            yield from rising(key, getattr(self, key))
+        if any(not 0.0 < each <= 1.0 for each in self.settings):
+            yield Problem(("settings",), "settings above 0 and up to 1 were expected")
+        count = int(np.prod(self.shape))
+        over = "all speeds, pressures and settings"
+        for key in ("volumetric", "mechanical"):
+            yield from as_many(key, getattr(self, key), over, count)
+            if any(not 0.0 < each <= 1.0 for each in getattr(self, key)):
+                yield Problem((key,), "efficiencies above 0 and up to 1 were expected")

@@ -1,0 +1,179 @@
+"""Valves in two stages: pilot-operated relief and reducing valves, and cartridges."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+from nivel.elements.circuits import ranges
+from nivel.elements.circuits.component import Rated, VaryingPressure
+from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, Moved, add_single, sums
+from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.nodes import inner_nodes
+from nivel.elements.circuits.restrictions import add_flow, rated
+from nivel.elements.circuits.symbol import Symbol, adjustable, in_bar, path, square, varies
+from nivel.machine.core.coefficient import (
+    Leakage,
+    NotNegativeDuration,
+    NotNegativePressure,
+    Pressure,
+    Share,
+    Volume,
+    VolumeFlow,
+)
+from nivel.machine.given import Field
+
+if TYPE_CHECKING:
+    from nivel.machine.laws.time_function import TimeFunction
+    from nivel.system.builder import SystemBuilder
+
+
+class _Piloted(Rated):
+    """What pilot-operated valves share: a main poppet or spool, moved by the drop over an orifice to its spring chamber X."""
+
+    nodes: ClassVar[tuple[str, ...]] = (".X",)
+    early: ClassVar[tuple[str, ...]] = ("pressure_X",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "position", "orifice_flow", "pilot_flow", "pilot_position")
+
+    pilot_flow: VolumeFlow = Field(
+        default=2e-3 / 60.0, description="of the orifice at `pilot_pressure_drop`; that of the open pilot is twice it"
+    )
+    pilot_pressure_drop: Pressure = Field(default=5e5, usual=ranges.DIFFERENCE)
+    pilot_range: Pressure = Field(default=3e5, description="over which the pilot opens wholly", usual=ranges.DIFFERENCE)
+    spring: NotNegativePressure = Field(
+        default=2e5,
+        description="difference of pressure at which the main stage begins to move",
+        usual=ranges.DIFFERENCE,
+    )
+    opening_range: Pressure = Field(default=3e5, description="from there to the other end of its stroke")
+    lag: NotNegativeDuration = Field(
+        default=0.005, description="time constant of the main stage; 0: none", usual=ranges.LAG
+    )
+    leakage: Leakage = Field(default=0.0)
+    inner_volume: Volume = Field(default=INNER_VOLUME, description="of the spring chamber", usual=ranges.VOLUME)
+
+    @property
+    def pilot_conductance(self) -> float:
+        """K [m³/s/√Pa] of the orifice to the spring chamber."""
+        return self.pilot_flow / self.pilot_pressure_drop**0.5
+
+
+class PilotReliefValve(_Piloted):
+    """A relief valve in two stages: a pilot drains the chamber X above `opens_at`, and the main poppet opens by the drop to X.
+
+    A valve from NAME.X to a tank unloads it; a relief valve there sets a lower pressure from afar.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("P", "T")
+    functions: ClassVar[tuple[str, ...]] = ("opens_at",)
+    relieves: ClassVar[str] = "P"
+
+    type: Literal["pilot-relief-valve"] = "pilot-relief-valve"
+    opens_at: VaryingPressure = Field(
+        description="difference of pressure of X and T at which the pilot opens", usual=ranges.PRESSURE
+    )
+
+
+class PilotReducingValve(_Piloted):
+    """A reducing valve in two stages: a pilot drains the chamber X to T above `pressure`, and the main spool closes from P to A by the
+    drop from A to X."""
+
+    needs: ClassVar[tuple[str, ...]] = ("P", "A", "T")
+    functions: ClassVar[tuple[str, ...]] = ("pressure",)
+
+    type: Literal["pilot-reducing-valve"] = "pilot-reducing-valve"
+    pressure: VaryingPressure = Field(
+        description="difference of pressure of X and T at which the pilot opens", usual=ranges.PRESSURE
+    )
+
+
+class CartridgeValve(Rated):
+    """A two-way cartridge (logic element): opens between A and B as p_A a + p_B (1 - a) exceeds p_X by `opens_at`, a = `area_share`."""
+
+    needs: ClassVar[tuple[str, ...]] = ("A", "B", "X")
+    late: ClassVar[tuple[str, ...]] = ("flow", "position")
+    passes: ClassVar[tuple[tuple[str, str], ...]] = ()
+
+    type: Literal["cartridge-valve"] = "cartridge-valve"
+    area_share: Share = Field(default=0.5, description="area of A over that of X; 1: B does not act")
+    opens_at: NotNegativePressure = Field(
+        default=2e5, description="of its spring, on the area of X", usual=ranges.DIFFERENCE
+    )
+    opening_range: Pressure = Field(default=3e5, description="from there to fully open", usual=ranges.DIFFERENCE)
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    leakage: Leakage = Field(default=0.0)
+
+
+def add_pilot_relief(builder: SystemBuilder, component: PilotReliefValve) -> None:
+    """An orifice from P to X, a pilot from X to T, and the main poppet that p_P - p_X lifts."""
+    p, t, x = component.ports["P"], component.ports["T"], f"{component.name}.X"
+    main = Moved(sums((p, 1.0), (x, -1.0)), component.opening_range, component.spring, lag=component.lag)
+    _add_piloted(builder, component, (p, t), (p, x, t), main, component.opens_at)
+
+
+def add_pilot_reducing(builder: SystemBuilder, component: PilotReducingValve) -> None:
+    """An orifice from A to X, a pilot from X to T, and the main spool that p_A - p_X closes."""
+    p, a, t = (component.ports[port] for port in "PAT")
+    x = f"{component.name}.X"
+    spring = component.spring + component.opening_range
+    main = Moved(sums((a, -1.0), (x, 1.0)), component.opening_range, spring, 1.0, lag=component.lag)
+    _add_piloted(builder, component, (p, a), (a, x, t), main, component.pressure)
+
+
+def _add_piloted(
+    builder: SystemBuilder,
+    component: PilotReliefValve | PilotReducingValve,
+    ends: tuple[str, str],
+    pilot: tuple[str, str, str],
+    main: Moved,
+    setting: TimeFunction,
+) -> None:
+    """pilot : the nodes before its orifice, between orifice and seat, and behind the seat."""
+    name = component.name
+    before, x, drain = pilot
+    corner = component.transition
+    opening = main.added(builder, name, "position")
+    add_flow(builder, name, "flow", ends, rated(component, component.leakage), opening)
+    orifice = [component.pilot_conductance, corner, 0.0]
+    add_flow(builder, name, "orifice_flow", (before, x), orifice)
+    seat = Moved(sums((x, 1.0), (drain, -1.0)), component.pilot_range, setting).added(builder, name, "pilot_position")
+    add_flow(builder, name, "pilot_flow", (x, drain), [2.0 * component.pilot_conductance, corner, 0.0], seat)
+
+
+def add_cartridge(builder: SystemBuilder, component: CartridgeValve) -> None:
+    """p_A and p_B on their shares of the area of X against p_X and the spring."""
+    ports, share = component.ports, component.area_share
+    factors = sums((ports["A"], share), (ports["B"], 1.0 - share), (ports["X"], -1.0))
+    add_single(builder, component, ("A", "B"), factors, 0.0)
+
+
+def pilot_relief(data: Mapping[str, Any]) -> Symbol:
+    """A pilot-operated relief valve with its vent port X."""
+    body = square(False, False) + path("M16 -9 l9 4 l-9 4 z", "full")
+    body += path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")
+    if varies(data, "opens_at"):
+        body += adjustable(13, 9, 27, -10)
+    return Symbol(body, 34.0, 20.0, {"P": 0.0, "X": 34.0}, {"T": 0.0}, "relief", in_bar(data, "opens_at"))
+
+
+def pilot_reducing(data: Mapping[str, Any]) -> Symbol:
+    """A pilot-operated reducing valve with its drain T."""
+    body = square(True, True, drained=True) + path("M16 -9 l9 4 l-9 4 z", "full")
+    body += path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")
+    below = {"P": 0.0, "T": 20.0}
+    return Symbol(body, 34.0, 20.0, {"A": 0.0, "X": 34.0}, below, settings=in_bar(data, "pressure"))
+
+
+def cartridge(data: Mapping[str, Any]) -> Symbol:
+    """A two-way cartridge valve: A below, B beside, X above its spring."""
+    body = path("M-14 -16 H14 V16 H-14 Z M-8 -6 H8 V4 L3 11 H-3 L-8 4 Z M0 16 V22 M14 8 H24 V-22")
+    body += path("M-4 -6 l8 -2 l-8 -3 l8 -2 l-4 -3") + path("M-8 -22 V-16", "dashed")
+    said = in_bar(data, "opens_at")
+    return Symbol(body, 24.0, 22.0, {"X": -8.0, "B": 24.0}, {"A": 0.0}, settings=said)
+
+
+KINDS = (
+    ComponentKind(PilotReliefValve, add_pilot_relief, OF_POPPETS, symbol=pilot_relief, nodes=inner_nodes("X")),
+    ComponentKind(PilotReducingValve, add_pilot_reducing, OF_POPPETS, symbol=pilot_reducing, nodes=inner_nodes("X")),
+    ComponentKind(CartridgeValve, add_cartridge, OF_POPPETS, symbol=cartridge),
+)

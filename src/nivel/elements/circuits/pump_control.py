@@ -1,0 +1,283 @@
+"""Settings of variable pumps with a swash actuator, limited by pressure and torque.
+
+    λ = min(1, T/(D h), curve(h))        h = ±(p_B - p_A), the pressure against which it delivers
+
+T is the limit of the torque: a hyperbola of flow and pressure. With a pilot X the torque is that of D times the mean of h and of p_X - p_A,
+as where two pumps share an engine. The setting ε follows its command c, cut to ±λ, as a spool:
+
+    ε̈ = ω² (c - ε) - 2 ζ ω ε̇, or with a greatest speed r, ε̇ = r tanh(ω (c - ε)/r)
+
+With load sensing c is a state, as of `nivel.elements.circuits.rotary`, where g is the least of the error of the pressure, of what the
+greatest pressure leaves and of (λ - c)/END; without a frequency ε = c.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nivel.elements.circuits.curves import Pressures, as_many, rising
+from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.rotary import END
+from nivel.elements.circuits.smooth import slope_of_step, step
+from nivel.elements.circuits.tangent import add_by_pressure
+from nivel.elements.states import StateFact
+from nivel.kernels.algebra.analytic import real, tanh
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.function import evaluate_function, table_value
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import Numbers
+from nivel.machine.given import Field
+from nivel.native.function import leaf, stage
+
+if TYPE_CHECKING:
+    from nivel.elements.circuits.pumps import HydraulicMotor, Pump
+    from nivel.system.builder import SystemBuilder
+
+
+class CutOffCurve(Checked):
+    """The greatest setting over the difference of pressure, straight lines between points, constant outside."""
+
+    pressures: Pressures = Field(description="difference of pressure, increasing")
+    settings: Numbers = Field(description="greatest share of the displacement there, from 0 to 1")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from rising("pressures", self.pressures)
+        yield from as_many("settings", self.settings, "`pressures`", len(self.pressures))
+        if any(not 0.0 <= each <= 1.0 for each in self.settings):
+            yield Problem(("settings",), "settings from 0 to 1 were expected")
+
+
+# columns of `columns`; output: setting; states of the setting, its speed, the command of load sensing; command; nodes A, B, LS, X; function
+# of the greatest torque; table of the greatest setting over pressure. NONE: without it
+OUTPUT, STATE, SPEED, SOUGHT, COMMAND, LOW, HIGH, SENSED, PILOT, TORQUE, CURVE = range(11)
+# columns of `number`: D [m³/rad], ω [rad/s], ζ, r [1/s] (0: second order), least and greatest setting; of load sensing the margin and range
+# [Pa], time [s], greatest pressure [Pa]
+DISPLACEMENT, FREQUENCY, DAMPING, RATE, LEAST, GREATEST, MARGIN, RANGE, TIME, CUT_OFF = range(10)
+
+
+@stage
+def torque_share(machine, index, n, t, way):
+    """T/(D h) at which the torque is at its limit; one where that is not met."""
+    circuit = record_at(machine).circuit
+    high = (circuit.pressure[index[HIGH]] - circuit.pressure[index[LOW]]) * way
+    if index[PILOT] != NONE:
+        high = 0.5 * (high + circuit.pressure[index[PILOT]] - circuit.pressure[index[LOW]])
+    greatest = evaluate_function(machine, index[TORQUE], t)
+    taken = n[DISPLACEMENT] * high
+    return greatest / taken if real(taken) > real(greatest) else 0.0 * high + 1.0
+
+
+@stage
+def greatest_share(machine, index, n, t, way):
+    """λ where fluid is delivered to B (way 1) or A (-1)."""
+    record = record_at(machine)
+    circuit = record.circuit
+    share = 0.0 * circuit.pressure[index[HIGH]] + 1.0
+    if index[TORQUE] != NONE:
+        share = torque_share(machine, index, n, t, way)
+    if index[CURVE] != NONE:
+        high = (circuit.pressure[index[HIGH]] - circuit.pressure[index[LOW]]) * way
+        least, _, _ = table_value(record.functions, index[CURVE], high)
+        if real(least) < real(share):
+            share = least + 0.0 * share
+    return share
+
+
+@stage
+def given_command(machine, index, n, t):
+    """(c, the way it delivers, whether λ cuts it) of a given command."""
+    command = evaluate_function(machine, index[COMMAND], t)
+    if real(command) > real(n[GREATEST]):
+        command = 0.0 * command + n[GREATEST]
+    elif real(command) < real(n[LEAST]):
+        command = 0.0 * command + n[LEAST]
+    way = 1.0 if real(command) >= 0.0 else -1.0
+    share = greatest_share(machine, index, n, t, way)
+    if way * real(command) > real(share):
+        return way * share, way, True
+    return command + 0.0 * share, way, False
+
+
+@stage
+def lacking_share(machine, index, n, t, own):
+    """(g of load sensing at the command `own`, which of its bounds is the least one: 0 margin, 1 greatest pressure, 2 λ)."""
+    circuit = record_at(machine).circuit
+    high = circuit.pressure[index[HIGH]]
+    g, bound = (circuit.pressure[index[SENSED]] + n[MARGIN] - high) * (1.0 / n[RANGE]), 0
+    spare = (n[CUT_OFF] - high) * (1.0 / n[RANGE])
+    if real(spare) < real(g):
+        g, bound = spare, 1
+    if index[TORQUE] != NONE or index[CURVE] != NONE:
+        over = (greatest_share(machine, index, n, t, 1.0) - own) * (1.0 / END)
+        if real(over) < real(g):
+            g, bound = over, 2
+    return g, bound
+
+
+@called(Phase.POSITIONS, 4)
+@family
+def regulate(machine, number, t):
+    """Settings, and the rates of their states."""
+    record = record_at(machine)
+    elements = record.elements
+    state, rate = elements.state, elements.state_rate
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        own = index[STATE]
+        if index[SOUGHT] == NONE:
+            command, _, _ = given_command(machine, index, n, t)
+        else:
+            command = state[index[SOUGHT]]
+            g, _ = lacking_share(machine, index, n, t, command)
+            room = n[GREATEST] - command if real(g) > 0.0 else command - n[LEAST]
+            rate[index[SOUGHT]] += g / np.sqrt(1.0 + g * g) * (1.0 / n[TIME]) * step(room * (1.0 / END))
+        if own != index[SOUGHT]:
+            omega = n[FREQUENCY]
+            if index[SPEED] == NONE:
+                rate[own] += n[RATE] * tanh(omega / n[RATE] * (command - state[own]))
+            else:
+                speed = state[index[SPEED]]
+                rate[own] += speed
+                rate[index[SPEED]] += omega * omega * (command - state[own]) - 2.0 * n[DAMPING] * omega * speed
+        record.outputs.value[index[OUTPUT]] = state[own]
+    return OK
+
+
+@leaf
+def add_share_by_pressure(machine, index, n, t, way, row, factor):
+    """Add `factor` times the slopes of λ to a row."""
+    record = record_at(machine)
+    circuit = record.circuit
+    high = (circuit.pressure[index[HIGH]] - circuit.pressure[index[LOW]]) * way
+    share = torque_share(machine, index, n, t, way) if index[TORQUE] != NONE else 1.0
+    if index[CURVE] != NONE:
+        least, slope, _ = table_value(record.functions, index[CURVE], high)
+        if least < share:
+            add_by_pressure(circuit, row, index[HIGH], factor * slope * way)
+            add_by_pressure(circuit, row, index[LOW], -factor * slope * way)
+            return
+    if share >= 1.0:
+        return
+    greatest = evaluate_function(machine, index[TORQUE], t)
+    slope = -share * share * n[DISPLACEMENT] / greatest * factor
+    if index[PILOT] == NONE:
+        add_by_pressure(circuit, row, index[HIGH], slope * way)
+        add_by_pressure(circuit, row, index[LOW], -slope * way)
+        return
+    add_by_pressure(circuit, row, index[HIGH], 0.5 * slope * way)
+    add_by_pressure(circuit, row, index[PILOT], 0.5 * slope)
+    add_by_pressure(circuit, row, index[LOW], -0.5 * slope * (1.0 + way))
+
+
+@leaf
+def add_slopes_of_sought(machine, index, n, t):
+    """Slopes of a command of load sensing."""
+    record = record_at(machine)
+    circuit, own = record.circuit, record.elements.state[index[SOUGHT]]
+    unknown = circuit.tangent.unknown[index[SOUGHT]]
+    row = circuit.tangent.slopes[unknown]
+    g, bound = lacking_share(machine, index, n, t, own)
+    root = np.sqrt(1.0 + g * g)
+    room, sign = (n[GREATEST] - own, -1.0) if g > 0.0 else (own - n[LEAST], 1.0)
+    row[unknown] += g / root / n[TIME] * slope_of_step(room / END) * sign / END
+    slope = step(room / END) / (root * root * root * n[TIME])
+    if bound == 2:
+        row[unknown] -= slope / END
+        add_share_by_pressure(machine, index, n, t, 1.0, row, slope / END)
+        return
+    add_by_pressure(circuit, row, index[HIGH], -slope / n[RANGE])
+    if bound == 0:
+        add_by_pressure(circuit, row, index[SENSED], slope / n[RANGE])
+
+
+@slopes_of(regulate)
+@family
+def add_slopes(machine, number, t):
+    """Slopes of all states of settings."""
+    record = record_at(machine)
+    elements, tangent = record.elements, record.circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        if index[SOUGHT] != NONE:
+            add_slopes_of_sought(machine, index, n, t)
+        if index[STATE] == index[SOUGHT]:
+            continue
+        own, omega = tangent.unknown[index[STATE]], n[FREQUENCY]
+        if index[SPEED] == NONE:
+            share = elements.state_rate[index[STATE]] / n[RATE]
+            follows, by_command = own, omega * (1.0 - share * share)
+            tangent.slopes[own, own] -= by_command
+        else:
+            follows, by_command = tangent.unknown[index[SPEED]], omega * omega
+            tangent.slopes[own, follows] += 1.0
+            tangent.slopes[follows, own] -= by_command
+            tangent.slopes[follows, follows] -= 2.0 * n[DAMPING] * omega
+        row = tangent.slopes[follows]
+        if index[SOUGHT] != NONE:
+            row[tangent.unknown[index[SOUGHT]]] += by_command
+            continue
+        _, way, is_cut = given_command(machine, index, n, t)
+        if is_cut:
+            add_share_by_pressure(machine, index, n, t, way, row, way * by_command)
+    return OK
+
+
+WITHOUT_CUT_OFF = 1e12  # Pa
+
+
+def _add_regulated(builder: SystemBuilder, component: Pump, output: int, ends: tuple[int, int]) -> None:
+    """The actuator of a pump, with its limits and load sensing."""
+    sensing, ports = component.margin is not None, component.ports
+    sought, command = NONE, NONE
+    if not sensing:
+        states = _actuator_states(builder, component)
+        command = builder.function(component.setting)
+    elif component.frequency is None:
+        sought = _setting_state(builder, component)
+        states = [sought, NONE]
+    else:
+        words = f"sought displacement of {component.name}"
+        sought = builder.own_state(StateFact(f"{component.name}.sought_setting", "1", words, 0.0, 1.0))
+        states = _actuator_states(builder, component)
+    felt = [builder.node(ports[port]) if port in ports else NONE for port in ("LS", "X")]
+    torque = NONE if component.torque_limit is None else builder.function(component.torque_limit)
+    curve = component.cut_off_curve
+    table = NONE if curve is None else held_table(builder, curve.pressures, curve.settings)
+    numbers = [component.displacement, *_actuator(component), *component.range_of_settings]
+    numbers += [component.margin or 0.0, component.control_range, component.response]
+    numbers.append(component.cut_off or WITHOUT_CUT_OFF)
+    columns = [output, *states, sought, command, *ends, *felt, torque, table]
+    builder.elements.add(regulate, columns, numbers)
+
+
+def _setting_state(builder: SystemBuilder, component: Pump | HydraulicMotor) -> int:
+    return builder.own_state(StateFact(f"{component.name}.setting", "1", f"displacement of {component.name}", 0.0, 1.0))
+
+
+def _actuator_states(builder: SystemBuilder, component: Pump | HydraulicMotor) -> list[int]:
+    """States of the setting and its speed; NONE for one of first order."""
+    state = _setting_state(builder, component)
+    if component.rate_limit is not None:
+        return [state, NONE]
+    words, scale = f"speed of the setting of {component.name}", 2.0 * math.pi * (component.frequency or 0.0)
+    return [state, builder.own_state(StateFact(f"{component.name}.setting_speed", "1/s", words, 0.0, scale))]
+
+
+def _actuator(component: Pump | HydraulicMotor) -> tuple[float, float, float]:
+    """FREQUENCY, DAMPING, RATE of `nivel.elements.circuits.pump_control`."""
+    return 2.0 * math.pi * (component.frequency or 0.0), component.damping_ratio, component.rate_limit or 0.0
+
+
+def held_table(builder: SystemBuilder, points: Sequence[float], values: Sequence[float]) -> int:
+    """A table of straight lines between points, constant outside."""
+    slopes = np.diff(values) / np.diff(points) if len(points) > 1 else np.zeros(0)
+    pieces = np.zeros((len(points) + 1, 4))
+    pieces[:, 0] = [values[0], *values]
+    pieces[1:-1, 1] = slopes
+    return builder.functions.add_table([points[0] - 1.0, *points], pieces)

@@ -1,0 +1,220 @@
+"""Flows through restrictions: orifices, edges of valves, leaks.
+
+    Q = K x Δp (Δp² + c²)^(-1/4) + G Δp        ṁ = ½ (ρ_a + ρ_b) Q
+
+x is an opening from 0 to 1. Edges of spools open as R(z)/R(z at a full stroke), z = factor u + shift, R a ramp: exactly closed within
+their overlap.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nivel.elements.circuits.density import thickness
+from nivel.elements.circuits.gases import REFERENCE, SURROUNDINGS, heat_capacity
+from nivel.elements.circuits.ledger import lose, lose_between, transfer
+from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.poppets import FIRST_FACTOR, FIRST_NODE, NODES, slope_of_poppet
+from nivel.elements.circuits.smooth import clipped, magnitude_within, ramp, root_flow, slope_of_step, step
+from nivel.elements.circuits.tangent import add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.native.function import leaf, stage
+
+if TYPE_CHECKING:
+    from nivel.elements.circuits.component import Rating
+    from nivel.system.builder import SystemBuilder
+
+# columns of `columns`; POSITION: output of the valve, or a function. Output: flow [m³/s]
+OUTPUT, FROM, TO, KIND, POSITION = 0, 1, 2, 3, 4
+# kinds of openings: one; a function; the position of a valve; that of an edge; of an edge that is open about the middle; of a cushion
+FIXED, GIVEN, DIRECT, EDGE, MIDDLE, CUSHION = 0, 1, 2, 3, 4, 5
+# columns of `number`: K [m³/s/√Pa], corner c [Pa], leak G [m³/s/Pa]; of edges the factor and shift of z, the width of the ramp, 1 over its
+# greatest value; of cushions the place of the end, 1 or -1 where the piston comes from below or above, their length, the least opening
+FLOW, CORNER, LEAK, FACTOR, SHIFT, WIDTH, SCALE, LEAST = 0, 1, 2, 3, 4, 5, 6, 7
+
+
+@stage
+def opening_of(machine, index, n, t):
+    """The opening of a restriction."""
+    value = record_at(machine).outputs.value
+    kind = index[KIND]
+    if kind == GIVEN:
+        return clipped(evaluate_function(machine, index[POSITION], t), 0.0)
+    if kind == DIRECT:
+        return clipped(value[index[POSITION]], 0.0)
+    if kind == EDGE:
+        u = clipped(value[index[POSITION]], -1.0)
+        return ramp(n[FACTOR] * u + n[SHIFT], n[WIDTH]) * n[SCALE]
+    if kind == MIDDLE:
+        u = clipped(value[index[POSITION]], -1.0)
+        return 1.0 - step(magnitude_within(u, 1e-6) / n[WIDTH])
+    if kind == CUSHION:
+        away = (value[index[POSITION]] - n[SHIFT]) * n[FACTOR]
+        return n[LEAST] + (1.0 - n[LEAST]) * step(away / n[WIDTH])
+    return 0.0 * value[index[OUTPUT]] + 1.0
+
+
+@called(Phase.FLOWS, 2)
+@family
+def restrict(machine, number, t):
+    """Flows of all restrictions."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    secant = circuit.secant[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        opening = opening_of(machine, index, n, t)
+        flow = (
+            n[FLOW] * opening * root_flow(difference, n[CORNER], secant)
+            + n[LEAK] / thickness(circuit, a, b) * difference
+        )
+        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+        record.outputs.value[index[OUTPUT]] = flow
+    return OK
+
+
+@leaf
+def slope_of_opening(index, n, u):
+    """Slope of the opening of a restriction with the position u of its valve."""
+    kind = index[KIND]
+    if kind == DIRECT:
+        return 1.0 if 0.0 <= u <= 1.0 else 0.0
+    if not -1.0 <= u <= 1.0:
+        return 0.0
+    if kind == EDGE:
+        return n[FACTOR] * step((n[FACTOR] * u + n[SHIFT]) / n[WIDTH]) * n[SCALE]
+    size = magnitude_within(u, 1e-6)
+    return -slope_of_step(size / n[WIDTH]) / n[WIDTH] * u / size
+
+
+@slopes_of(restrict)
+@family
+def add_slopes(machine, number, t):
+    """Slopes of all flows, those with pressures as secants."""
+    record = record_at(machine)
+    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b, kind = index[FROM], index[TO], index[KIND]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        density = 0.5 * (circuit.density[a] + circuit.density[b])
+        through = n[FLOW] / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
+        conductance = density * (through * opening_of(machine, index, n, t) + n[LEAK] / thickness(circuit, a, b))
+        if conductance != 0.0:
+            add_flow_by_pressure(circuit, a, b, a, conductance)
+            add_flow_by_pressure(circuit, a, b, b, -conductance)
+        if kind in (FIXED, GIVEN, CUSHION):
+            continue
+        slope = density * through * difference * slope_of_opening(index, n, value[index[POSITION]])
+        if slope == 0.0:
+            continue
+        state, poppet = circuit.tangent.source[index[POSITION], 0], circuit.tangent.source[index[POSITION], 1]
+        if state != NONE:
+            add_flow_by_column(circuit, a, b, state, slope)
+        elif poppet != NONE:
+            valve, factors = elements.columns[poppet], elements.number[poppet]
+            slope *= slope_of_poppet(machine, valve, factors, t)
+            for i in range(NODES):
+                if slope != 0.0 and valve[FIRST_NODE + i] != NONE:
+                    add_flow_by_pressure(circuit, a, b, valve[FIRST_NODE + i], slope * factors[FIRST_FACTOR + i])
+    return OK
+
+
+# The columns are those of `nivel.elements.circuits.restrictions`; in `number` C [m³/s/Pa] and b stand first. Output: flow at the reference
+# of ISO 8778, 1 bar and 20 °C [m³/s]
+SONIC, CRITICAL, LEAK_OF_GAS = 0, 1, 2
+ROUNDED = 1e-3
+WHOLE = np.sqrt(np.sqrt(1.0 + ROUNDED * ROUNDED))
+REFERENCE_ROOT = np.sqrt(293.15)  # √T_N [√K]
+
+
+@leaf
+def reduced_flow(n, high, low, secant):
+    """p₁ ψ [Pa] for the pressures upstream and downstream.
+
+    secant : on dual numbers, the derivative below choking is that of a line through the origin: see `root_flow`.
+    """
+    x = (high - low) / (high * (1.0 - n[CRITICAL]))
+    if real(x) >= 1.0:
+        return high + 0.0 * x
+    if secant == 1:
+        shown = real(x)
+        slope = WHOLE * np.sqrt((2.0 - shown) / np.sqrt(shown * shown + ROUNDED * ROUNDED))
+        return (high - low) / (1.0 - n[CRITICAL]) * slope
+    return high * x * WHOLE * np.sqrt(2.0 - x) / np.sqrt(np.sqrt(x * x + ROUNDED * ROUNDED))
+
+
+@stage
+def carry_heat(machine, a, b, flow):
+    """Energies that a mass flow [kg/s] from a to b takes along. Returns the available energy [W] of its heat in the gas that it meets."""
+    record = record_at(machine)
+    circuit, rate = record.circuit, record.elements.state_rate
+    up, down = (a, b) if real(flow) >= 0.0 else (b, a)
+    f = circuit.fluid[circuit.node[up, 0]]
+    warm, own = circuit.temperature[up], circuit.temperature[down]
+    carried = flow * heat_capacity(f) * warm
+    if circuit.node[a, 2] != NONE:
+        rate[circuit.node[a, 2]] -= carried
+    if circuit.node[b, 2] != NONE:
+        rate[circuit.node[b, 2]] += carried
+    size = flow if up == a else -flow
+    return size * (1.0 - f[SURROUNDINGS] / own) * heat_capacity(f) * (warm - own)
+
+
+@called(Phase.FLOWS, 0)
+@family
+def restrict_gas(machine, number, t):
+    """Flows of gas through all restrictions."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        f = circuit.fluid[circuit.node[a, 0]]
+        backward = real(circuit.pressure[b]) > real(circuit.pressure[a])
+        up, down = (b, a) if backward else (a, b)
+        reduced = reduced_flow(n, circuit.pressure[up], circuit.pressure[down], circuit.secant[0])
+        flow = n[SONIC] * opening_of(machine, index, n, t) * f[REFERENCE] * reduced
+        flow = flow / np.sqrt(circuit.temperature[up])
+        flow += n[LEAK_OF_GAS] * circuit.density[up] * (circuit.pressure[up] - circuit.pressure[down])
+        if backward:
+            flow = -flow
+        lose(machine, transfer(machine, a, b, flow) - carry_heat(machine, a, b, flow))
+        record.outputs.value[index[OUTPUT]] = flow * REFERENCE_ROOT / f[REFERENCE]
+    return OK
+
+
+TRANSITION = 0.5e5  # Pa, of restrictions that do not say
+CRITICAL_RATIO = 0.3  # of pneumatic valves that do not say
+
+
+def add_flow(
+    builder: SystemBuilder,
+    component: str,
+    quantity: str,
+    ends: tuple[str, str],
+    numbers: list[float],
+    opening: tuple[int, int] = (FIXED, 0),
+) -> None:
+    """A restriction between two nodes, of the family of their fluid. opening : its kind, and the output or function that it follows."""
+    first = builder.outputs.add(
+        (f"hydraulics.{component}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {component}")
+    )
+    family = restrict_gas if builder.circuit.nodes[ends[0]].gas else restrict
+    builder.elements.add(family, [first, builder.node(ends[0]), builder.node(ends[1]), *opening], numbers)
+
+
+def rated(component: Rating, leakage: float) -> list[float]:
+    """FLOW, CORNER, LEAK of a component from a catalogue, or SONIC, CRITICAL, LEAK of one for gases."""
+    if component.sonic_conductance is not None:
+        return [component.sonic_conductance, component.critical_ratio or CRITICAL_RATIO, leakage]
+    return [component.conductance, getattr(component, "transition", TRANSITION), leakage]

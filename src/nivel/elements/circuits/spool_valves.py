@@ -1,0 +1,267 @@
+"""Spool valves from catalogues in words: every edge has curves of its own, and the spool a solenoid, springs and the force of the flow."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator
+
+from nivel.elements.circuits import ranges
+from nivel.elements.circuits.component import Component, problem_of_share
+from nivel.elements.circuits.curves import Curve
+from nivel.elements.circuits.edges import MOST_EDGES, Edge, meter
+from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.spools import (
+    Dither,
+    Solenoid,
+    Switching,
+    add_drive,
+    add_switch,
+    drive,
+    full_force,
+    held_curve,
+    switch,
+)
+from nivel.elements.circuits.symbol import Symbol
+from nivel.elements.circuits.ways import boxes
+from nivel.kernels.record.record import NONE
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.coefficient import Frequency, NotNegativeNumber, PositiveNumber, Pressure
+from nivel.machine.core.record import entry
+from nivel.machine.given import Field, Given, Maybe, OneNumber, OneRecord
+from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import OneFunction, varying
+from nivel.machine.units.quantity import PositiveLength, Quantity, fault
+
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
+PORTS = ("P", "T", "A", "B", "C", "R", "S", "LS")
+
+
+def _edges(value: Any) -> Any:
+    if not isinstance(value, Mapping) or not value:
+        raise fault("a mapping of pairs of ports such as {PA: {…}, AT: {…}} was expected")
+    if len(value) > MOST_EDGES:
+        raise fault(f"at most {MOST_EDGES} edges were expected, got {len(value)}")
+    return value
+
+
+def _pair(value: str) -> str:
+    if ends_of(value) is None:
+        known = ", ".join(PORTS)
+        raise fault(f"two of the ports {known} were expected, such as `PA` or `ALS`, got `{value}`")
+    return value
+
+
+def ends_of(pair: str) -> tuple[str, str] | None:
+    """The two ports that an edge joins; None where they are none."""
+    for at in (1, 2):
+        if pair[:at] in PORTS and pair[at:] in PORTS and pair[:at] != pair[at:]:
+            return pair[:at], pair[at:]
+    return None
+
+
+Edges = Annotated[
+    Given[
+        dict[Annotated[str, AfterValidator(_pair)], Edge],
+        dict[str, Edge],
+        Mapping[str, Edge | Mapping[str, Any]],
+    ],
+    BeforeValidator(_edges),
+]
+
+
+class SpoolValve(Component):
+    """A spool whose edges have the curves of a catalogue, each its own. Its position goes from -1 to 1.
+
+    It follows a `command`, the `current` of a solenoid against springs, or it is `switching`.
+    """
+
+    functions: ClassVar[tuple[str, ...]] = ("command", "current")
+    may: ClassVar[tuple[str, ...]] = PORTS
+    late: ClassVar[tuple[str, ...]] = ("position",)
+    sensing: ClassVar[tuple[str, ...]] = ()
+    loads: ClassVar[bool] = True
+
+    type: Literal["spool-valve"] = "spool-valve"
+    edges: Edges = Field(description="by pairs of ports: PA is from P to A")
+    command: Maybe[Annotated[OneFunction, varying("number")]] = Field(default=None, description="position asked for")
+    current: Maybe[Annotated[OneFunction, varying("current")]] = Field(
+        default=None,
+        description="of its `solenoid`, in place of `command`; negative: of the second one",
+        usual=ranges.CURRENT,
+    )
+    solenoid: Maybe[OneRecord[Solenoid]] = Field(default=None, description="with the springs of the spool")
+    switching: Maybe[OneRecord[Switching]] = Field(default=None, description="whether it is on or off alone")
+    stroke: Maybe[PositiveLength] = Field(
+        default=None,
+        description="from the middle to the full stroke, of notches and springs",
+        usual=ranges.SPOOL_STROKE,
+    )
+    frequency: Maybe[Frequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag", usual=ranges.SPOOL_FREQUENCY
+    )
+    damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
+    dead_band: Annotated[OneNumber, Quantity("number")] = Field(
+        default=0.0, description="share of the command that does nothing"
+    )
+    hysteresis: NotNegativeNumber = Field(
+        default=0.0, description="share of the full command between the curves up and down"
+    )
+    dither: Maybe[OneRecord[Dither]] = Field(default=None)
+    transition: Pressure = Field(
+        default=0.5e5, description="difference of pressure below which the root is rounded", usual=ranges.DIFFERENCE
+    )
+
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        edges = entry(data, "edges")
+        return ("position", *(f"flow_{pair}" for pair in (edges if isinstance(edges, Mapping) else ())))
+
+    @property
+    def two_sided(self) -> bool:
+        """Whether an edge is open at negative positions."""
+        curves = (each for edge in self.edges.values() for each in self.curves_of(edge))
+        return any(point < 0.0 for curve in curves for point in curve.points)
+
+    def curves_of(self, edge: Edge) -> tuple[Curve, ...]:
+        """Flows [m³/s], one curve for each difference of pressure, or an area [m²]."""
+        if edge.flows:
+            return edge.flows
+        return (edge.flow,) if edge.flow is not None else (edge.area_curve(self.stroke or 1.0),)
+
+    def problems(self) -> Iterator[Problem]:
+        joined = {port for pair in self.edges for port in ends_of(pair) or ()}
+        yield from self.problems_of_ports(tuple(port for port in PORTS if port in joined))
+        if (self.command is None) == (self.current is None):
+            got = "got both" if self.command is not None else "got neither"
+            yield Problem((), f"a `command`, or the `current` of a `solenoid`, was expected; {got}")
+        elif (self.current is None) != (self.solenoid is None):
+            lacking = "`solenoid` is" if self.solenoid is None else "`current` is"
+            yield Problem((), f"{lacking} missing: a solenoid has a `current` and a `force` over it")
+        yield from problem_of_share("command", self.command, -1.0)
+        needs_stroke = self.solenoid is not None or any(edge.notches for edge in self.edges.values())
+        if needs_stroke and self.stroke is None:
+            yield Problem((), "`stroke` is missing: notches and springs need the way of the spool")
+        if self.solenoid is not None and self.frequency is None:
+            yield Problem((), "`frequency` is missing: that of the spool on its spring, √(stiffness/mass)/2π")
+        if self.switching is not None:
+            for key in ("solenoid", "frequency", "dither"):
+                if getattr(self, key) is not None:
+                    yield superfluous(key, "belongs to a proportional valve; `switching` states how this one moves")
+        for key in ("dead_band", "hysteresis"):
+            value = getattr(self, key)
+            if not 0.0 <= value < 1.0:
+                yield Problem((key,), f"a share of the command from 0 to 1 was expected, got {value:g}")
+            elif value and self.switching is not None:
+                yield superfluous(key, "belongs to a proportional valve")
+
+
+def add_spool_valve(builder: SystemBuilder, component: SpoolValve) -> None:
+    """The spool, and its edges, whose flows act on it where solenoids hold it."""
+    position, speed = _add_position(builder, component)
+    for pair, edge in component.edges.items():
+        _add_edge(builder, component, pair, edge, position, speed)
+
+
+def _add_position(builder: SystemBuilder, component: SpoolValve) -> tuple[int, int]:
+    """(the output that is the position, the state on which forces of flows act, or NONE)."""
+    name = component.name
+    position = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
+    if component.switching is not None:
+        assert component.command is not None  # the record was checked
+        add_switch(builder, name, position, component.command, component.switching, component.two_sided)
+        return position, NONE
+    speed = add_drive(builder, component, position)
+    return position, speed if component.solenoid is not None and component.solenoid.flow_force else NONE
+
+
+def _add_edge(builder: SystemBuilder, component: SpoolValve, pair: str, edge: Edge, position: int, speed: int) -> None:
+    """An edge with its curves; speed : state of the spool on which its flow acts, or NONE."""
+    ports = ends_of(pair)
+    assert ports is not None  # the record was checked
+    a, b = (builder.node(component.ports[port]) for port in ports)
+    output = builder.outputs.add(
+        (f"hydraulics.{component.name}.flow_{pair}", "m^3/s", f"flow {pair} of {component.name}")
+    )
+    density = builder.circuit.fluids[builder.circuit.nodes[component.ports[ports[0]]].fluid][4]
+    drops, curves = conductances(component, edge, density)
+    tables = [held_curve(builder, curve) for curve in curves]
+    force = 0.0
+    if speed != NONE:
+        builder.touch_state(speed)
+        opens = -1.0 if opens_backwards(curves[0]) else 1.0
+        jet = math.sqrt(2.0 * density) * math.cos(edge.jet_angle) / full_force(component)
+        force = -opens * jet * (2.0 * math.pi * (component.frequency or 0.0)) ** 2
+    numbers = [component.transition, edge.leakage, force, *drops]
+    builder.elements.add(meter, [output, a, b, position, speed, *tables], numbers)
+
+
+def conductances(component: SpoolValve, edge: Edge, density: float) -> tuple[list[float], list[Table]]:
+    """(differences of pressure [Pa], K [m³/s/√Pa] over the position at each) of an edge."""
+    curves = component.curves_of(edge)
+    drops = list(edge.pressure_drops) if edge.flows else [edge.pressure_drop or 0.0]
+    out = []
+    for curve, drop in zip(curves, drops, strict=True):
+        root = drop * (drop * drop + component.transition**2) ** -0.25
+        factor = 1.0 / root if drop else edge.discharge_coefficient * math.sqrt(2.0 / density)
+        values = tuple(factor * value for value in curve.values)
+        out.append(Table(curve.points, values, curve.table.interpolation, "position"))
+    return drops, out
+
+
+def opens_backwards(curve: Table) -> bool:
+    """Whether an edge is more open at its least position than at its greatest one."""
+    return curve.values[0] > curve.values[-1]
+
+
+def closed_until(component: SpoolValve) -> float:
+    """Share of the stroke within which P is joined with neither A nor B."""
+    ends = []
+    for pair, edge in component.edges.items():
+        if pair in ("PA", "PB", "CA", "CB"):
+            curve = component.curves_of(edge)[-1]
+            shut = [abs(x) for x, y in zip(curve.points, curve.values, strict=True) if y == 0.0]
+            ends.append(min(max(shut, default=0.0), 0.9))
+    return min(ends, default=0.0)
+
+
+OF_VALVES = (drive, switch, meter)
+
+
+def spool_valve(data: Mapping[str, Any]) -> Symbol:
+    """A spool with a box for each side to which its edges open."""
+    forward, middle, back = [], [], []
+    for pair, edge in (data.get("edges") or {}).items():
+        ends = ends_of(pair)
+        if ends is not None:
+            for group, sign in ((forward, 1.0), (middle, 0.0), (back, -1.0)):
+                if _is_open(edge, sign):
+                    group.append(ends)
+    ports = sorted({port for pair in data.get("edges") or {} for port in ends_of(pair) or ()}, key=_place)
+    top = [port for port in ports if port in ("A", "B", "C")]
+    bottom = [port for port in ports if port not in top]
+    groups = [forward, middle, back] if back else [forward, middle]
+    body, wide, high, above, below = boxes(groups, top, bottom, spring="both" if back else "one")
+    return Symbol(body, wide, high, above, below, "valve")
+
+
+def _place(port: str) -> int:
+    return "ABCPTRSLS".find(port) if port != "LS" else 99
+
+
+def _is_open(edge: Mapping[str, Any], at: float) -> bool:
+    """Whether an edge is open at a position, by its record as JSON."""
+    curve = edge.get("flow") or edge.get("area") or next(iter(edge.get("flows") or ()), None)
+    if curve is None:
+        starts = [each.get("begins", 0.0) for each in edge.get("notches") or ()]
+        return any(at > x >= 0.0 or at < x < 0.0 for x in starts)
+    points, values = curve["points"], curve["values"]
+    k = min(range(len(points)), key=lambda j: abs(points[j] - at))
+    return abs(points[k] - at) < 0.5 and values[k] > 0.0
+
+
+KINDS = (ComponentKind(SpoolValve, add_spool_valve, OF_VALVES, symbol=spool_valve),)

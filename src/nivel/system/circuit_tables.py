@@ -1,0 +1,105 @@
+"""Nodes of circuits while a machine is built, and what depends on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.elements.circuits.density import FLUID
+from nivel.elements.circuits.nodes import Node
+from nivel.elements.circuits.volumes import ROOM_COLUMNS, filled_room
+from nivel.elements.states import Coupled
+from nivel.kernels.record.circuit_record import CircuitTangent
+from nivel.kernels.record.record import NONE, Circuit
+from nivel.system.tables import Array, index_array
+
+Index = NDArray[np.uint32]
+
+
+def tangent_tables(
+    family: Index,
+    pistons: Index,
+    state: Index,
+    unknown: Index,
+    coordinate: Index,
+    number: Index,
+    signal: Index,
+    source: Index,
+    velocities: int,
+) -> CircuitTangent:
+    """Room for the derivatives of circuits. family … source : as in `CircuitTangent`."""
+    states, count, nodes = len(state), len(coordinate), len(signal)
+    size, width = states + count, states + 2 * count
+    return CircuitTangent(
+        family=family,
+        pistons=pistons,
+        state=state,
+        unknown=unknown,
+        coordinate=coordinate,
+        number=number,
+        signal=signal,
+        source=source,
+        by_mass=np.zeros(nodes),
+        by_stroke=np.zeros((nodes, count)),
+        effort=np.zeros((count, width)),
+        slopes=np.zeros((size, width)),
+        direction=np.zeros((count, velocities)),
+        response=np.zeros((count, velocities)),
+        compliance=np.zeros((count, count)),
+        matrix=np.zeros((2, size, size)),
+        b=np.zeros(size),
+        load=np.zeros(count),
+        travel=np.zeros((2, count)),
+    )
+
+
+def no_tangent() -> CircuitTangent:
+    """For methods that do not need it: all arrays empty."""
+    none = index_array([], 1)
+    return tangent_tables(none, none, none, none, none, none, none, index_array([], 2), 0)
+
+
+@dataclass
+class CircuitTable:
+    """Nodes by name, fluids as rows of `Circuit.fluid`, that of each component by its number, signals by path with what they depend on."""
+
+    nodes: dict[str, Node] = field(default_factory=dict)
+    fluids: list[tuple[float, ...]] = field(default_factory=list)
+    fluid: dict[str, int] = field(default_factory=dict)
+    depends: dict[str, Coupled] = field(default_factory=dict)
+    signals: dict[str, tuple[int, Coupled]] = field(default_factory=dict)
+
+    def index(self, name: str) -> int:
+        """Number of a node."""
+        return list(self.nodes).index(name)
+
+    def arrays(self) -> Circuit:
+        """The tables."""
+        nodes = list(self.nodes.values())
+        count = len(nodes)
+
+        def work() -> Array:
+            return np.zeros(count)
+
+        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy, node.warmth) for node in nodes]
+        return Circuit(
+            node=index_array(flowing, 4),
+            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), FLUID),
+            room=np.array([filled_room(node.room) for node in nodes], dtype=float).reshape(count, ROOM_COLUMNS),
+            secant=np.zeros(1, dtype=np.uint32),
+            guard=np.zeros(2),
+            kept=work(),
+            known=np.zeros((count, 8)),
+            volume=work(),
+            volume_rate=work(),
+            pressure=work(),
+            density=work(),
+            enthalpy=work(),
+            temperature=work(),
+            inflow=np.zeros(2 * count),
+            power=np.zeros(4),
+            stored=np.zeros(1),
+            tangent=no_tangent(),
+        )

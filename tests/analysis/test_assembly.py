@@ -13,6 +13,8 @@ from nivel.errors import ModelError
 from nivel.system.joints.composition import Combination
 from nivel.system.joints.joints import JOINTS
 
+pytestmark = pytest.mark.covering
+
 
 def test_data_rounded_to_a_millimetre_are_closed():
     """The four-bar with positions and angles of three decimals, as a report would print them."""

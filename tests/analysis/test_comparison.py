@@ -14,6 +14,8 @@ from nivel.results.comparison import Comparison
 from nivel.results.motion import Motion, distance
 from simulating import hinge, machine, slide, solid, wheel
 
+pytestmark = pytest.mark.covering
+
 G = (0, -9.81, 0)
 
 

@@ -14,6 +14,8 @@ from nivel.analysis.assembly.turned_frame import cardan, nearest_angles, rates_o
 from nivel.analysis.interactive import posing
 from nivel.analysis.interactive.posing import Posing
 
+pytestmark = pytest.mark.covering
+
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 OPEN = 1e-9
 CLOSED_LOOPS = ("slider-crank", "four-bar", "andrews-squeezer", "rssr", "watt-six-bar", "cam", "gear-train")

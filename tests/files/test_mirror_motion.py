@@ -10,6 +10,8 @@ from nivel.files.placement import Placement
 from nivel.machine.core.orientation import Orientation
 from nivel.machine.uses.references import SECTIONS
 
+pytestmark = pytest.mark.covering
+
 TURNED = Orientation(euler=(0.3, 0.7, -1.0), sequence="zxz")
 PLACEMENTS = {
     "x": Placement.of((0, 0, 0), None, "x"),

@@ -15,6 +15,8 @@ from nivel.machine.core.record import GROUND
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.uses.references import SECTIONS
 
+pytestmark = pytest.mark.covering
+
 TURNED = Orientation(euler=(0.3, 0.7, -1.0), sequence="zxz")
 PLACEMENTS = {
     "moved": Placement.of((0.5, -0.3, 0.2), None, "none"),

@@ -18,6 +18,8 @@ from nivel.flexible.reduction.stiffening import inertia_loads
 from nivel.flexible.reduction.ties import with_interfaces
 from nivel.flexible.source import source_model
 
+pytestmark = pytest.mark.covering
+
 needs("gmsh", "skfem")
 
 E, RHO, SIDE = 210e9, 7850.0, 0.1

@@ -13,6 +13,8 @@ from nivel.files import parse_machine
 from nivel.files.schema import schema
 from simulating import slide
 
+pytestmark = pytest.mark.covering
+
 RHO_N, T_N, KAPPA = 1.185, 293.15, 1.4
 R = 1e5 / (RHO_N * T_N)
 C, B = 1e-3 / BAR, 0.3

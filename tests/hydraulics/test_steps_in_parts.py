@@ -10,6 +10,8 @@ import pytest
 import nivel
 from circuits import BAR, circuit, history
 
+pytestmark = pytest.mark.covering
+
 FILE = Path(__file__).parents[2] / "examples" / "hydraulics" / "loader-crane.yaml"
 
 

@@ -5,6 +5,8 @@ import pytest
 
 from nivel.kernels.algebra.lu import factorise_lu, solve_lu
 
+pytestmark = pytest.mark.covering
+
 
 def solved(matrix, b):
     factors, pivot, x = matrix.copy(), np.zeros(len(b), dtype=np.uint32), b.copy()

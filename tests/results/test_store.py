@@ -20,6 +20,8 @@ from nivel.errors import ModelError, SolveError
 from nivel.results import Memory, Result, Store
 from nivel.results.store import rewrite
 
+pytestmark = pytest.mark.covering
+
 TIME = np.linspace(0.0, 8.0, 801)
 WRITER = """
     import sys

@@ -10,6 +10,8 @@ from nivel.errors import ModelError
 from nivel.machine.bodies.surface import surface_text
 from simulating import G, machine, simulate
 
+pytestmark = pytest.mark.covering
+
 K, LENGTH = 1e8, 0.05  # [N/m³], [m]
 OCTAHEDRON = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
 EIGHT = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]

@@ -8,6 +8,8 @@ from scipy.optimize import brentq, nnls
 
 from simulating import G, simulate
 
+pytestmark = pytest.mark.covering
+
 PRISM = [[-0.15, -0.2], [0.2, -0.15], [0.1, 0.2], [-0.1, 0.15]]
 SHAPES = {
     "sphere": {"type": "sphere", "radius": 0.2},

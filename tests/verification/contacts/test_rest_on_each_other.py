@@ -5,6 +5,8 @@ import pytest
 
 from simulating import G, simulate
 
+pytestmark = pytest.mark.covering
+
 DENSITY, POST = 1000.0, 0.06
 HOLDS = 0.8  # of the load that tips
 CAPSULE = {"type": "capsule", "radius": 0.05, "length": 0.4, "along": "x"}

@@ -7,6 +7,8 @@ from nivel.analysis.assembly.implicit import find_tangent
 from tangent_zoo import state_of
 from unknowns import TIME, value_at
 
+pytestmark = pytest.mark.covering
+
 
 def test_residual_of_a_moved_state_does_not_vanish(rng):
     """What is left grows by M δ with a change of accelerations and by C_qᵀ δ with one of multipliers: nothing is left out."""

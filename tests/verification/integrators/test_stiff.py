@@ -6,6 +6,8 @@ import pytest
 from nivel import Body, Joint, JointSpringDamper, MachineRecord, SimulationSettings
 from running import run
 
+pytestmark = pytest.mark.covering
+
 MASS, STIFFNESS, DAMPING = 0.01, 500.0, 1000.0
 NEWTON = {"corrector": {"iteration": "newton"}}
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from functools import cached_property
+from math import pi
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
@@ -29,6 +30,7 @@ from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
+from nivel.lazy import nivel, numpy
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -153,13 +155,12 @@ class Machine(Model):
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
         build(preparation_entries(plan.methods), listener)
-        from nivel.judge.before.check import check
-        from nivel.system.forces.stretched_ropes import stretched_ropes
-
         with self._faults_in_file():
-            ropes = [finding.fault for finding in stretched_ropes(self.record)]
+            ropes = [finding.fault for finding in nivel.system.forces.stretched_ropes.stretched_ropes(self.record)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
-            return replace(check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks)))
+            return replace(
+                nivel.judge.before.check.check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks))
+            )
 
     @checked_arguments
     def mass_properties(
@@ -167,34 +168,30 @@ class Machine(Model):
     ) -> MassProperties:
         """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
         build(assembly_entries(self.record), listener)
-        from nivel.analysis.assembly.mass import mass_properties
-
         with self._faults_in_file():
-            return mass_properties(self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies))
+            return nivel.analysis.assembly.mass.mass_properties(
+                self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies)
+            )
 
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
         build(assembly_entries(self.record), listener)
-        from nivel.analysis.interactive.posing import Posing
-
         with self._faults_in_file():
-            return Posing(self.record)
+            return nivel.analysis.interactive.posing.Posing(self.record)
 
     @checked_arguments
     def view(self, *, port: int = 0, browser: bool = True) -> None:
         """Show the assembled machine in a browser, with a slider for each joint that can move; returns after Ctrl-C."""
-        from nivel.view.server import serve
-
-        serve(self.viewer_source(), host="127.0.0.1", port=port, browser=browser, say=print)
+        nivel.view.server.serve(self.viewer_source(), host="127.0.0.1", port=port, browser=browser, say=print)
 
     @checked_arguments
     def viewer_source(self, *, listener: Listener | None = None) -> PosedMachine:
         """What the viewer shows of the machine before any run."""
-        from nivel.view.sources import PosedMachine
-
         posed = self.posed(listener=listener)
-        return PosedMachine(self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True))
+        return nivel.view.sources.PosedMachine(
+            self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True)
+        )
 
     @checked_arguments
     def simulate(
@@ -227,15 +224,11 @@ class Machine(Model):
         self._refuse_target(out, force)
         compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
-        from nivel.analysis.run.simulate import simulate
-
         paths = (sensitivities,) if isinstance(sensitivities, str) else sensitivities
         with chosen._faults_in_file():
             if paths:
-                from nivel.analysis.gradients.sensitivities import check_parameters
-
-                check_parameters(chosen, plan, paths)
-            result = simulate(
+                nivel.analysis.gradients.sensitivities.check_parameters(chosen, plan, paths)
+            result = nivel.analysis.run.simulate.simulate(
                 plan,
                 source=self.origin.source,
                 out=None if paths else out,
@@ -247,10 +240,10 @@ class Machine(Model):
             )
             if not paths:
                 return result
-            from nivel.analysis.gradients.sensitivities import with_sensitivities
-
             source = self.origin.source
-            whole = with_sensitivities(chosen, plan, result, paths, source=source, checked=verify, listener=listener)
+            whole = nivel.analysis.gradients.sensitivities.with_sensitivities(
+                chosen, plan, result, paths, source=source, checked=verify, listener=listener
+            )
         return whole if out is None else open_result(whole.save(out, force=force))
 
     @checked_arguments
@@ -260,9 +253,7 @@ class Machine(Model):
         Returns the list of what has another form there, and of what was left out. Raises ModelError where bodies or joints cannot be
         written, and where `path` exists and `force` is false.
         """
-        from nivel.exchange.mjcf_writer import mjcf
-
-        return self._write_model(mjcf, Path(fspath(path)), "MJCF file", force)
+        return self._write_model(nivel.exchange.mjcf_writer.mjcf, Path(fspath(path)), "MJCF file", force)
 
     @checked_arguments
     def export_urdf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
@@ -271,9 +262,7 @@ class Machine(Model):
         Returns the list of what has another form there, and of what was left out. Raises ModelError where bodies or joints cannot be
         written, and where `path` exists and `force` is false.
         """
-        from nivel.exchange.urdf_writer import urdf
-
-        return self._write_model(urdf, Path(fspath(path)), "URDF", force)
+        return self._write_model(nivel.exchange.urdf_writer.urdf, Path(fspath(path)), "URDF", force)
 
     def _write_model(
         self,
@@ -282,9 +271,9 @@ class Machine(Model):
         what: str,
         force: bool,
     ) -> tuple[str, ...]:
-        from nivel.files.target import check_target, write_file
-
-        check_target(path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else [])
+        nivel.files.target.check_target(
+            path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else []
+        )
         try:
             text, meshes, notes = written(self.record, f"{path.stem}-meshes")
         except ModelError as error:
@@ -292,9 +281,9 @@ class Machine(Model):
         for name, content in meshes.items():
             mesh = path.parent / name
             mesh.parent.mkdir(exist_ok=True)
-            check_target(mesh, "mesh", force=force)
-            write_file(mesh, "mesh", content)
-        write_file(path, what, text)
+            nivel.files.target.check_target(mesh, "mesh", force=force)
+            nivel.files.target.write_file(mesh, "mesh", content)
+        nivel.files.target.write_file(path, what, text)
         return tuple(notes)
 
     @checked_arguments
@@ -315,10 +304,10 @@ class Machine(Model):
         """
         plan = self._plan({}, stepwise=True)
         build(run_entries(plan), listener)
-        from nivel.c_library.writer import write_c_library
-
         with self._faults_in_file():
-            return write_c_library(plan, Path(folder), (select,) if isinstance(select, str) else select, platform)
+            return nivel.c_library.writer.write_c_library(
+                plan, Path(folder), (select,) if isinstance(select, str) else select, platform
+            )
 
     @checked_arguments
     def export_fmu(
@@ -340,31 +329,29 @@ class Machine(Model):
         Raises ModelError where steps are not fixed, a Python law takes part, a compiler is missing, or a parameter changes more than
         numbers that follow from it by a formula, such as the assembly.
         """
-        from nivel.c_library.exported import export
-        from nivel.fmu.defaults import defaults_of, units_of
-        from nivel.fmu.writer import VERSIONS, write_unit
-
         chosen, paths, systems = (
             (each,) if isinstance(each, str) else each for each in (select, parameters, platforms)
         )
-        if fmi not in VERSIONS:
+        if fmi not in nivel.fmu.writer.VERSIONS:
             raise ModelError(Fault.at("fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
         self._refuse_target(path, force)
-        values = defaults_of(self, paths)
+        values = nivel.fmu.defaults.defaults_of(self, paths)
         plan = self._plan({}, stepwise=True)
         build(run_entries(plan), listener)
         with self._faults_in_file():
-            nominal = export(plan, "an FMU", chosen)
+            nominal = nivel.c_library.exported.export(plan, "an FMU", chosen)
             # with other values it keeps its method, which may follow from them
             same = self.with_settings({"integrator": nominal.plan.settings.integrator}) if values else self
-            return write_unit(
+            return nivel.fmu.writer.write_unit(
                 nominal,
                 Path(fspath(path)),
                 version=fmi,
                 platforms=systems,
                 values=values,
-                units=units_of(self, paths),
-                vary=lambda changes: export(same.with_values(changes)._plan({}, stepwise=True), "an FMU"),
+                units=nivel.fmu.defaults.units_of(self, paths),
+                vary=lambda changes: nivel.c_library.exported.export(
+                    same.with_values(changes)._plan({}, stepwise=True), "an FMU"
+                ),
             )
 
     @overload
@@ -408,10 +395,8 @@ class Machine(Model):
         plan = chosen._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
-        from nivel.analysis.gradients.gradient import gradient
-
         with chosen._faults_in_file():
-            return gradient(
+            return nivel.analysis.gradients.gradient.gradient(
                 chosen,
                 plan,
                 (outputs,) if isinstance(outputs, str) else outputs,
@@ -442,30 +427,24 @@ class Machine(Model):
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside}, stepwise=True)
         build(_entries_of(plan, chosen.record), listener)
-        from nivel.analysis.run.stepping import Simulation
-
         if n is None:
             if values:
                 raise ModelError(Fault.at("values", "lists of values make several copies: say how many, n=3"))
             with chosen._faults_in_file():
-                return Simulation(plan, source=self.origin.source, record=record)
+                return nivel.analysis.run.stepping.Simulation(plan, source=self.origin.source, record=record)
         if n < 1 or record:
             message = "copies keep no frames" if record else f"a number of copies of at least 1 was expected, got {n}"
             raise ModelError(Fault.at("record" if record else "n", message))
-        from nivel.analysis.run.many import Simulations
-
         if not values:
             with chosen._faults_in_file():
-                return Simulations([plan] * n, source=self.origin.source)
-        from nivel.analysis.sweep.rows import rows_of
-
-        rows = rows_of(values)
+                return nivel.analysis.run.many.Simulations([plan] * n, source=self.origin.source)
+        rows = nivel.analysis.sweep.rows.rows_of(values)
         if len(rows) != n:
             raise ModelError(Fault.at("values", f"lists of {n} values are needed; there are {len(rows)}"))
         machines = [chosen.with_values(row) for row in rows]
         plans = [each._plan(each.origin.settings_outside, stepwise=True) for each in machines]
         with chosen._faults_in_file():
-            return Simulations(plans, source=self.origin.source)
+            return nivel.analysis.run.many.Simulations(plans, source=self.origin.source)
 
     @checked_arguments
     def sweep(
@@ -514,16 +493,14 @@ class Machine(Model):
         steps; else every variant is prepared: the attribute `prepared_because` says why. Nothing tells how exact the runs are;
         `sweep` does. Raises ModelError where values or names are not known, or no variant can be run.
         """
-        from nivel.analysis.sweep.batch import run_batch
-        from nivel.analysis.sweep.rows import rows_of
-        from nivel.native.workers import processors
-
         given = _given(settings)
-        chosen, rows = self.with_settings(given), rows_of(values)
+        chosen, rows = self.with_settings(given), nivel.analysis.sweep.rows.rows_of(values)
         plan = chosen.with_values(rows[0])._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
         names = (save,) if isinstance(save, str) else tuple(save)
-        return run_batch(chosen, rows, names, threads=threads or processors(), listener=listener or Listener())
+        return nivel.analysis.sweep.batch.run_batch(
+            chosen, rows, names, threads=threads or nivel.native.workers.processors(), listener=listener or Listener()
+        )
 
     @checked_arguments
     def optimise(
@@ -561,22 +538,18 @@ class Machine(Model):
         ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective;
         SolveError where that is because runs fail.
         """
-        from nivel.analysis.optimise.evaluations import box_of
-        from nivel.analysis.optimise.optimise import Aim, optimise
-        from nivel.native.workers import processors
-
         chosen = self._ready(settings, listener)
         given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
-        return optimise(
+        return nivel.analysis.optimise.optimise.optimise(
             chosen,
-            box_of(chosen, parameters),
-            Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
+            nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
+            nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
             method=method,
             starts=starts,
             seed=seed,
             most=iterations,
             tolerance=accuracy,
-            threads=threads or processors(),
+            threads=threads or nivel.native.workers.processors(),
             exact=chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
             time_limit=time_limit,
             journal=journal,
@@ -591,11 +564,9 @@ class Machine(Model):
             raise ModelError(Fault.at("exact_slopes", message))
 
         def exact(values: Mapping[str, float]) -> tuple[Any, Any]:
-            import numpy as np
-
             found = self.with_values(values).gradient(list(dict.fromkeys(names)), list(values), check=False)
             rows = [[float(found[f"d({name})/d({path})"]) for path in values] for name in names]
-            return np.array([float(found[name]) for name in names]), np.array(rows)
+            return numpy.array([float(found[name]) for name in names]), numpy.array(rows)
 
         return exact
 
@@ -622,21 +593,17 @@ class Machine(Model):
         objective, outputs, iterations, accuracy, exact_slopes, settings : as in `optimise`. Raises ModelError as `optimise` does,
         and for inputs without a range.
         """
-        from nivel.analysis.optimise.inputs import course_of
-        from nivel.analysis.optimise.optimise import Aim, optimise
-        from nivel.native.workers import processors
-
         chosen = self._ready(settings, listener)
-        course = course_of(chosen.record, inputs, float(chosen.simulation.duration))
+        course = nivel.analysis.optimise.inputs.course_of(chosen.record, inputs, float(chosen.simulation.duration))
         given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
         machine = Machine.from_record(course.record)
-        found = optimise(
+        found = nivel.analysis.optimise.optimise.optimise(
             machine,
             course.box,
-            Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
+            nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
             most=iterations,
             tolerance=accuracy,
-            threads=threads or processors(),
+            threads=threads or nivel.native.workers.processors(),
             exact=machine._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
             listener=listener,
         )
@@ -672,23 +639,18 @@ class Machine(Model):
         apart, `found.on_bounds` those that would go on beyond their bounds, which have no deviation.
         Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
         """
-        from nivel.analysis.optimise.evaluations import box_of
-        from nivel.analysis.optimise.identify import identify
-        from nivel.analysis.optimise.measurements import signals_of
-        from nivel.native.workers import processors
-
         chosen = self._ready(settings, listener)
-        return identify(
+        return nivel.analysis.optimise.identify.identify(
             chosen,
-            box_of(chosen, parameters),
-            signals_of(data, deviations or {}),
+            nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
+            nivel.analysis.optimise.measurements.signals_of(data, deviations or {}),
             with_slopes=chosen._with_slopes if exact_slopes else None,
             time_limit=time_limit,
             starts=starts,
             seed=seed,
             most=iterations,
             tolerance=accuracy,
-            threads=threads or processors(),
+            threads=threads or nivel.native.workers.processors(),
             journal=journal,
             listener=listener,
         )
@@ -720,25 +682,23 @@ class Machine(Model):
         nothing depends on time: the equilibrium at t = 0 alone. out : result file (NetCDF); in memory if None. force : replace it.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds the states until then).
         """
-        from nivel.machine.settings.statics import StaticsSettings
-        from nivel.machine.settings.values import settings_of, static_coordinates
-
         simulation = self.record.simulation
-        own = {"duration": simulation.duration, "coordinates": static_coordinates(simulation.coordinates)}
+        own = {
+            "duration": simulation.duration,
+            "coordinates": nivel.machine.settings.values.static_coordinates(simulation.coordinates),
+        }
         chosen_duration = settings.get("duration") is not None
-        asked = settings_of(StaticsSettings, "statics", own | _given(settings))
-        from nivel.analysis.statics.free_coordinates import for_statics
-
-        neutral, chosen = for_statics(self.record, asked)
+        asked = nivel.machine.settings.values.settings_of(
+            nivel.machine.settings.statics.StaticsSettings, "statics", own | _given(settings)
+        )
+        neutral, chosen = nivel.analysis.statics.free_coordinates.for_statics(self.record, asked)
         with self._faults_in_file():
             methods = methods_of(neutral, "newton-euler", chosen)
         self._refuse_target(out, force)
         compile_seconds = build(statics_entries(methods), listener)
         # what follows takes longer to import
-        from nivel.analysis.statics.run import statics
-
         with self._faults_in_file():
-            return statics(
+            return nivel.analysis.statics.run.statics(
                 self.record,
                 asked,
                 chosen_duration=chosen_duration,
@@ -765,27 +725,18 @@ class Machine(Model):
         Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
         the positions until then, its message says what holds which driver.
         """
-        from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import OF_KINEMATICS
-        from nivel.judge.before.refusals import faults_of
-        from nivel.machine.settings.kinematics import kinematics_settings
-
-        asked = kinematics_settings(self.record, settings)
+        asked = nivel.machine.settings.kinematics.kinematics_settings(self.record, settings)
         with self._faults_in_file():
-            refuse(faults_of(self.record, OF_KINEMATICS))
+            refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_KINEMATICS))
             build(assembly_entries(self.record), listener)
-            from nivel.analysis.kinematics.drive import driven
-
-            machine, asked = driven(self.record, asked)
-            plain, chosen = neutral(machine, asked.coordinates)
+            machine, asked = nivel.analysis.kinematics.drive.driven(self.record, asked)
+            plain, chosen = nivel.analysis.plan.equations_only.neutral(machine, asked.coordinates)
             methods = methods_of(plain, "newton-euler", chosen)
         self._refuse_target(out, force)
         compile_seconds = build(kinematics_entries(methods), listener)
         # what follows takes longer to import
-        from nivel.analysis.kinematics.run import kinematics
-
         with self._faults_in_file():
-            return kinematics(
+            return nivel.analysis.kinematics.run.kinematics(
                 machine,
                 methods,
                 asked,
@@ -809,21 +760,14 @@ class Machine(Model):
 
         positions : so many each way, default 361. Raises ModelError where other motions are not driven.
         """
-        from math import pi
-
-        from nivel.analysis.kinematics.ranges import range_of_motion
-        from nivel.machine.settings.kinematics import kinematics_settings
-
-        settings = kinematics_settings(
+        settings = nivel.machine.settings.kinematics.kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
         )
         build(assembly_entries(self.record), listener)
         with self._faults_in_file():
-            from nivel.analysis.kinematics.drive import present_value
-
             name = settings.drive
-            start, unit, size = present_value(self.record, name)
-        return range_of_motion(
+            start, unit, size = nivel.analysis.kinematics.drive.present_value(self.record, name)
+        return nivel.analysis.kinematics.ranges.range_of_motion(
             name,
             unit,
             start,
@@ -840,14 +784,12 @@ class Machine(Model):
 
         Raises ModelError where more motions are free, or none; SolveError where the positions cannot be followed.
         """
-        from nivel.machine.settings.kinematics import kinematics_settings
-
-        name = kinematics_settings(self.record, {"drive": coordinate, "end": 0.0}).drive
+        name = nivel.machine.settings.kinematics.kinematics_settings(
+            self.record, {"drive": coordinate, "end": 0.0}
+        ).drive
         build(assembly_entries(self.record), listener)
-        from nivel.analysis.kinematics.continuation import configuration_curve
-
         with self._faults_in_file():
-            return configuration_curve(self.record, name)
+            return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
     @checked_arguments
     def inverse(
@@ -863,45 +805,47 @@ class Machine(Model):
         one. Of machines with friction drivers or the trajectory prescribe the coordinates of the actuators.
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be reached.
         """
-        from nivel.analysis.inverse.actuators import actuation
-        from nivel.analysis.inverse.friction_efforts import acting_drivers, driven_alone, efforts_of_drivers, rubs
-        from nivel.analysis.inverse.trajectory import along_trajectory
-        from nivel.analysis.inverse.trust import with_trust
-        from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import OF_INVERSE
-        from nivel.judge.before.refusals import faults_of
-        from nivel.machine.settings.inverse import InverseSettings
-        from nivel.machine.settings.values import settings_of
-
-        asked = settings_of(InverseSettings, "inverse", settings)
+        asked = nivel.machine.settings.values.settings_of(
+            nivel.machine.settings.inverse.InverseSettings, "inverse", settings
+        )
         motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
         with self._faults_in_file():
-            refuse(faults_of(self.record, OF_INVERSE))
-            record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
-            wanted = actuation(record, asked)
-            if rubs(record):
-                drivers = acting_drivers(record, wanted, recorded=motion is not None)
-                driven = Machine.from_record(driven_alone(record, wanted), self.origin)
+            refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_INVERSE))
+            record = (
+                self.record
+                if trajectory is None
+                else nivel.analysis.inverse.trajectory.along_trajectory(self.record, trajectory)
+            )
+            wanted = nivel.analysis.inverse.actuators.actuation(record, asked)
+            if nivel.analysis.inverse.friction_efforts.rubs(record):
+                drivers = nivel.analysis.inverse.friction_efforts.acting_drivers(
+                    record, wanted, recorded=motion is not None
+                )
+                driven = Machine.from_record(
+                    nivel.analysis.inverse.friction_efforts.driven_alone(record, wanted), self.origin
+                )
                 followed = driven.kinematics(positions=positions, listener=listener)
-                return with_trust(efforts_of_drivers(wanted, drivers, followed), record.drivers, followed)
-            from nivel.analysis.inverse.run import inverse, without_actuators
-
-            plain, _ = neutral(without_actuators(record, wanted), "absolute")
+                return nivel.analysis.inverse.trust.with_trust(
+                    nivel.analysis.inverse.friction_efforts.efforts_of_drivers(wanted, drivers, followed),
+                    record.drivers,
+                    followed,
+                )
+            plain, _ = nivel.analysis.plan.equations_only.neutral(
+                nivel.analysis.inverse.run.without_actuators(record, wanted), "absolute"
+            )
             methods = methods_of(plain, "newton-euler", "absolute")
         build(linear_entries(methods), listener)
         if motion is None:
             followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
         else:
-            from nivel.results.result import Result
-
             followed = open_result(motion) if isinstance(motion, str | PathLike) else motion
-            if not isinstance(followed, Result):
+            if not isinstance(followed, nivel.results.result.Result):
                 message = f"a result or the name of its file was expected, got {type(motion).__name__}"
                 raise ModelError(Fault.at("inverse.motion", message))
         with self._faults_in_file():
-            found = inverse(methods, wanted, followed, listener=listener)
+            found = nivel.analysis.inverse.run.inverse(methods, wanted, followed, listener=listener)
         replaced = [each for each in record.drivers if motion is not None and each.name not in wanted.hold]
-        return with_trust(found, record.drivers, followed, replaced)
+        return nivel.analysis.inverse.trust.with_trust(found, record.drivers, followed, replaced)
 
     @checked_arguments
     def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
@@ -910,21 +854,16 @@ class Machine(Model):
 
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
-        from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import OF_SAMPLES, not_smooth
-        from nivel.judge.before.refusals import faults_of
-
         with self._faults_in_file():
-            refuse(not_smooth(self.record))
-            refuse(faults_of(self.record, OF_SAMPLES))
-            plain, chosen = neutral(self.record, coordinates or "auto")
+            refuse(nivel.judge.before.analyses.not_smooth(self.record))
+            refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_SAMPLES))
+            plain, chosen = nivel.analysis.plan.equations_only.neutral(self.record, coordinates or "auto")
             methods = methods_of(plain, "newton-euler", chosen)
         build(linear_entries(methods), listener)
-        from nivel.analysis.inverse.mechanics import Mechanics
-        from nivel.analysis.run.prepared_state import at_start
-
         with self._faults_in_file():
-            return Mechanics(plain, at_start(methods))
+            return nivel.analysis.inverse.mechanics.Mechanics(
+                plain, nivel.analysis.run.prepared_state.at_start(methods)
+            )
 
     @checked_arguments
     def inverse_kinematics(
@@ -946,11 +885,11 @@ class Machine(Model):
         of freedom that the path leaves. Places that cannot be reached are reported, with the nearest posture found.
         Raises ModelError where the machine cannot be assembled, or arguments do not fit.
         """
-        from nivel.analysis.inverse.paths import PathFollower, path_times, task_for
-
         mechanics = self.mechanics(coordinates=coordinates, listener=listener)
-        task = task_for(mechanics, point, places, orientations, limits, posture)
-        return PathFollower(mechanics, task).follow(path_times(times, len(task.places)))
+        task = nivel.analysis.inverse.paths.task_for(mechanics, point, places, orientations, limits, posture)
+        return nivel.analysis.inverse.paths.PathFollower(mechanics, task).follow(
+            nivel.analysis.inverse.paths.path_times(times, len(task.places))
+        )
 
     @cached_property
     def _mechanics(self) -> Mechanics:
@@ -993,38 +932,46 @@ class Machine(Model):
         (`CYLINDER.pressure_A`); default: sensors, or without any all joint coordinates and the pressures of volumes.
         Raises ModelError (nothing was computed) or SolveError.
         """
-        from nivel.analysis.linearise.opened import opened
-        from nivel.analysis.plan.equations_only import neutral
-        from nivel.judge.before.analyses import not_smooth
-        from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
-        from nivel.machine.settings.values import settings_of, static_coordinates
-
         simulation = self.record.simulation
-        own = {"coordinates": static_coordinates(simulation.coordinates)}
-        own |= {"about": EQUILIBRIUM} if simulation.start == EQUILIBRIUM else {}
-        asked = settings_of(LineariseSettings, "linearise", own | _given(settings))
-        at_rest = asked.about == EQUILIBRIUM
+        own = {"coordinates": nivel.machine.settings.values.static_coordinates(simulation.coordinates)}
+        own |= (
+            {"about": nivel.machine.settings.linearise.EQUILIBRIUM}
+            if simulation.start == nivel.machine.settings.linearise.EQUILIBRIUM
+            else {}
+        )
+        asked = nivel.machine.settings.values.settings_of(
+            nivel.machine.settings.linearise.LineariseSettings, "linearise", own | _given(settings)
+        )
+        at_rest = asked.about == nivel.machine.settings.linearise.EQUILIBRIUM
         with self._faults_in_file():
-            refuse(not_smooth(self.record, may_slide=asked.about not in (EQUILIBRIUM, ROTATION)))
-            inputs = opened(self.record, asked.inputs, asked.time)
-            plain, chosen = neutral(inputs.machine, asked.coordinates, EQUILIBRIUM if at_rest else "as-given")
+            refuse(
+                nivel.judge.before.analyses.not_smooth(
+                    self.record,
+                    may_slide=asked.about
+                    not in (nivel.machine.settings.linearise.EQUILIBRIUM, nivel.machine.settings.linearise.ROTATION),
+                )
+            )
+            inputs = nivel.analysis.linearise.opened.opened(self.record, asked.inputs, asked.time)
+            plain, chosen = nivel.analysis.plan.equations_only.neutral(
+                inputs.machine,
+                asked.coordinates,
+                nivel.machine.settings.linearise.EQUILIBRIUM if at_rest else "as-given",
+            )
             methods = methods_of(plain, "newton-euler", chosen)
         entries = linear_entries(methods)
         if at_rest:
-            from nivel.analysis.statics.start import methods_at_rest
-
-            entries += statics_entries(methods_at_rest(plain))
+            entries += statics_entries(nivel.analysis.statics.start.methods_at_rest(plain))
         run = None
         if asked.time > 0.0:
             run = self.with_settings({"duration": asked.time})._plan(())
             entries += run_entries(run)
         build(entries, listener)
         # what follows takes longer to import
-        from nivel.analysis.linearise.linearise import linearise
-
         with self._faults_in_file():
             inputs = replace(inputs, machine=plain)
-            return linearise(inputs, methods, asked, run=run, source=self.origin.source, listener=listener)
+            return nivel.analysis.linearise.linearise.linearise(
+                inputs, methods, asked, run=run, source=self.origin.source, listener=listener
+            )
 
     @checked_arguments
     def compare(
@@ -1051,10 +998,10 @@ class Machine(Model):
         grid = lay_out(chosen.record, axes, given)
         compile_grid(chosen.record, grid, listener)
         # what follows takes longer to import
-        from nivel.analysis.compare.compare import compare
-
         with chosen._faults_in_file():
-            return compare(chosen.record, grid, repeat=repeat, journal=journal, listener=listener)
+            return nivel.analysis.compare.compare.compare(
+                chosen.record, grid, repeat=repeat, journal=journal, listener=listener
+            )
 
     def _plan(self, given: Collection[str], *, stepwise: bool = False) -> Plan:
         """What a run will be; stepwise : in steps of one length.
@@ -1067,11 +1014,9 @@ class Machine(Model):
 
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
-        from nivel.files.target import check_target
-
         if out is not None:
             sources = [Path(self.origin.file)] if self.origin.file else []
-            check_target(Path(fspath(out)), "result file", force=force, sources=sources)
+            nivel.files.target.check_target(Path(fspath(out)), "result file", force=force, sources=sources)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:
@@ -1089,9 +1034,7 @@ class Machine(Model):
         """
         if not inputs:
             return self
-        from nivel.files.input_table import with_signals
-
-        return Machine.from_record(with_signals(self.record, inputs), self.origin)
+        return Machine.from_record(nivel.files.input_table.with_signals(self.record, inputs), self.origin)
 
 
 @checked_arguments
@@ -1114,12 +1057,9 @@ def _sweep(
     settings: SweepSettings,
     listener: Listener | None,
 ) -> xarray.Dataset:
-    from nivel.analysis.sweep.sweep import Engine, progress_bar, sweep
-    from nivel.analysis.sweep.task import Task
-    from nivel.analysis.sweep.variants import lay_out
-    from nivel.native.workers import processors
-
-    variants = lay_out(values, settings.combine, settings.samples, settings.seed, settings.design)
+    variants = nivel.analysis.sweep.variants.lay_out(
+        values, settings.combine, settings.samples, settings.seed, settings.design
+    )
     made = [machines(**each) for each in variants.values] if callable(machines) else machines
     for machine in made:
         if not isinstance(machine, Machine):
@@ -1129,10 +1069,14 @@ def _sweep(
     code_of(made[0], settings.analysis, listener)
     shared = {name: getattr(settings, name) for name in ("analysis", "outputs", "save", "verify")}
     shared |= {"settings": settings.analysis_settings, "time_limit": settings.time_limit}
-    tasks = [Task(machine, **shared) for machine in made]
-    engine = Engine(settings.processes or processors(), settings.scheduler, apart=settings.time_limit is not None)
-    with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
-        return sweep(tasks, variants, engine, listener=hearer)
+    tasks = [nivel.analysis.sweep.task.Task(machine, **shared) for machine in made]
+    engine = nivel.analysis.sweep.sweep.Engine(
+        settings.processes or nivel.native.workers.processors(),
+        settings.scheduler,
+        apart=settings.time_limit is not None,
+    )
+    with nullcontext(listener) if listener else nivel.analysis.sweep.sweep.progress_bar(len(variants.values)) as hearer:
+        return nivel.analysis.sweep.sweep.sweep(tasks, variants, engine, listener=hearer)
 
 
 def code_of(machine: Machine, analysis: str, listener: Listener | None) -> None:
@@ -1151,9 +1095,7 @@ def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:
     """The machine code that a run needs, from the start that it has."""
     entries = [*run_entries(plan)]
     if plan.settings.asked.start == "equilibrium":
-        from nivel.analysis.statics.start import methods_at_rest
-
-        entries += statics_entries(methods_at_rest(record))
+        entries += statics_entries(nivel.analysis.statics.start.methods_at_rest(record))
     return entries
 
 
@@ -1183,15 +1125,13 @@ def import_model(
     meshes at ``package://`` are searched for. What is not translated is listed by `nivel import`.
     Raises ModelError with every fault of the model, each with its line.
     """
-    from nivel.exchange import translated_machine
-
-    record = translated_machine(fspath(path), base=base, package_paths=[Path(fspath(each)) for each in package_paths])
+    record = nivel.exchange.translated_machine(
+        fspath(path), base=base, package_paths=[Path(fspath(each)) for each in package_paths]
+    )
     return Machine.from_record(record)
 
 
 @checked_arguments
 def open_result(path: str | PathLike[str]) -> Result:
     """Open a result file."""
-    from nivel.results.result import Result
-
-    return Result.open(path)
+    return nivel.results.result.Result.open(path)

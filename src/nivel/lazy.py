@@ -1,16 +1,235 @@
-"""Late bindings: functions of rooms above that lower rooms call, such as the page that a result opens.
+"""Late imports, the only place of them: modules that are imported when one of their names is first used, and functions of rooms above.
 
-A lower room asks for a function by its subject; `nivel/__init__.py`, which stands above all rooms, says where each stands. The module is
-imported when its function is first asked for.
+A function that needs a heavy or optional module, or one that few runs need, writes its name in full, `scipy.linalg.expm(A)`, with
+`from nivel.lazy import scipy` at the head of its file. The names below exist for type checkers; where the program runs, `Late` stands for
+the package.
+
+A lower room asks for a function of a room above by its subject; `nivel/__init__.py`, which stands above all rooms, says where each stands.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib import import_module
-from typing import Any, Final
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Final
 
 PLACES: Final[dict[str, str]] = {}
+
+
+class Late:
+    """A package whose modules are imported when one of their names is first used."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __getattr__(self, name: str) -> Any:
+        """A name of the package or of one of its modules. Raises ImportError where the package is not installed or has none such."""
+        package = import_module(self._name)
+        value = getattr(package, name, package)
+        if value is package:
+            value = import_module(f"{self._name}.{name}")
+        if isinstance(value, ModuleType):
+            value = Late(value.__name__) if hasattr(value, "__path__") else value
+            setattr(self, name, value)
+        return value
+
+
+if TYPE_CHECKING:
+    import distributed
+    import gymnasium.vector
+    import imageio_ffmpeg
+    import matplotlib
+    import matplotlib.figure
+    import matplotlib.pyplot
+    import meshio
+    import numpy
+    import PIL.Image
+    import pint
+    import pyarrow
+    import rich.box
+    import rich.console
+    import rich.live
+    import rich.progress
+    import rich.table
+    import rich.text
+    import scipy
+    import scipy.interpolate
+    import scipy.io
+    import scipy.linalg
+    import scipy.optimize
+    import scipy.signal
+    import scipy.sparse
+    import scipy.sparse.csgraph
+    import scipy.sparse.linalg
+    import scipy.spatial
+    import scipy.spatial.transform
+    import scipy.stats
+    import skfem
+    import skfem.helpers
+    import skfem.io.meshio
+    import skfem.models.elasticity
+    import skfem.models.poisson
+    import websockets.asyncio.server
+    import websockets.exceptions
+    import websockets.sync.client
+    import xarray
+
+    import nivel
+    import nivel.analysis.assembly.mass
+    import nivel.analysis.compare.compare
+    import nivel.analysis.gradients.gradient
+    import nivel.analysis.gradients.sensitivities
+    import nivel.analysis.interactive.posing
+    import nivel.analysis.inverse.actuators
+    import nivel.analysis.inverse.friction_efforts
+    import nivel.analysis.inverse.mechanics
+    import nivel.analysis.inverse.path_file
+    import nivel.analysis.inverse.paths
+    import nivel.analysis.inverse.run
+    import nivel.analysis.inverse.trajectory
+    import nivel.analysis.inverse.trust
+    import nivel.analysis.kinematics.continuation
+    import nivel.analysis.kinematics.drive
+    import nivel.analysis.kinematics.ranges
+    import nivel.analysis.kinematics.run
+    import nivel.analysis.linearise.linearise
+    import nivel.analysis.linearise.opened
+    import nivel.analysis.linearise.over
+    import nivel.analysis.optimise.evaluations
+    import nivel.analysis.optimise.identify
+    import nivel.analysis.optimise.inputs
+    import nivel.analysis.optimise.measurements
+    import nivel.analysis.optimise.optimise
+    import nivel.analysis.optimise.table
+    import nivel.analysis.plan.compilation
+    import nivel.analysis.plan.equations_only
+    import nivel.analysis.plan.settings
+    import nivel.analysis.preparation.attributes
+    import nivel.analysis.progress.journal
+    import nivel.analysis.progress.listener
+    import nivel.analysis.progress.log
+    import nivel.analysis.run.many
+    import nivel.analysis.run.prepared_state
+    import nivel.analysis.run.simulate
+    import nivel.analysis.run.stepping
+    import nivel.analysis.statics.free_coordinates
+    import nivel.analysis.statics.run
+    import nivel.analysis.statics.start
+    import nivel.analysis.sweep.batch
+    import nivel.analysis.sweep.journal
+    import nivel.analysis.sweep.outputs
+    import nivel.analysis.sweep.resolution
+    import nivel.analysis.sweep.rows
+    import nivel.analysis.sweep.sweep
+    import nivel.analysis.sweep.task
+    import nivel.analysis.sweep.variant
+    import nivel.analysis.sweep.variant_runs
+    import nivel.analysis.sweep.variants
+    import nivel.api
+    import nivel.c_library.exported
+    import nivel.c_library.writer
+    import nivel.cli.analysis_command
+    import nivel.cli.ending
+    import nivel.cli.live
+    import nivel.cli.progress
+    import nivel.exchange
+    import nivel.exchange.gltf_writer
+    import nivel.exchange.mjcf_writer
+    import nivel.exchange.urdf_writer
+    import nivel.extras
+    import nivel.files
+    import nivel.files.fmu_file
+    import nivel.files.input_table
+    import nivel.files.reader
+    import nivel.files.sources
+    import nivel.files.study_file
+    import nivel.files.target
+    import nivel.flexible.body.body_file
+    import nivel.flexible.body.vtk
+    import nivel.flexible.foreign.source
+    import nivel.flexible.model.model_file
+    import nivel.flexible.model.solid_source
+    import nivel.flexible.reduce
+    import nivel.fmu.defaults
+    import nivel.fmu.writer
+    import nivel.gym.machine_environment
+    import nivel.judge.after.report
+    import nivel.judge.before.analyses
+    import nivel.judge.before.check
+    import nivel.judge.before.refusals
+    import nivel.kernels.output.observe
+    import nivel.live.budget
+    import nivel.live.datagrams
+    import nivel.live.journal
+    import nivel.live.opening
+    import nivel.live.recording
+    import nivel.live.replay
+    import nivel.live.source
+    import nivel.live.timing
+    import nivel.looks.circuit.characteristics
+    import nivel.looks.circuit.drawing
+    import nivel.machine.core.orientation
+    import nivel.machine.core.record
+    import nivel.machine.settings.inverse
+    import nivel.machine.settings.kinematics
+    import nivel.machine.settings.linearise
+    import nivel.machine.settings.statics
+    import nivel.machine.settings.values
+    import nivel.machine.units.quantity
+    import nivel.native.library
+    import nivel.native.processor
+    import nivel.native.shipped
+    import nivel.native.store
+    import nivel.native.workers
+    import nivel.report.reduction_page
+    import nivel.report.study_page
+    import nivel.results
+    import nivel.results.analyses.linear_model
+    import nivel.results.analyses.linear_motion
+    import nivel.results.analyses.linear_sweep
+    import nivel.results.analyses.mechanism
+    import nivel.results.analyses.mode_motion
+    import nivel.results.beams
+    import nivel.results.comparison_table
+    import nivel.results.frames.circuit_balance
+    import nivel.results.frames.csv_table
+    import nivel.results.frames.labelled
+    import nivel.results.frames.loads
+    import nivel.results.frames.summary
+    import nivel.results.plots
+    import nivel.results.result
+    import nivel.results.scales
+    import nivel.results.stress
+    import nivel.results.stress_tables
+    import nivel.results.study_statistics
+    import nivel.results.trust
+    import nivel.studies
+    import nivel.system.beams.elements
+    import nivel.system.beams.segments
+    import nivel.system.elimination.topology
+    import nivel.system.forces.stretched_ropes
+    import nivel.system.joints.joints
+    import nivel.system.signals.c_instance
+    import nivel.system.signals.fmu_instance
+    import nivel.system.signals.own_process
+    import nivel.system.states.relative
+    import nivel.system.states.tree_nodes
+    import nivel.view.capture
+    import nivel.view.colours
+    import nivel.view.page
+    import nivel.view.playback
+    import nivel.view.server
+    import nivel.view.sources
+    import nivel.words.vocabulary
+    import nivel.words.wording
+else:
+    PIL, distributed, gymnasium, imageio_ffmpeg, matplotlib, meshio, nivel = map(
+        Late, ("PIL", "distributed", "gymnasium", "imageio_ffmpeg", "matplotlib", "meshio", "nivel")
+    )
+    numpy, pint, pyarrow, rich, scipy, skfem, websockets, xarray = map(
+        Late, ("numpy", "pint", "pyarrow", "rich", "scipy", "skfem", "websockets", "xarray")
+    )
 
 
 def provide(places: Mapping[str, str]) -> None:

@@ -15,6 +15,7 @@ from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
+from nivel.lazy import nivel, xarray
 from nivel.machine.study.parameter import Between
 from nivel.results.frames.tabulated import write_netcdf
 from nivel.words.arguments import checked_arguments
@@ -53,11 +54,11 @@ class Study:
     @property
     def variants(self) -> Variants:
         """The values of every variant. Raises ModelError where nothing varies, or too much."""
-        from nivel.analysis.sweep.variants import draw
-
         record = self.file.record
         try:
-            return draw(self.resolved.parameters, record.design, record.samples, record.seed)
+            return nivel.analysis.sweep.variants.draw(
+                self.resolved.parameters, record.design, record.samples, record.seed
+            )
         except ModelError as error:
             place = ("parameters",) if record.parameters else ()
             raise ModelError([self.file.fault(place, each.message) for each in error.faults]) from None
@@ -84,14 +85,8 @@ class Study:
         Variants that fail, take longer than the time limit, or end their process are rows with a `reason`. Interrupted by Ctrl-C, it
         returns what was computed, and the journal stays. Raises ModelError where outputs do not fit the results, or no variant could start.
         """
-        from nivel.analysis.sweep.journal import study_fingerprint
-        from nivel.analysis.sweep.sweep import Engine, sweep
-        from nivel.analysis.sweep.task import Task
-        from nivel.analysis.sweep.variant_runs import sample_of
-        from nivel.native.workers import processors
-
         record, variants = self.file.record, self.variants
-        task = Task(
+        task = nivel.analysis.sweep.task.Task(
             self.machine,
             record.analysis,
             self.resolved.settings,
@@ -100,15 +95,24 @@ class Study:
             record.verify,
             record.time_limit,
             record.judge,
-            sample_of(variants.values) if record.analysis == "run" and not record.verify else (),
+            nivel.analysis.sweep.variant_runs.sample_of(variants.values)
+            if record.analysis == "run" and not record.verify
+            else (),
         )
         listener = listener or Listener()
         target = None if out is None else Path(fspath(out))
-        of, count = study_fingerprint(task, variants), f"of {len(variants.values)} variants"
+        of, count = (
+            nivel.analysis.sweep.journal.study_fingerprint(task, variants),
+            f"of {len(variants.values)} variants",
+        )
         with self._journal(target, of, count, resume=resume, force=force) as journal:
             code_of(self.machine, record.analysis, listener)
-            engine = Engine(workers or processors(), scheduler, apart=True)
-            found = sweep([task], variants, engine, listener=listener, heard=heard, journal=journal)
+            engine = nivel.analysis.sweep.sweep.Engine(
+                workers or nivel.native.workers.processors(), scheduler, apart=True
+            )
+            found = nivel.analysis.sweep.sweep.sweep(
+                [task], variants, engine, listener=listener, heard=heard, journal=journal
+            )
             found = found.assign_attrs({"study": record.name, "description": record.description, **self._about()})
             if journal is not None and "not run" not in found["outcome"].values:
                 kept = {name: value for name, value in found.attrs.items() if name not in TIMES}
@@ -143,10 +147,11 @@ class Study:
         if search is None:
             said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
             raise ModelError(self.file.fault((), said))
-        from nivel.analysis.plan.settings import with_usual_frames
-        from nivel.analysis.sweep.task import only_numbers
-
-        runs = with_usual_frames(self.machine) if only_numbers(outputs) else self.machine
+        runs = (
+            nivel.analysis.plan.settings.with_usual_frames(self.machine)
+            if nivel.analysis.sweep.task.only_numbers(outputs)
+            else self.machine
+        )
 
         def find(journal: Journal | None) -> tuple[Optimum, bool]:
             units = {} if journal is None else journal.facts
@@ -217,19 +222,16 @@ class Study:
         force: bool,
     ) -> Found:
         """What `find` finds, and whether nothing is left open, in a data file with the trust report of the machine that was found."""
-        from nivel.analysis.optimise.table import NothingFoundError
-        from nivel.analysis.progress.journal import fingerprint
-
         target = None if out is None else Path(fspath(out))
         outputs = {name: each.model_dump(mode="json") for name, each in self.file.record.outputs.items()}
         table = read_bytes(beside(self.file.file, search.data)) if hasattr(search, "data") else b""
-        of = fingerprint(
+        of = nivel.analysis.progress.journal.fingerprint(
             self.machine, search.model_dump(mode="json"), table, outputs, self._bounds, self.file.record.time_limit
         )
         with self._journal(target, of, "runs", resume=resume, force=force) as journal:
             try:
                 found, whole = find(journal)
-            except (NothingFoundError, SolveError) as error:
+            except (nivel.analysis.optimise.table.NothingFoundError, SolveError) as error:
                 if journal is not None and error.result is not None:
                     write_netcdf(error.result, journal.target)  # type: ignore[arg-type]
                     journal.complete = True
@@ -251,12 +253,10 @@ class Study:
 
     def _output(self, name: str, units: dict[str, str]) -> Callable[[Any], float]:
         """An output of the study as a function of a result, which notes its unit."""
-        from nivel.analysis.sweep.outputs import outputs_of
-
         record = {name: self.file.record.outputs[name]}
 
         def output(result: Any) -> float:
-            number = outputs_of(result, record)[name]
+            number = nivel.analysis.sweep.outputs.outputs_of(result, record)[name]
             units[name] = number.units
             return number.value
 
@@ -281,14 +281,13 @@ class Study:
         self, target: Path | None, of: str, count: str, *, resume: bool, force: bool
     ) -> Iterator[Journal | None]:
         """The journal beside a data file (`open_journal`), and faults of what goes on inside at their lines."""
-        from nivel.analysis.optimise.table import NothingFoundError
-        from nivel.analysis.progress.journal import open_journal
-
         sources = [Path(self.file.file), Path(self.file.machine_file)]
-        with open_journal(target, of, count, resume=resume, force=force, sources=sources) as journal:
+        with nivel.analysis.progress.journal.open_journal(
+            target, of, count, resume=resume, force=force, sources=sources
+        ) as journal:
             try:
                 yield journal
-            except NothingFoundError:
+            except nivel.analysis.optimise.table.NothingFoundError:
                 raise
             except ModelError as error:
                 raise ModelError([self._placed(each) for each in error.faults]) from None
@@ -331,10 +330,8 @@ def load_study(
     study, faults = study_and_faults(read_text(file), file, overrides=dict(overrides or {}), allow_code=allow_code)
     if study is None:
         raise ModelError(faults)
-    from nivel.analysis.sweep.resolution import resolve
-
     try:
-        resolved = resolve(study, load(study.machine_file, allow_code=allow_code))
+        resolved = nivel.analysis.sweep.resolution.resolve(study, load(study.machine_file, allow_code=allow_code))
     except ModelError as error:
         raise ModelError([*faults, *error.faults]) from None
     if faults:
@@ -344,11 +341,7 @@ def load_study(
 
 def write_study_report(dataset: xarray.Dataset | str | PathLike[str], path: str | PathLike[str]) -> Path:
     """Write the report of a study, or of its data file, as one HTML file that needs no network; an existing file is replaced."""
-    import xarray
-
-    from nivel.report.study_page import write_study_page
-
     if isinstance(dataset, xarray.Dataset):
-        return write_study_page(dataset, path)
+        return nivel.report.study_page.write_study_page(dataset, path)
     with xarray.open_dataset(dataset, engine="h5netcdf") as opened:
-        return write_study_page(opened.load(), path)
+        return nivel.report.study_page.write_study_page(opened.load(), path)

@@ -13,6 +13,7 @@ import click
 from nivel import __version__
 from nivel.cli.failures import told
 from nivel.errors import ModelError
+from nivel.lazy import nivel
 
 
 class CommandPlace(NamedTuple):
@@ -97,11 +98,11 @@ class LazyGroup(click.Group):
 
 def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
     """With what an option of other programs is called here."""
-    from nivel.words.vocabulary import translated
-
     options = problem.ctx.command.params if problem.ctx is not None else []
     ours = [option.removeprefix("--") for each in options for option in each.opts if option.startswith("--")]
-    found = re.fullmatch(r"did you mean `(.*)`\?", translated(problem.option_name.lstrip("-"), ours))
+    found = re.fullmatch(
+        r"did you mean `(.*)`\?", nivel.words.vocabulary.translated(problem.option_name.lstrip("-"), ours)
+    )
     if not found:
         return problem
     # possibilities given to it would be left out where they are spelled otherwise
@@ -112,24 +113,19 @@ def _with_our_word(problem: click.NoSuchOption) -> click.NoSuchOption:
 def _say_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     if not wanted:
         return
-    from nivel.native.shipped import level
-
     with told():
         asked = _asked_level()
+    level = nivel.native.shipped.level()
     made = f"compiled {f'for {asked} ' if asked else ''}when it is first needed"
-    click.echo(
-        f"nivel {__version__}\nmachine code: {f'the library for {level()} that came with it' if level() else made}"
-    )
+    click.echo(f"nivel {__version__}\nmachine code: {f'the library for {level} that came with it' if level else made}")
     ctx.exit()
 
 
 def _asked_level() -> str:
     """The level of processors that the environment asks for; empty: none. Raises ModelError where it cannot be had."""
-    from nivel.native import processor
-
     try:
-        return processor.asked_level()
-    except processor.CompilationError as problem:
+        return nivel.native.processor.asked_level()
+    except nivel.native.processor.CompilationError as problem:
         raise ModelError(str(problem)) from None
 
 

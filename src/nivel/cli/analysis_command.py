@@ -22,6 +22,8 @@ from nivel.cli.options import (
     setting_options,
 )
 from nivel.cli.progress import progress_listener
+from nivel.errors import ModelError, SolveError
+from nivel.lazy import nivel
 
 if TYPE_CHECKING:
     from nivel.analysis.progress.listener import Listener
@@ -44,9 +46,7 @@ class Order:
 
     def load(self, overrides: dict[str, str] | None = None) -> Machine:
         """The machine, with more overrides. Raises ModelError."""
-        from nivel.api import load
-
-        return load(self.machine, {**self.overrides, **(overrides or {})}, allow_code=self.allow_code)
+        return nivel.api.load(self.machine, {**self.overrides, **(overrides or {})}, allow_code=self.allow_code)
 
     def files(self, name: str) -> tuple[Path, Path | None]:
         """The result file, `name` unless another was named, and the report. Raises ModelError where they exist and may not be replaced."""
@@ -67,8 +67,6 @@ class Order:
         name : of the result file. compute : takes the settings, `out`, `force` and `listener`. more : what is reported and said in place
         of the result.
         """
-        from nivel.errors import ModelError, SolveError
-
         target, report = self.files(name)
         failure: SolveError | None = None
         unwritten: ModelError | None = None
@@ -145,8 +143,6 @@ def analysis_command(keys: Any, name: str, short_help: str) -> Callable[[Callabl
 
 def beside(target: Path) -> Path:
     """The report of the result file `target`."""
-    from nivel.errors import ModelError
-
     if target.name in ("", ".."):
         raise ModelError(f"'{target}' is a folder; the name of a result file was expected, for instance result.nc")
     return target.with_suffix(".html")
@@ -154,13 +150,10 @@ def beside(target: Path) -> Path:
 
 def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
     """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-
     if report is not None and report == target:
         raise ModelError(
             f"{target}: the result is a NetCDF file and the report would be written over it; use a name ending in .nc"
         )
-    check_target(target, "result file", force=force, sources=[machine])
+    nivel.files.target.check_target(target, "result file", force=force, sources=[machine])
     if report is not None:
-        check_target(report, "report", force=force, sources=[machine])
+        nivel.files.target.check_target(report, "report", force=force, sources=[machine])

@@ -16,6 +16,8 @@ from nivel.cli.options import (
     separated,
     setting_options,
 )
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel
 from nivel.settings import StepSettingsDict
 
 if TYPE_CHECKING:
@@ -59,25 +61,28 @@ def command(
     The column `held` is the time of a tick (99.9 %) with those inputs held for which it is longest. The last column is the largest
     distance of a body, at the end, from a run by the method of the file with half the step.
     """
-    from nivel.api import load
-    from nivel.cli.progress import progress_listener
-    from nivel.errors import Fault, ModelError
-    from nivel.live.budget import costs, fixed_methods
-    from nivel.live.timing import in_a_sentence
-    from nivel.machine.core.record import unknown_word
-
     for name in integrators or ():
-        if name not in fixed_methods():
-            raise ModelError(Fault("", 0, 0, "integrators", unknown_word(name, fixed_methods(), "integrator")))
-    record = load(machine, overrides, allow_code=allow_code).record
+        if name not in nivel.live.budget.fixed_methods():
+            raise ModelError(
+                Fault(
+                    "",
+                    0,
+                    0,
+                    "integrators",
+                    nivel.machine.core.record.unknown_word(name, nivel.live.budget.fixed_methods(), "integrator"),
+                )
+            )
+    record = nivel.api.load(machine, overrides, allow_code=allow_code).record
     own = record.simulation.integrator
-    with progress_listener(quiet) as listener:
+    with nivel.cli.progress.progress_listener(quiet) as listener:
         if integrators:
-            found = list(costs(record, settings, tick, integrators, compiled_only=False, listener=listener))
+            found = list(
+                nivel.live.budget.costs(record, settings, tick, integrators, compiled_only=False, listener=listener)
+            )
         else:
-            others = [name for name in fixed_methods() if name != own]
-            found = list(costs(record, settings, tick, [own], compiled_only=False, listener=listener))
-            found += costs(record, settings, tick, others, compiled_only=True, listener=listener)
+            others = [name for name in nivel.live.budget.fixed_methods() if name != own]
+            found = list(nivel.live.budget.costs(record, settings, tick, [own], compiled_only=False, listener=listener))
+            found += nivel.live.budget.costs(record, settings, tick, others, compiled_only=True, listener=listener)
     click.echo(
         f"{record.name}: computing time of a tick in µs\n{'':22}     50 %   99.9 %  longest     held  would hold   off by"
     )
@@ -85,7 +90,9 @@ def command(
         click.echo(_line(cost))
     first = found[0]
     if first.timing is not None:
-        sentence = in_a_sentence(record.name, first.integrator, first.timing, first.parts, first.rate_held)
+        sentence = nivel.live.timing.in_a_sentence(
+            record.name, first.integrator, first.timing, first.parts, first.rate_held
+        )
         click.echo(f"\n{sentence}")
     for line in _held(first):
         click.echo(line)

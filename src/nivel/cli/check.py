@@ -9,6 +9,7 @@ import click
 
 from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
 from nivel.errors import SolveError
+from nivel.lazy import nivel
 
 
 @click.command(short_help="Check and assemble a machine, and describe it.")
@@ -41,26 +42,20 @@ def command(
     Lists every joint with its first and second body, its zero and its positive direction. If the file has faults, all of them are listed
     and the exit code is 2.
     """
-    from nivel.analysis.progress.listener import Listener
-    from nivel.api import load
-    from nivel.files.target import write_file
-
-    loaded = load(machine, overrides, allow_code=allow_code)
-    facts = loaded.check(listener=Listener(lambda text, _total: click.echo(text, err=True)))
+    loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
+    facts = loaded.check(
+        listener=nivel.analysis.progress.listener.Listener(lambda text, _total: click.echo(text, err=True))
+    )
     if circuit is not None:
-        from nivel.looks.circuit.drawing import circuit_diagram
-
-        drawn = circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
+        drawn = nivel.looks.circuit.drawing.circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
         if not drawn:
             raise click.UsageError("the machine has no `hydraulics` that could be drawn with --circuit")
-        write_file(circuit, "drawing", drawn)
+        nivel.files.target.write_file(circuit, "drawing", drawn)
     if valves is not None:
-        from nivel.looks.circuit.characteristics import valve_diagram
-
-        curves = valve_diagram(loaded.record.model_dump(mode="json"))
+        curves = nivel.looks.circuit.characteristics.valve_diagram(loaded.record.model_dump(mode="json"))
         if not curves:
             raise click.UsageError("the machine has no valves whose curves could be drawn with --valves")
-        write_file(valves, "drawing", curves)
+        nivel.files.target.write_file(valves, "drawing", curves)
     if of and mass is None:
         raise click.UsageError("--of belongs to --mass, e.g. --mass ground")
     weighed = None if mass is None else loaded.mass_properties(mass, of or ())

@@ -20,6 +20,8 @@ from nivel.cli.options import (
 )
 from nivel.cli.progress import progress_listener
 from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel, rich
 from nivel.settings import CompareSettingsDict
 
 if TYPE_CHECKING:
@@ -84,21 +86,19 @@ def command(
     always written. Until all combinations are run, a journal beside the first table has those that are: --resume goes on after any
     interruption.
     """
-    from nivel.analysis.progress.journal import fingerprint, open_journal
-    from nivel.api import load
-    from nivel.errors import ModelError
-
     if no_report and report is not None:
         raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
-    loaded = load(machine, overrides, allow_code=allow_code)
+    loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
     tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
     _refuse_other_kinds(tables)
     page = None if no_report else report or tables[0].with_suffix(".html")
     _refuse_to_replace(tables, page, force or resume, Path(machine))
     if resume and is_complete(tables[0], None, quiet):
         return
-    of = fingerprint(loaded, sorted(settings.items()), repeat)
-    with open_journal(tables[0], of, "runs", resume=resume, force=force, sources=[Path(machine)]) as journal:
+    of = nivel.analysis.progress.journal.fingerprint(loaded, sorted(settings.items()), repeat)
+    with nivel.analysis.progress.journal.open_journal(
+        tables[0], of, "runs", resume=resume, force=force, sources=[Path(machine)]
+    ) as journal:
         with progress_listener(quiet) as listener:
             comparison = loaded.compare(**settings, repeat=repeat, journal=journal, listener=listener)
         unwritten = _written(comparison, tables, page, quiet)
@@ -120,8 +120,6 @@ def command(
 
 def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
     """Refuse tables of kinds that are not known."""
-    from nivel.errors import Fault, ModelError
-
     others = [path for path in tables if path.suffix not in FORMATS]
     if others:
         message = "a table ends with .csv or .json; the page is named with --report"
@@ -130,21 +128,16 @@ def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
 
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
     """Refuse, before anything is run, files that cannot be written or exist and may not be replaced."""
-    from nivel.errors import ModelError
-    from nivel.files.target import check_text_target
-
     for path in tables:
-        check_text_target(path, "table", force=force, sources=[machine])
+        nivel.files.target.check_text_target(path, "table", force=force, sources=[machine])
     if page is not None:
         if page in tables:
             raise ModelError(f"{page}: the page would be written over the table; use a name ending in .html")
-        check_text_target(page, "report", force=force, sources=[machine])
+        nivel.files.target.check_text_target(page, "report", force=force, sources=[machine])
 
 
 def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None, quiet: bool) -> ModelError | None:
     """Write all files and name them; what cannot be written comes back: the comparison is printed first."""
-    from nivel.errors import ModelError
-
     try:
         for path in tables:
             write = comparison.to_csv if path.suffix == ".csv" else comparison.to_json
@@ -160,21 +153,14 @@ def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None
 
 def _print(comparison: Comparison) -> None:
     """The table on standard output, as wide as it is where that is no terminal."""
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    from nivel.results.comparison_table import columns, lines
-
-    shown = columns(comparison)
-    table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    shown = nivel.results.comparison_table.columns(comparison)
+    table = rich.table.Table(box=rich.box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     words = len(comparison.varying or ("integrator",))
     for k, column in enumerate(shown):
         table.add_column(column.title, justify="left" if k < words else "right", no_wrap=True)
     for row in comparison.rows:
-        table.add_row(*(Text(column.cell(row)) for column in shown), style=STYLES.get(row.outcome))
-    console = Console(highlight=False, width=WIDEST)
+        table.add_row(*(rich.text.Text(column.cell(row)) for column in shown), style=STYLES.get(row.outcome))
+    console = rich.console.Console(highlight=False, width=WIDEST)
     console.print(table)
-    for line in lines(comparison):
-        console.print(Text(line), soft_wrap=True)
+    for line in nivel.results.comparison_table.lines(comparison):
+        console.print(rich.text.Text(line), soft_wrap=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from nivel.demos.catalogue import DEMOS, demo_file
+from nivel.lazy import nivel
 
 
 @click.command(short_help="Operate one of the machines that come with nivel.")
@@ -17,10 +18,7 @@ def command(ctx: click.Context, name: str, port: int, no_browser: bool) -> None:
 
     The command prints the path of the machine file. `nivel live` with this file does the same.
     """
-    from nivel.cli.live import command as live
-    from nivel.extras import require
-
-    require("the page needs", "websockets")
+    nivel.extras.require("the page needs", "websockets")
     file = demo_file(name)
     click.echo(f"{name}: {DEMOS[name]}\nmachine file: {file}", err=True)
-    ctx.invoke(live, machine=str(file), overrides={}, port=port, no_browser=no_browser)
+    ctx.invoke(nivel.cli.live.command, machine=str(file), overrides={}, port=port, no_browser=no_browser)

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from nivel.lazy import rich
 from nivel.words.wording import seconds
 
 if TYPE_CHECKING:
@@ -20,10 +21,8 @@ OUTCOMES = {"done": "completed", "failed": "failed", "interrupted": "interrupted
 
 def console(*, stderr: bool = True) -> Console:
     """What prints lines: folded at the width of a terminal, whole in a file or a pipe."""
-    from rich.console import Console
-
     stream = sys.stderr if stderr else sys.stdout
-    return Console(stderr=stderr, highlight=False, soft_wrap=not stream.isatty())
+    return rich.console.Console(stderr=stderr, highlight=False, soft_wrap=not stream.isatty())
 
 
 def ended(result: Result) -> str:

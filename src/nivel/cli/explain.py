@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from nivel.cli.options import file_argument, json_option
+from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
     from nivel.results import Result
@@ -23,9 +24,7 @@ def command(result: str, as_json: bool) -> None:
 
     The run of RESULT may still be going on, or may have been killed.
     """
-    from nivel.results import Result
-
-    opened = Result.open(result)
+    opened = nivel.results.Result.open(result)
     if as_json:
         click.echo(opened.trust.to_json())
     else:
@@ -33,31 +32,30 @@ def command(result: str, as_json: bool) -> None:
 
 
 def _print(result: Result) -> None:
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    from nivel.judge.after.report import thresholds_of
-    from nivel.results.scales import RULES
-
-    console, trust = Console(highlight=False), result.trust
+    console, trust = rich.console.Console(highlight=False), result.trust
     time = result.time
     frames = f"{len(time)} frame{'s' * (len(time) != 1)}"
     extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {frames}" if len(time) > 1 else frames
-    console.print(Text.assemble((result.name, "bold"), f": {extent}"))
+    console.print(rich.text.Text.assemble((result.name, "bold"), f": {extent}"))
     light = (trust.light, f"bold {COLOURS[trust.light]}") if trust.light in COLOURS else ""
-    console.print(Text.assemble("trust: ", light, f"{', ' if light else ''}{trust.headline}", "\n"))
-    lines = Table.grid(padding=(0, 1))
+    console.print(rich.text.Text.assemble("trust: ", light, f"{', ' if light else ''}{trust.headline}", "\n"))
+    lines = rich.table.Table.grid(padding=(0, 1))
     for item in trust.items:
-        lines.add_row(Text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), Text(item.text))
+        lines.add_row(
+            rich.text.Text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), rich.text.Text(item.text)
+        )
     console.print(lines)
     if result.advice:
-        console.print(Text(f"\n{result.advice}"))
-    reasons = Table.grid(padding=(0, 2))
-    for name, threshold in thresholds_of(result).items():
-        reasons.add_row(Text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), Text(threshold.reason, "dim"))
-    for name, rule in RULES.items():
-        reasons.add_row(Text(name.replace("_", " "), "dim"), Text(f"{rule[:1].upper()}{rule[1:]}.", "dim"))
+        console.print(rich.text.Text(f"\n{result.advice}"))
+    reasons = rich.table.Table.grid(padding=(0, 2))
+    for name, threshold in nivel.judge.after.report.thresholds_of(result).items():
+        reasons.add_row(
+            rich.text.Text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), rich.text.Text(threshold.reason, "dim")
+        )
+    for name, rule in nivel.results.scales.RULES.items():
+        reasons.add_row(
+            rich.text.Text(name.replace("_", " "), "dim"), rich.text.Text(f"{rule[:1].upper()}{rule[1:]}.", "dim")
+        )
     reasons.columns[0].max_width = 24
-    console.print(Text("\nwhy these thresholds", "dim bold"))
+    console.print(rich.text.Text("\nwhy these thresholds", "dim bold"))
     console.print(reasons)

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from nivel.cli.options import file_argument, force_option, override_option
+from nivel.lazy import nivel
 
 BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
 
@@ -174,9 +175,7 @@ def command(
 
 
 def _write_c_library(machine: str, folder: str, select: list[str], platform: str, overrides: dict[str, str]) -> None:
-    from nivel.api import load
-
-    written = load(machine, overrides).export_c(folder, select=select, platform=platform)
+    written = nivel.api.load(machine, overrides).export_c(folder, select=select, platform=platform)
     sizes = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine"
     click.echo(
         f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",
@@ -197,10 +196,8 @@ def _write_fmu(
     force: bool,
     overrides: dict[str, str],
 ) -> None:
-    from nivel.api import load
-
     path = Path(Path(machine).with_suffix(".fmu").name) if unit == BESIDE else Path(unit)
-    loaded = load(machine, overrides)
+    loaded = nivel.api.load(machine, overrides)
     written = loaded.export_fmu(path, fmi=fmi, select=select, parameters=parameters, platforms=platforms, force=force)
     counts = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {len(written.parameters)} parameters"
     size = written.path.stat().st_size / 1000
@@ -209,11 +206,9 @@ def _write_fmu(
 
 
 def _write_model(machine: str, mjcf: str | None, urdf: str | None, force: bool, overrides: dict[str, str]) -> None:
-    from nivel.api import load
-
     given, suffix = (mjcf, ".xml") if mjcf is not None else (urdf or BESIDE, ".urdf")
     path = Path(Path(machine).with_suffix(suffix).name) if given == BESIDE else Path(given)
-    loaded = load(machine, overrides)
+    loaded = nivel.api.load(machine, overrides)
     notes = (loaded.export_urdf if mjcf is None else loaded.export_mjcf)(path, force=force)
     if notes:
         click.echo("\n".join(notes))
@@ -221,26 +216,23 @@ def _write_model(machine: str, mjcf: str | None, urdf: str | None, force: bool, 
 
 
 def _write_film(result: str, film: str, force: bool) -> None:
-    from nivel.exchange.gltf_writer import write_gltf
-    from nivel.files.target import check_target
-    from nivel.results import Result
-
     path = Path(Path(result).with_suffix(".glb").name) if film == BESIDE else Path(film)
-    check_target(path, "glTF file", force=force, sources=[Path(result)])
-    write_gltf(Result.open(result), path)
+    nivel.files.target.check_target(path, "glTF file", force=force, sources=[Path(result)])
+    nivel.exchange.gltf_writer.write_gltf(nivel.results.Result.open(result), path)
     click.echo(f"glTF: {path}", err=True)
 
 
 def _write_binary(result: str, tables: dict[str, str | None], names: list[str], force: bool) -> None:
-    from nivel.files.target import check_target
-    from nivel.results import Result
-    from nivel.results.frames.csv_table import write_mat, write_mcap, write_mdf, write_parquet
-
     given, suffix = next((given, suffix) for suffix, given in tables.items() if given is not None)
     path = Path(Path(result).with_suffix(suffix).name) if given == BESIDE else Path(given)
-    opened = Result.open(result)
-    check_target(path, "table", force=force, sources=[Path(result)])
-    writers = {".mat": write_mat, ".parquet": write_parquet, ".mf4": write_mdf, ".mcap": write_mcap}
+    opened = nivel.results.Result.open(result)
+    nivel.files.target.check_target(path, "table", force=force, sources=[Path(result)])
+    writers = {
+        ".mat": nivel.results.frames.csv_table.write_mat,
+        ".parquet": nivel.results.frames.csv_table.write_parquet,
+        ".mf4": nivel.results.frames.csv_table.write_mdf,
+        ".mcap": nivel.results.frames.csv_table.write_mcap,
+    }
     writers[suffix](opened, path, names)
     click.echo(f"table: {path}", err=True)
 
@@ -248,21 +240,19 @@ def _write_binary(result: str, tables: dict[str, str | None], names: list[str], 
 def _write_table(result: str, target: str | None, names: list[str], force: bool) -> None:
     import sys
 
-    from nivel.files.target import check_target
-    from nivel.results import Result
-    from nivel.results.frames.csv_table import columns, write_table
-
     if target is None:
         raise click.UsageError(
             "say in which form: --csv or --gltf [FILE] of a result; --c FOLDER, --fmu, --mjcf or --urdf [FILE] of a "
             "machine"
         )
-    opened = Result.open(result)
+    opened = nivel.results.Result.open(result)
     if target == "-":
-        write_table(opened, columns(opened, names), sys.stdout)
+        nivel.results.frames.csv_table.write_table(
+            opened, nivel.results.frames.csv_table.columns(opened, names), sys.stdout
+        )
         sys.stdout.flush()
         return
     path = Path(Path(result).with_suffix(".csv").name) if target == BESIDE else Path(target)
-    check_target(path, "table", force=force, sources=[Path(result)])
+    nivel.files.target.check_target(path, "table", force=force, sources=[Path(result)])
     opened.export_csv(path, names)
     click.echo(f"table: {path}", err=True)

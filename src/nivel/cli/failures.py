@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Final, NoReturn
 import click
 
 from nivel.errors import Fault, ModelError, SolveError
+from nivel.lazy import rich
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -70,15 +71,13 @@ def say_faults(error: ModelError) -> None:
 
 def fault_line(fault: Fault) -> Text:
     """A fault in colours: the place to click on, the element, the message."""
-    from rich.text import Text
-
     parts = []
     if fault.line:
-        parts.append(Text(f"{fault.file}:{fault.line}:{fault.column}", style="cyan"))
+        parts.append(rich.text.Text(f"{fault.file}:{fault.line}:{fault.column}", style="cyan"))
     if fault.path:
-        parts.append(Text(fault.path if fault.line else option_of(fault.path), style="bold"))
-    parts.append(Text(fault.message, style="" if parts else "red"))
-    return Text("  ").join(parts)
+        parts.append(rich.text.Text(fault.path if fault.line else option_of(fault.path), style="bold"))
+    parts.append(rich.text.Text(fault.message, style="" if parts else "red"))
+    return rich.text.Text("  ").join(parts)
 
 
 def option_of(path: str) -> str:
@@ -96,18 +95,14 @@ def option_of(path: str) -> str:
 
 def say_failure(error: SolveError) -> None:
     """What failed, when, and what to try."""
-    from rich.text import Text
-
-    _say(Text.assemble(("the computation failed: ", "red"), error.message))
+    _say(rich.text.Text.assemble(("the computation failed: ", "red"), error.message))
     if error.advice:
         _say(error.advice)
 
 
 def _say(text: Text | str) -> None:
-    from rich.console import Console
-
     # soft_wrap: a line is a line also in a narrow terminal or a pipe, for people and programs that look for places
     try:
-        Console(stderr=True, highlight=False, soft_wrap=True, markup=False).print(text)
+        rich.console.Console(stderr=True, highlight=False, soft_wrap=True, markup=False).print(text)
     except (BrokenPipeError, SystemExit):  # nobody reads it: the exit code still tells
         return

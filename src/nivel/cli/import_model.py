@@ -8,6 +8,7 @@ from typing import Literal
 import click
 
 from nivel.cli.options import file_argument, force_option, quiet_option
+from nivel.lazy import nivel
 
 
 @click.command(short_help="Translate a model of another program into a machine file.")
@@ -46,21 +47,17 @@ def command(
 
     The list of what was translated, in another form or not at all, is printed and stands in the comments of the file.
     """
-    from nivel.exchange import read_model
-    from nivel.files.reader import parse_machine
-    from nivel.files.target import check_target, write_file
-
     path = Path(target) if target is not None else Path(f"{Path(model).stem}.yaml")
-    check_target(path, "machine file", force=force, sources=[Path(model)])
-    translation = read_model(model, base=base, package_paths=package_paths, target=path, density=density)
+    nivel.files.target.check_target(path, "machine file", force=force, sources=[Path(model)])
+    translation = nivel.exchange.read_model(model, base=base, package_paths=package_paths, target=path, density=density)
     for name, content in translation.files().items():
         mesh = path.parent / name
         mesh.parent.mkdir(exist_ok=True)
-        check_target(mesh, "mesh", force=force, sources=[Path(model)])
-        write_file(mesh, "mesh", content)
+        nivel.files.target.check_target(mesh, "mesh", force=force, sources=[Path(model)])
+        nivel.files.target.write_file(mesh, "mesh", content)
     text = translation.text()
-    parse_machine(text, str(path))
-    write_file(path, "machine file", text)
+    nivel.files.reader.parse_machine(text, str(path))
+    nivel.files.target.write_file(path, "machine file", text)
     if not quiet:
         click.echo("\n".join(translation.summary()))
     click.echo(f"machine file: {path}; `nivel check {path}` describes it", err=True)

@@ -8,6 +8,8 @@ import click
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.progress import progress_listener
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel
 from nivel.settings import InverseSettingsDict
 
 
@@ -36,10 +38,6 @@ def command(order: Order, path: str | None, point: str | None) -> None:
 
 def _lead(order: Order, path: str | None, point: str | None) -> None:
     """Inverse kinematics: write the table of joint coordinates."""
-    from nivel.analysis.inverse.path_file import read_path
-    from nivel.errors import Fault, ModelError
-    from nivel.files.target import check_target
-
     machine = order.load()
     if path is None or point is None:
         missing = "path" if path is None else "point"
@@ -47,8 +45,8 @@ def _lead(order: Order, path: str | None, point: str | None) -> None:
     for name in order.settings:
         raise ModelError(Fault("", 0, 0, f"inverse.{name}", "has no part in inverse kinematics: leave it out"))
     target = Path(order.out or f"{machine.name}-joints.csv")
-    check_target(target, "table", force=order.force, sources=[Path(path)])
-    times, places, orientations = read_path(path)
+    nivel.files.target.check_target(target, "table", force=order.force, sources=[Path(path)])
+    times, places, orientations = nivel.analysis.inverse.path_file.read_path(path)
     with progress_listener(order.quiet) as listener:
         found = machine.inverse_kinematics(point, places, times=times, orientations=orientations, listener=listener)
         found.save_csv(target)

@@ -13,6 +13,8 @@ from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.cli.progress import progress_listener
 from nivel.cli.run import assembly_lines
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel
 from nivel.settings import KinematicsSettingsDict
 
 if TYPE_CHECKING:
@@ -51,11 +53,9 @@ def command(order: Order, ranged: bool, through: bool, transmission: tuple[str, 
 
     Exit codes: 0 done, 2 fault in the input, 3 the machine cannot move any further, 130 interrupted. The positions up to there are kept.
     """
-    from nivel.results.analyses.mechanism import add_studies, read_curve, read_transmission
-
     machine = order.load()
-    angles = [read_transmission(machine.record, each) for each in transmission]
-    points = [read_curve(machine.record, each) for each in curve]
+    angles = [nivel.results.analyses.mechanism.read_transmission(machine.record, each) for each in transmission]
+    points = [nivel.results.analyses.mechanism.read_curve(machine.record, each) for each in curve]
     if ranged:
         found = _find(order, "--range", ("start", "end", "duration"), machine.range_of_motion)
         order.tell(found, lambda: click.echo(str(found), err=True))
@@ -63,7 +63,12 @@ def command(order: Order, ranged: bool, through: bool, transmission: tuple[str, 
         _follow(order, machine)
     else:
         name = f"{machine.name}-kinematics.nc"
-        order.run(name, machine.kinematics, _say, lambda result: Studied(result, add_studies(result, angles, points)))
+        order.run(
+            name,
+            machine.kinematics,
+            _say,
+            lambda result: Studied(result, nivel.results.analyses.mechanism.add_studies(result, angles, points)),
+        )
 
 
 @dataclass(frozen=True)
@@ -92,10 +97,8 @@ class Studied:
 
 def _follow(order: Order, machine: Machine) -> None:
     """All positions, and where the coordinate turns back."""
-    from nivel.files.target import check_target
-
     target = Path(order.out or f"{machine.name}-way.nc")
-    check_target(target, "table", force=order.force, sources=[])
+    nivel.files.target.check_target(target, "table", force=order.force, sources=[])
     others = ("start", "end", "duration", "positions", "coordinates")
     found = _find(order, "--through", others, machine.configuration_curve)
     found.save(target, force=order.force)
@@ -104,8 +107,6 @@ def _follow(order: Order, machine: Machine) -> None:
 
 def _find(order: Order, option: str, others: tuple[str, ...], find: Callable[..., Any]) -> Any:
     """What an option finds for the coordinate of --drive. Raises ModelError where that is missing, or `others` say how it moves."""
-    from nivel.errors import Fault, ModelError
-
     settings = dict(order.settings)
     drive = settings.pop("drive", None)
     if drive is None:

@@ -9,6 +9,8 @@ import click
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.options import separated
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel
 from nivel.settings import LineariseSettingsDict
 
 if TYPE_CHECKING:
@@ -46,9 +48,6 @@ def command(
 
     Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
-    from nivel.errors import Fault, ModelError
-    from nivel.files.target import check_target
-
     if over is not None:
         if with_others and "verify" in order.settings:
             raise ModelError(Fault("", 0, 0, "linearise.verify", "--verify and --no-verify contradict each other"))
@@ -63,7 +62,7 @@ def command(
     target, _ = order.files(name)
     pages = {number: target.with_name(f"{target.stem}-mode-{number}.html") for number in shown}
     for page in pages.values():
-        check_target(page, "page", force=order.force, sources=[Path(order.machine)])
+        nivel.files.target.check_target(page, "page", force=order.force, sources=[Path(order.machine)])
 
     def compute(listener: Listener) -> LinearModel:
         model = machine.linearise(**order.settings, listener=listener)
@@ -76,12 +75,9 @@ def command(
 
 def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> None:
     """Eigenvalues over a parameter. verify : each model, though they are many."""
-    from nivel.analysis.linearise.over import over as models_over
-    from nivel.results.analyses.linear_sweep import speed_of
-
     path, values, unit = read_range(over)
     if orders:
-        speed_of(unit, path)
+        nivel.results.analyses.linear_sweep.speed_of(unit, path)
     name = order.load().name
     settings: dict[str, Any] = {**order.settings, "verify": verify}
 
@@ -89,7 +85,7 @@ def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> Non
         models = [
             order.load({path: f"{value!r} {unit}".strip()}).linearise(**settings, listener=listener) for value in values
         ]
-        return models_over(path, unit, values, models)
+        return nivel.analysis.linearise.over.over(path, unit, values, models)
 
     def said(sweep: LinearSweep) -> list[str]:
         return [
@@ -104,8 +100,6 @@ def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> Non
 
 def read_range(text: str) -> tuple[str, list[float], str]:
     """Path, values and unit of `PATH=FROM:TO:COUNT UNIT`. Raises ModelError."""
-    from nivel.errors import Fault, ModelError
-
     path, _, rest = text.partition("=")
     numbers, _, unit = rest.strip().partition(" ")
     parts = numbers.split(":")
@@ -121,8 +115,6 @@ def read_range(text: str) -> tuple[str, list[float], str]:
 
 def read_orders(words: tuple[str, ...] | None) -> list[float]:
     """Multiples of a speed. Raises ModelError."""
-    from nivel.errors import Fault, ModelError
-
     try:
         return [float(word) for word in words or ()]
     except ValueError:
@@ -132,15 +124,13 @@ def read_orders(words: tuple[str, ...] | None) -> list[float]:
 
 
 def _said(model: LinearModel) -> list[str]:
-    from nivel.results.analyses.linear_model import mode_in_words
-
     judged = ("stable" if model.stable else "unstable") if model.steady else "not judged"
     modes = model.modes if model.steady else ()
     poles = model.sampled.modes if model.sampled is not None else ()
     return [
         f"{model.name}: linear about {model.about}, {len(model.states)} states, {judged}",
         *model.notes,
-        *(f"mode {mode.number}: {mode_in_words(mode)}" for mode in modes[:SHOWN]),
+        *(f"mode {mode.number}: {nivel.results.analyses.linear_model.mode_in_words(mode)}" for mode in modes[:SHOWN]),
         *([f"and {len(modes) - SHOWN} more in the data"] if len(modes) > SHOWN else []),
         *(model.sampled.words if model.sampled is not None else ()),
         *(f"pole {pole.number}: {pole.words}" for pole in poles[:SHOWN]),

@@ -21,6 +21,8 @@ from nivel.cli.options import (
     quiet_option,
     setting_options,
 )
+from nivel.errors import ModelError
+from nivel.lazy import nivel
 from nivel.settings import StepSettingsDict
 
 if TYPE_CHECKING:
@@ -91,18 +93,7 @@ def command(
     The section `inputs` of the machine file defines the inputs. The solver has fixed steps and runs in a process of its own. Ctrl-C ends
     the run and prints a report of the timing.
     """
-    from nivel.extras import require
-
-    require("the page needs", "websockets")
-    from nivel.api import load
-    from nivel.cli.progress import progress_listener
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-    from nivel.live.datagrams import Datagrams, place_of
-    from nivel.live.journal import check_journal, journal_of
-    from nivel.live.opening import session_of
-    from nivel.live.source import LiveSource
-    from nivel.view.server import Stop, serve
+    nivel.extras.require("the page needs", "websockets")
 
     def say(text: str) -> None:
         if not quiet:
@@ -110,34 +101,37 @@ def command(
 
     target = None if record is None else Path(record)
     if target is not None:
-        check_target(target, "recording", force=force, sources=[Path(machine)])
-        check_journal(journal_of(target), force=force)
-    listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")
-    loaded = load(machine, overrides, allow_code=allow_code)
-    stop = Stop()
+        nivel.files.target.check_target(target, "recording", force=force, sources=[Path(machine)])
+        nivel.live.journal.check_journal(nivel.live.journal.journal_of(target), force=force)
+    listen, send = (
+        udp and nivel.live.datagrams.place_of(udp, "udp"),
+        udp_to and nivel.live.datagrams.place_of(udp_to, "udp_to"),
+    )
+    loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
+    stop = nivel.view.server.Stop()
     with orderly_end(stop), ExitStack() as stack:
-        with progress_listener(quiet) as listener:
+        with nivel.cli.progress.progress_listener(quiet) as listener:
             listener.say("preparing")
-            opened = session_of(
+            opened = nivel.live.opening.session_of(
                 loaded, settings, tick=tick, urgent=not no_priority, record=target, force=force, listener=listener
             )
             session = stack.enter_context(opened)
             if target is not None:
                 stack.callback(keep, session, target)
-            outside = Datagrams(session, listen or None, send or None)
+            outside = nivel.live.datagrams.Datagrams(session, listen or None, send or None)
             stack.callback(outside.close)
-            source = LiveSource(session, outside if listen else None)
+            source = nivel.live.source.LiveSource(session, outside if listen else None)
             session.on_frame = both(session.on_frame, outside.send)
             session.on_gone = lambda: threading.Timer(TOLD, stop.ask).start()
         for line in introduction(session):
             say(line)
         if target is not None:
-            say(f"recording: {journal_of(target)}, which becomes {target} when the run ends")
+            say(f"recording: {nivel.live.journal.journal_of(target)}, which becomes {target} when the run ends")
         if listen:
             say(f"datagrams: received at {':'.join(map(str, outside.address))}")
         session.command("run")
         try:
-            serve(source, host=host, port=port, browser=not no_browser, say=say, stop=stop)
+            nivel.view.server.serve(source, host=host, port=port, browser=not no_browser, say=say, stop=stop)
         except ModelError:  # of the address
             session.recorder.discard()
             raise
@@ -162,13 +156,11 @@ def tell(text: str) -> None:
 
 def keep(session: Session, target: Path) -> None:
     """End the session and let its recording take its place. Where that is interrupted, say what there is."""
-    from nivel.live.journal import journal_of
-
     try:
         session.close()
         session.recorder.complete(target)
     except KeyboardInterrupt:
-        journal = journal_of(target)
+        journal = nivel.live.journal.journal_of(target)
         tell(f"the recording was not completed; what was recorded is in {journal}: `nivel replay {journal}` plays it")
         raise
 
@@ -201,13 +193,11 @@ def orderly_end(stop: Stop) -> Iterator[None]:
 
 def conclusion(session: Session) -> Iterator[str]:
     """How the run went."""
-    from nivel.live.timing import in_a_sentence, in_words
-
     timing = session.timing
-    yield from in_words(timing)
+    yield from nivel.live.timing.in_words(timing)
     if timing.ticks:
         integrator = session.plan.settings.integrator
-        yield f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}"
+        yield f"  {nivel.live.timing.in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}"
     light = session.light
     if light.verdict == "green":
         yield "energy, joints, circuits and computing time: green"
@@ -229,8 +219,6 @@ def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], 
 
 def introduction(session: Session) -> Iterator[str]:
     """What the machine is run with, and what its keys move."""
-    from nivel.words.wording import label_of
-
     pace = session.pace
     steps = "one step" if pace.substeps == 1 else f"{pace.substeps} steps"
     yield f"{session.plan.machine.name}: ticks of {1e3 * pace.tick:g} ms, each of {steps}; {', '.join(session.said)}"
@@ -238,4 +226,4 @@ def introduction(session: Session) -> Iterator[str]:
         if each.keys is not None:
             up, down = (KEYS.get(key or "", key or "–").upper() for key in (each.keys.raise_, each.keys.lower))
             moves = f" ({each.description})" if each.description else ""
-            yield f"  {each.label or label_of(each.name)}{moves}: {up}, the other way {down}"
+            yield f"  {each.label or nivel.words.wording.label_of(each.name)}{moves}: {up}, the other way {down}"

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.options import file_argument, json_option, separated
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
     import xarray
@@ -37,14 +39,11 @@ def command(result: str, signals: tuple[str, ...] | None, repeating: bool, perio
 
     With --cycles, also count the rainflow cycles of signals (ASTM E1049).
     """
-    from nivel.errors import Fault, ModelError
-    from nivel.results import Result
-
     if repeating and not signals:
         raise ModelError(
             Fault("", 0, 0, "loads.repeating", "belongs to --cycles: name a signal, e.g. --cycles pin.force.x")
         )
-    opened = Result.open(result)
+    opened = nivel.results.Result.open(result)
     tables = _tables(opened, signals or (), repeating, period)
     if as_json:
         plain = {name: _plain(table) for name, table in tables.items()}
@@ -56,8 +55,6 @@ def command(result: str, signals: tuple[str, ...] | None, repeating: bool, perio
 
 def _tables(result: Result, signals: tuple[str, ...], repeating: bool, period: str | None) -> dict[str, xarray.Dataset]:
     """Tables by their titles. Raises ModelError where there is nothing to show."""
-    from nivel.errors import ModelError
-
     out: dict[str, xarray.Dataset] = {}
     if "joint_force" in result.variables and result.coordinates.get("joint"):
         out["reactions"] = result.reactions()
@@ -80,23 +77,20 @@ def _plain(table: xarray.Dataset) -> dict[str, Any]:
 
 
 def _print(title: str, table: xarray.Dataset) -> None:
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    from nivel.results.trust import told
-
     names = [str(name) for name in table.data_vars]
-    shown = Table(title=Text(title), title_justify="left")
+    shown = rich.table.Table(title=rich.text.Text(title), title_justify="left")
     rows = next(iter(table.sizes.values()))
     labels = [str(each) for each in next(iter(table.coords.values())).to_numpy()] if table.coords else []
     for heading in [*(["of"] if labels else []), *(_heading(table, name) for name in names)]:
-        shown.add_column(Text(heading), justify="left" if heading == "of" else "right")
+        shown.add_column(rich.text.Text(heading), justify="left" if heading == "of" else "right")
     for k in range(rows):
         shown.add_row(*labels[k : k + 1], *(f"{float(table[name].to_numpy()[k]):.6g}" for name in names))
-    console = Console(highlight=False, width=140)
+    console = rich.console.Console(highlight=False, width=140)
     console.print(shown)
-    console.print(Text(f"trust: {told(table.attrs['verdict'], table.attrs['headline'])}"), soft_wrap=True)
+    console.print(
+        rich.text.Text(f"trust: {nivel.results.trust.told(table.attrs['verdict'], table.attrs['headline'])}"),
+        soft_wrap=True,
+    )
 
 
 def _heading(table: xarray.Dataset, name: str) -> str:

@@ -11,6 +11,7 @@ import click
 
 from nivel.cli.options import force_option
 from nivel.errors import ModelError
+from nivel.lazy import nivel
 
 TEMPLATE: Final = Path(__file__).with_name("new_machine.yaml")
 SUFFIX: Final = ".yaml"
@@ -53,28 +54,20 @@ def new_machine(name: str) -> str:
 
     Raises ModelError where `name` cannot be the name of a machine.
     """
-    from nivel.files import parse_machine
-
     text = TEMPLATE.read_text(encoding="utf-8").replace("NAME", json.dumps(name, ensure_ascii=False), 1)
-    parse_machine(text, f"{name}{SUFFIX}")
+    nivel.files.parse_machine(text, f"{name}{SUFFIX}")
     return text
 
 
 def _schema_text() -> str:
-    from nivel.files import schema
-
-    return json.dumps(schema(), indent=1) + "\n"
+    return json.dumps(nivel.files.schema(), indent=1) + "\n"
 
 
 def _write(target: Path, text: str, force: bool) -> None:
-    from nivel.files.target import write_file
-
     if target.exists() and not force:
         raise ModelError(f"{target} exists already; use --force to overwrite it, or another name")
-    write_file(target, "file", text)
+    nivel.files.target.write_file(target, "file", text)
 
 
 def _study_schema_text() -> str:
-    from nivel.files.study_file import study_schema
-
-    return json.dumps(study_schema(), indent=1) + "\n"
+    return json.dumps(nivel.files.study_file.study_schema(), indent=1) + "\n"

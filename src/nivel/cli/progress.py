@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from nivel.lazy import nivel, rich
+
 if TYPE_CHECKING:
     from nivel.analysis.progress.listener import Listener
 
@@ -14,24 +16,22 @@ if TYPE_CHECKING:
 @contextmanager
 def progress_listener(quiet: bool) -> Iterator[Listener]:
     """Hears what is being done: says nothing where `quiet`, else stages and how far they are."""
-    from nivel.analysis.progress.listener import Listener
-
     if quiet:
-        yield Listener()
+        yield nivel.analysis.progress.listener.Listener()
         return
     if not sys.stderr.isatty():
-        from nivel.analysis.progress.log import Log
-
-        log = Log()
+        log = nivel.analysis.progress.log.Log()
         yield log.listener
         log.end()
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeElapsedColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True) as bar:
+    columns = (
+        rich.progress.TextColumn("{task.description}"),
+        rich.progress.BarColumn(),
+        rich.progress.TextColumn("{task.fields[reached]}"),
+        rich.progress.TimeElapsedColumn(),
+    )
+    console = rich.console.Console(stderr=True)
+    with rich.progress.Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=None, reached="")
 
         def stage(text: str, total: float | None = None) -> None:
@@ -42,7 +42,7 @@ def progress_listener(quiet: bool) -> Iterator[Listener]:
         def progress(time: float) -> None:
             bar.update(task, completed=time, reached=f"t = {time:.3f} s")
 
-        yield Listener(stage, progress)
+        yield nivel.analysis.progress.listener.Listener(stage, progress)
 
 
 @contextmanager
@@ -55,11 +55,12 @@ def progress_stage(quiet: bool) -> Iterator[Callable[[str, float], None]]:
         with progress_listener(quiet) as listener:
             yield lambda text, _share: listener.say(text)
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    columns = (
+        rich.progress.TextColumn("{task.description}"),
+        rich.progress.BarColumn(),
+        rich.progress.TimeElapsedColumn(),
+    )
+    with rich.progress.Progress(*columns, console=rich.console.Console(stderr=True), transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, share: bar.update(task, description=text, completed=share)
 
@@ -75,10 +76,12 @@ def progress_count(what: str, quiet: bool) -> Iterator[Callable[[int, int, str],
             listener.say(what)
             yield lambda done, count, _name: listener.say(f"{what}: {done} of {count}")
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    columns = (
+        rich.progress.TextColumn("{task.description}"),
+        rich.progress.BarColumn(),
+        rich.progress.MofNCompleteColumn(),
+        rich.progress.TimeElapsedColumn(),
+    )
+    with rich.progress.Progress(*columns, console=rich.console.Console(stderr=True), transient=True) as bar:
         task = bar.add_task(what, total=None)
         yield lambda done, count, name: bar.update(task, completed=done, total=count, description=name or what)

@@ -10,6 +10,8 @@ import click
 
 from nivel.cli.options import file_argument, force_option, json_option, no_report_option, override_option, quiet_option
 from nivel.cli.progress import progress_stage
+from nivel.errors import ModelError
+from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
     from nivel.flexible.checks.findings import Findings
@@ -58,30 +60,22 @@ def command(
 
     Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
-    from nivel.errors import ModelError
-    from nivel.files.sources import read_text
-    from nivel.flexible.body.body_file import write_body
-    from nivel.flexible.model.model_file import read_model
-    from nivel.flexible.reduce import reduce_model
-
     if no_report and report is not None:
         raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
-    located = read_model(model, overrides=overrides)
+    located = nivel.flexible.model.model_file.read_model(model, overrides=overrides)
     target = out or Path(f"{located.record.name}.nc")
     page = None if no_report else report or target.with_suffix(".html")
     _refuse_to_replace(target, page, vtk, force, Path(model))
     with progress_stage(quiet) as stage:
-        reduction = reduce_model(located, stage=stage)
-        write_body(reduction.body, target, findings=reduction.findings.as_data(), model=read_text(model))
+        reduction = nivel.flexible.reduce.reduce_model(located, stage=stage)
+        nivel.flexible.body.body_file.write_body(
+            reduction.body, target, findings=reduction.findings.as_data(), model=nivel.files.sources.read_text(model)
+        )
         if page is not None:
-            from nivel.report.reduction_page import write_reduction
-
             stage("writing the report", 1.0)
-            write_reduction(reduction.body, reduction.findings, page, force=force)
+            nivel.report.reduction_page.write_reduction(reduction.body, reduction.findings, page, force=force)
         if vtk is not None:
-            from nivel.flexible.body.vtk import write_modes
-
-            write_modes(reduction.body, vtk)
+            nivel.flexible.body.vtk.write_modes(reduction.body, vtk)
     if as_json:
         click.echo(json.dumps(reduction.findings.as_data(), indent=2))
     if not quiet:
@@ -89,22 +83,17 @@ def command(
 
 
 def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force: bool, model: Path) -> None:
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-
     if page == target:
         raise ModelError(
             f"{target}: the body is a NetCDF file and the report would be written over it; use a name ending in .nc"
         )
     for path, what in ((target, "body file"), (page, "report"), (vtk, "VTK file")):
         if path is not None:
-            check_target(path, what, force=force, sources=[model])
+            nivel.files.target.check_target(path, what, force=force, sources=[model])
 
 
 def _say(reduction: Reduction, target: Path, page: Path | None) -> None:
-    from rich.console import Console
-
-    console = Console(stderr=True, highlight=False)
+    console = rich.console.Console(stderr=True, highlight=False)
     body, findings = reduction.body, reduction.findings
     size = f"{findings.freedoms} degrees of freedom, {findings.nodes} nodes"
     console.print(f"[bold]{body.name}[/bold]: {size} → {len(body.eigenvalues)} modes", markup=True)
@@ -120,9 +109,7 @@ def _say(reduction: Reduction, target: Path, page: Path | None) -> None:
 
 
 def _table(findings: Findings):
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False)
+    table = rich.table.Table(box=None, pad_edge=False)
     for heading in ("free mode", "whole model [Hz]", "reduced [Hz]", "error", "MAC"):
         table.add_column(heading, justify="right")
     for k, (full, reduced, error) in enumerate(zip(findings.full, findings.reduced, findings.errors, strict=False)):

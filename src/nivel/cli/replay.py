@@ -10,6 +10,8 @@ import click
 from nivel.cli.failures import COMPUTATION_FAILED
 from nivel.cli.options import allow_code_option, file_argument, force_option, quiet_option, setting_options
 from nivel.cli.progress import progress_listener
+from nivel.errors import ModelError
+from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
 
 if TYPE_CHECKING:
@@ -48,12 +50,7 @@ def command(
 
     With another method, step or tolerance the same inputs are simulated again. `nivel view one.nc other.nc` shows both results together.
     """
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-    from nivel.live.recording import read_recording
-    from nivel.live.replay import replay, rerun
-
-    stored = read_recording(recording)
+    stored = nivel.live.recording.read_recording(recording)
     if stored.has_code and not allow_code:
         raise ModelError(
             f"{recording} holds functions in Python, which run with your rights; if you trust who recorded it, add --allow-code"
@@ -66,15 +63,17 @@ def command(
         )
     chosen = max(stored.takes, key=lambda each: each.ticks) if take is None else stored.takes[take - 1]
     target = Path(out) if out is not None else Path(f"{stored.machine.name}.replay.nc")
-    check_target(target, "result file", force=force, sources=[Path(recording)])
+    nivel.files.target.check_target(target, "result file", force=force, sources=[Path(recording)])
     say = (lambda text: None) if quiet else (lambda text: click.echo(text, err=True))
     length = f"{chosen.ticks} ticks, {chosen.ticks * stored.pace.tick:.6g} s"
     with progress_listener(quiet) as listener:
         if settings:
-            other = rerun(stored, chosen, settings, verify=True, out=target, force=force, listener=listener)
+            other = nivel.live.replay.rerun(
+                stored, chosen, settings, verify=True, out=target, force=force, listener=listener
+            )
             say(f"{stored.machine.name}: {length} again by other methods; {_trust(other)}\nresult: {target}")
             return
-        done = replay(stored, chosen, out=target, force=force, listener=listener)
+        done = nivel.live.replay.replay(stored, chosen, out=target, force=force, listener=listener)
     say(f"{stored.machine.name}: {length}; {_comparison(done)}; {_trust(done.result)}")
     if not chosen.whole:
         say(

@@ -14,6 +14,7 @@ import click
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.cli.options import input_option
+from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
 
@@ -49,8 +50,6 @@ def command(order: Order, inputs: dict[str, str], no_verify: bool, verify_limit:
 
 
 def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:
-    from nivel.results.frames.summary import in_words
-
     out = console()
     trust = result.trust
     timing = result.timing
@@ -66,7 +65,7 @@ def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]
         out.print(f"method: {method}, because {reason}{more}", markup=False, soft_wrap=True)
     for line in assembly_lines(result):
         out.print(line)
-    for line in in_words(result.events, result.stopped_by):
+    for line in nivel.results.frames.summary.in_words(result.events, result.stopped_by):
         out.print(f"event: {line}", markup=False)
     out.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
     say_checks(out, trust)

@@ -20,6 +20,8 @@ from nivel.cli.options import (
     quiet_option,
 )
 from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on, set_option
+from nivel.errors import ModelError, SolveError
+from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
     from nivel.studies import Study
@@ -90,31 +92,26 @@ def make_search(given: Given, kind: Kind) -> None:
 
     Where no start has a result, the data file has all variants nevertheless.
     """
-    from nivel.analysis.optimise.table import NothingFoundError
-    from nivel.errors import SolveError
-    from nivel.results.trust import Trust
-    from nivel.studies import load_study, write_study_report
-
-    loaded = load_study(given.study, given.overrides, allow_code=given.allow_code)
+    loaded = nivel.studies.load_study(given.study, given.overrides, allow_code=given.allow_code)
     target, page = _targets(loaded, given)
     if given.resume and is_complete(target, page, given.quiet):
         return
     try:
         found = kind.search(loaded, out=target, threads=given.threads, resume=given.resume, force=given.force)
-    except (NothingFoundError, SolveError) as error:
+    except (nivel.analysis.optimise.table.NothingFoundError, SolveError) as error:
         table: Any = error.result
         if table is not None:
             if page is not None:
-                write_study_report(table, page)
+                nivel.studies.write_study_report(table, page)
             if not given.quiet:
                 click.echo(f"all variants: {target}", err=True)
         raise
     except KeyboardInterrupt:
         say_how_to_go_on(target)
         raise
-    trust = Trust.from_json(found.dataset.attrs["trust"])
+    trust = nivel.results.trust.Trust.from_json(found.dataset.attrs["trust"])
     if page is not None:
-        write_study_report(found.dataset, page)
+        nivel.studies.write_study_report(found.dataset, page)
     if given.as_json:
         click.echo(json.dumps({**kind.facts(found), "headline": str(trust.headline)}, indent=2))
     if not given.quiet:
@@ -127,27 +124,20 @@ def make_search(given: Given, kind: Kind) -> None:
 
 def _targets(study: Study, given: Given) -> tuple[Path, Path | None]:
     """Data file and report. Raises ModelError where one exists and is not to be replaced."""
-    from nivel.cli.analysis_command import beside
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-
     target = given.out or Path(f"{study.file.record.name}.nc")
-    page = None if given.no_report else beside(target)
+    page = None if given.no_report else nivel.cli.analysis_command.beside(target)
     if page == target:
         raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
     sources = [Path(given.study), Path(study.file.machine_file)]
-    check_target(target, "data file", force=given.force or given.resume, sources=sources)
+    nivel.files.target.check_target(target, "data file", force=given.force or given.resume, sources=sources)
     if page is not None:
-        check_target(page, "report", force=given.force or given.resume, sources=sources)
+        nivel.files.target.check_target(page, "report", force=given.force or given.resume, sources=sources)
     return target, page
 
 
 def numbers_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table on standard output."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(*heads)
+    table = rich.table.Table(*heads)
     for row in rows:
         table.add_row(*row)
-    Console().print(table)
+    rich.console.Console().print(table)

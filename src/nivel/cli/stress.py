@@ -11,6 +11,8 @@ import click
 from nivel.cli.ending import console
 from nivel.cli.options import file_argument, force_option, json_option, quiet_option, separated
 from nivel.cli.progress import progress_stage
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel
 
 if TYPE_CHECKING:
     from nivel.results.stress import RecoveredBody
@@ -75,14 +77,9 @@ def command(
     _refuse_without_nodes(nodes, {"--rainflow": cycles, "--plot": picture, "--strain": strains})
     if strains and table is None:
         raise click.UsageError("--strain needs --csv: the table in which the strains stand")
-    from nivel.extras import require
-
     if picture is not None:
-        require("plots need", "matplotlib")
-    from nivel.results import Result
-    from nivel.results.stress_tables import stress_facts
-
-    opened = Result.open(result)
+        nivel.extras.require("plots need", "matplotlib")
+    opened = nivel.results.Result.open(result)
     moments = _times(times or ())
     with progress_stage(quiet) as stage:
         stage("reading", 0.0)
@@ -92,7 +89,7 @@ def command(
             found.frame(moment)
         _refuse_to_replace((table, cycles, picture, vtk), force, [Path(result), found.file])
         stage("looking for hot spots", 0.1)
-        told = stress_facts(found, count=count, nodes=wanted, times=moments)
+        told = nivel.results.stress_tables.stress_facts(found, count=count, nodes=wanted, times=moments)
         stage("writing", 0.6)
         _write(found, wanted, moments, strains=strains, table=table, cycles=cycles, picture=picture)
         if vtk is not None:
@@ -114,13 +111,10 @@ def _refuse_without_nodes(nodes: tuple[str, ...] | None, needing: dict[str, Any]
 
 def _times(words: tuple[str, ...]) -> list[float]:
     """[s] of `0.5`, `500 ms`."""
-    from nivel.errors import Fault, ModelError
-    from nivel.machine.units.quantity import read_quantity
-
     out, faults = [], []
     for word in words:
         try:
-            out.append(read_quantity(word, "time", {}))
+            out.append(nivel.machine.units.quantity.read_quantity(word, "time", {}))
         except ValueError as error:
             faults.append(Fault("", 0, 0, "--at", str(error)))
     if faults:
@@ -130,8 +124,6 @@ def _times(words: tuple[str, ...]) -> list[float]:
 
 def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
     """Numbers of nodes that have stress, each once. Raises ModelError naming all that are unknown."""
-    from nivel.errors import ModelError
-
     out, faults = {}, []
     for word in words:
         try:
@@ -146,11 +138,9 @@ def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
 
 
 def _refuse_to_replace(targets: tuple[Path | None, ...], force: bool, sources: list[Path]) -> None:
-    from nivel.files.target import check_text_target
-
     for path, what in zip(targets, ("table", "table of cycles", "plot", "VTK file"), strict=True):
         if path is not None:
-            check_text_target(path, what, force=force, sources=sources)
+            nivel.files.target.check_text_target(path, what, force=force, sources=sources)
 
 
 def _write(
@@ -163,27 +153,21 @@ def _write(
     cycles: Path | None,
     picture: Path | None,
 ) -> None:
-    from nivel.results.stress_tables import write_cycles, write_envelope, write_history, write_states
-
     if table is not None:
         if nodes:
-            write_history(table, found, nodes, strains=strains)
+            nivel.results.stress_tables.write_history(table, found, nodes, strains=strains)
         elif times:
-            write_states(table, found, times)
+            nivel.results.stress_tables.write_states(table, found, times)
         else:
-            write_envelope(table, found)
+            nivel.results.stress_tables.write_envelope(table, found)
     if cycles is not None:
-        write_cycles(cycles, found, nodes)
+        nivel.results.stress_tables.write_cycles(cycles, found, nodes)
     if picture is not None:
-        from nivel.results.plots import save_plot
-
-        save_plot(picture, found, nodes)
+        nivel.results.plots.save_plot(picture, found, nodes)
 
 
 def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
     """The facts as tables for people: on standard output, unless JSON is there."""
-    from nivel.results.trust import told
-
     out = console(stderr=to_standard_error)
     out.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
     for spot in facts["hot_spots"]:
@@ -211,4 +195,8 @@ def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
         )
         for low, high, number in node["cycles"]:
             out.print(f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa", markup=False)
-    out.print(f"trust: {told(facts['trust']['verdict'], facts['trust']['headline'])}", markup=False, soft_wrap=True)
+    out.print(
+        f"trust: {nivel.results.trust.told(facts['trust']['verdict'], facts['trust']['headline'])}",
+        markup=False,
+        soft_wrap=True,
+    )

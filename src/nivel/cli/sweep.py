@@ -23,6 +23,8 @@ from nivel.cli.options import (
     no_report_option,
     quiet_option,
 )
+from nivel.errors import ModelError
+from nivel.lazy import nivel, numpy, rich
 from nivel.words.wording import seconds
 
 if TYPE_CHECKING:
@@ -84,20 +86,15 @@ def command(
 
     Exit codes: 0 the variants were computed, 2 fault in the input, 3 every variant failed, 130 interrupted.
     """
-    from nivel.cli.analysis_command import beside
-    from nivel.errors import ModelError
-    from nivel.files.target import check_target
-    from nivel.studies import load_study, write_study_report
-
-    loaded = load_study(study, overrides, allow_code=allow_code)
+    loaded = nivel.studies.load_study(study, overrides, allow_code=allow_code)
     target = out or Path(f"{loaded.file.record.name}.nc")
-    page = None if no_report else beside(target)
+    page = None if no_report else nivel.cli.analysis_command.beside(target)
     if page == target:
         raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
     if resume and is_complete(target, page, quiet):
         return
     if page is not None:
-        check_target(page, "report", force=force or resume, sources=[Path(study)])
+        nivel.files.target.check_target(page, "report", force=force or resume, sources=[Path(study)])
     with _progress(loaded, quiet) as (listener, heard):
         found = loaded.sweep(
             out=target,
@@ -110,7 +107,7 @@ def command(
         )
     interrupted = "not run" in found["outcome"].values
     if page is not None and not interrupted:
-        write_study_report(found, page)
+        nivel.studies.write_study_report(found, page)
     if as_json:
         click.echo(json.dumps(summary(found), indent=2))
     if not quiet:
@@ -123,12 +120,10 @@ def command(
 
 def is_complete(target: Path, page: Path | None, quiet: bool) -> bool:
     """Whether an interrupted study had come to its data file, which is said; its report is written where it is missing."""
-    from nivel.studies import write_study_report
-
     if not target.exists() or target.with_name(f"{target.name}.journal").exists():
         return False
     if page is not None and not page.exists():
-        write_study_report(target, page)
+        nivel.studies.write_study_report(target, page)
     if not quiet:
         click.echo(f"{target} is complete: nothing is left to compute", err=True)
     return True
@@ -142,20 +137,16 @@ def say_how_to_go_on(target: Path) -> None:
 
 def summary(found: xarray.Dataset) -> dict[str, Any]:
     """Outcomes, and numbers of each output, for programs."""
-    import numpy as np
-
-    from nivel.results.study_statistics import Table, share_within
-
-    table = Table.of(found)
+    table = nivel.results.study_statistics.Table.of(found)
     outputs = {}
     for name, values in table.outputs.items():
-        known = values[np.isfinite(values)]
+        known = values[numpy.isfinite(values)]
         facts: dict[str, Any] = {"units": table.units[name], "count": len(known)}
         if len(known):
             facts |= {"min": float(known.min()), "mean": float(known.mean()), "max": float(known.max())}
             facts["standard_deviation"] = float(known.std(ddof=1)) if len(known) > 1 else 0.0
         if name in table.limited:
-            facts["within_limits"] = share_within(table, name).value
+            facts["within_limits"] = nivel.results.study_statistics.share_within(table, name).value
         outputs[name] = facts
     out = {
         "study": str(found.attrs.get("study", "")),
@@ -165,22 +156,16 @@ def summary(found: xarray.Dataset) -> dict[str, Any]:
         "verdict": str(found.attrs["verdict"]),
         "outputs": outputs,
     }
-    return out | ({"yield": share_within(table).value} if table.limited else {})
+    return out | ({"yield": nivel.results.study_statistics.share_within(table).value} if table.limited else {})
 
 
 def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bool) -> None:
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table as Shown
-
-    from nivel.cli.ending import COLOURS, console
-    from nivel.results.study_statistics import Table, share_within
-
-    out, table, facts = console(), Table.of(found), summary(found)
+    out, table, facts = nivel.cli.ending.console(), nivel.results.study_statistics.Table.of(found), summary(found)
     loop, took = float(found.attrs["loop_seconds"]), float(found.attrs["seconds"])
     steps = f", {seconds(loop)} of it in loops of runs" if loop else ""
     out.print(f"[bold]{facts['study']}[/bold]: {found.attrs['outcomes']} in {seconds(took)}{steps}")
     if table.outputs:
-        shown = Shown("output", "unit", box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+        shown = rich.table.Table("output", "unit", box=rich.box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
         for title in ("least", "mean", "greatest", "deviation", "within limits"):
             shown.add_column(title, justify="right")
         for name, each in facts["outputs"].items():
@@ -191,7 +176,7 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
             shown.add_row(name, each["units"], *numbers, share)
         out.print(shown)
     if table.limited:
-        share = share_within(table)
+        share = nivel.results.study_statistics.share_within(table)
         low, high = share.interval
         between = f"{100 * low:.3g} to {100 * high:.3g} % with a confidence of 95 %"
         out.print(
@@ -204,7 +189,7 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
     if len(others) > SHOWN:
         out.print(f"  and {len(others) - SHOWN} more that came to no end")
     verdict = str(found.attrs["verdict"])
-    coloured = f"[{COLOURS[verdict]}]{verdict}[/], " if verdict in COLOURS else ""
+    coloured = f"[{nivel.cli.ending.COLOURS[verdict]}]{verdict}[/], " if verdict in nivel.cli.ending.COLOURS else ""
     out.print(f"trust: {coloured}{found.attrs['headline']}", soft_wrap=True)
     if interrupted:
         say_how_to_go_on(target)
@@ -215,37 +200,37 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
 @contextmanager
 def _progress(study: Study, quiet: bool) -> Iterator[tuple[Any, Callable[[int, Any], None] | None]]:
     """A listener, and what hears each variant: in a terminal a bar with the time that is left, over a table of the last variants."""
-    from nivel.analysis.progress.listener import Listener
-    from nivel.cli.progress import progress_listener
-
     if quiet:
-        yield Listener(), None
+        yield nivel.analysis.progress.listener.Listener(), None
         return
     count = len(study.variants.values)
     left = _Left(count)
     if not sys.stderr.isatty():
-        with progress_listener(quiet) as listener:
+        with nivel.cli.progress.progress_listener(quiet) as listener:
             yield (
-                Listener(listener.stage, lambda done: listener.say(f"{left.done(done)} of {count} variants{left}")),
+                nivel.analysis.progress.listener.Listener(
+                    listener.stage, lambda done: listener.say(f"{left.done(done)} of {count} variants{left}")
+                ),
                 None,
             )
         return
-    from rich.console import Console, Group
-    from rich.live import Live
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[left]}"))
-    bar = Progress(*columns)
+    columns = (
+        rich.progress.TextColumn("{task.description}"),
+        rich.progress.BarColumn(),
+        rich.progress.MofNCompleteColumn(),
+        rich.progress.TextColumn("{task.fields[left]}"),
+    )
+    bar = rich.progress.Progress(*columns)
     task = bar.add_task("variants", total=count, left="")
     last: deque[tuple[int, Any]] = deque(maxlen=SHOWN)
-    with Live(bar, console=Console(stderr=True), transient=True, refresh_per_second=4) as live:
+    with rich.live.Live(bar, console=rich.console.Console(stderr=True), transient=True, refresh_per_second=4) as live:
 
         def heard(number: int, run: Any) -> None:
             last.append((number, run))
-            live.update(Group(bar, _recent(study, last)))
+            live.update(rich.console.Group(bar, _recent(study, last)))
 
         yield (
-            Listener(
+            nivel.analysis.progress.listener.Listener(
                 lambda text, _total: bar.update(task, description=text),
                 lambda done: bar.update(task, completed=left.done(done), left=str(left)),
             ),
@@ -275,19 +260,15 @@ class _Left:
 
 def _recent(study: Study, last: deque[tuple[int, Any]]) -> Any:
     """The table of the last variants."""
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table as Shown
-    from rich.text import Text
-
     record, values = study.file.record, study.variants.values
     parameters, outputs = list(record.parameters)[:COLUMNS], list(record.outputs)[:COLUMNS]
-    shown = Shown(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    shown = rich.table.Table(box=rich.box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     for title in ("variant", *parameters, "outcome", *outputs):
         shown.add_column(title, justify="left" if title == "outcome" else "right", no_wrap=True)
     for number, run in last:
         numbers = [_shown(values[number][path]) for path in parameters]
         found = [_shown(run.outputs[name].value) if name in run.outputs else "" for name in outputs]
-        outcome = Text(run.outcome, style=STYLES.get(run.outcome, "red"))
+        outcome = rich.text.Text(run.outcome, style=STYLES.get(run.outcome, "red"))
         shown.add_row(str(number), *numbers, outcome, *found)
     return shown
 

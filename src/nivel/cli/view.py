@@ -9,6 +9,8 @@ import click
 
 from nivel.cli.options import allow_code_option, file_argument, force_option, override_option, quiet_option
 from nivel.cli.progress import progress_count
+from nivel.errors import Fault, ModelError
+from nivel.lazy import nivel
 
 if TYPE_CHECKING:
     from nivel.view.capture import Look
@@ -98,21 +100,16 @@ def command(
     Further results are drawn transparently over the first one. The page is served only on this computer, unless --host is given, and
     needs no network. With --export or --still files are written and no browser is opened.
     """
-    from nivel.errors import ModelError
-    from nivel.extras import require
-    from nivel.view.capture import Look, require_parts
-    from nivel.view.server import serve
-
     if not host.strip():
         raise click.BadParameter("an address was expected, got none", param_hint="--host")
-    look = Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark, colours=colours)
+    look = nivel.view.capture.Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark, colours=colours)
     written = [*exports, *([still] if still else [])]
     _refuse_targets(written, [file, *ghosts], force)
     for target in written:
         if Path(target).suffix.lower() != ".html":
-            require_parts(Path(target))
+            nivel.view.capture.require_parts(Path(target))
     if not written:
-        require("the page needs", "websockets")
+        nivel.extras.require("the page needs", "websockets")
     if Path(file).suffix.lower() in MACHINES:
         if vibration is not None:
             raise ModelError("--mode is for results of `nivel statics --modes`; a machine file has none yet")
@@ -125,25 +122,31 @@ def command(
         _still(source, Path(still), moment, look)
         _say(f"picture: {still}", quiet)
     if not written:
-        serve(source, host=host, port=port, browser=not no_browser, say=lambda text: _say(text, quiet=False))
+        nivel.view.server.serve(
+            source, host=host, port=port, browser=not no_browser, say=lambda text: _say(text, quiet=False)
+        )
 
 
 def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None:
     """Refuse, before anything is computed, files that may not be written, and kinds that are not known."""
-    from nivel.errors import Fault, ModelError
-    from nivel.files.target import check_target
-    from nivel.view.capture import FILMS
-
     faults = []
     for target in targets:
         kind = Path(target).suffix.lower()
-        if kind not in (".html", ".png", *FILMS):
+        if kind not in (".html", ".png", *nivel.view.capture.FILMS):
             faults.append(
-                Fault("", 0, 0, "", f"{target}: a name ending in .html, .png, {' or '.join(FILMS)} was expected")
+                Fault(
+                    "",
+                    0,
+                    0,
+                    "",
+                    f"{target}: a name ending in .html, .png, {' or '.join(nivel.view.capture.FILMS)} was expected",
+                )
             )
             continue
         try:
-            check_target(Path(target), "file", force=force, sources=[Path(source) for source in sources])
+            nivel.files.target.check_target(
+                Path(target), "file", force=force, sources=[Path(source) for source in sources]
+            )
         except ModelError as error:
             faults += error.faults
     if faults:
@@ -151,59 +154,45 @@ def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None
 
 
 def _machine(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], allow_code: bool, quiet: bool) -> Source:
-    from nivel.api import load
-    from nivel.cli.progress import progress_listener
-    from nivel.errors import ModelError
-
     if ghosts:
         raise ModelError(f"{ghosts[0]} cannot be laid over a machine: only results are laid over each other")
-    machine = load(file, overrides, allow_code=allow_code)
-    with progress_listener(quiet) as listener:
+    machine = nivel.api.load(file, overrides, allow_code=allow_code)
+    with nivel.cli.progress.progress_listener(quiet) as listener:
         return machine.viewer_source(listener=listener)
 
 
 def _results(
     file: str, ghosts: tuple[str, ...], overrides: dict[str, str], vibration: int | None, *, alone: bool
 ) -> Source:
-    from nivel.errors import Fault, ModelError
-    from nivel.results import Result
-    from nivel.view.playback import ALONE, SERVED
-    from nivel.view.sources import Playback
-
     if overrides:
         raise ModelError("--set is for machine files; a result is what it is")
     faults: list[Fault] = []
     results = []
     for path in (file, *ghosts):
         try:
-            results.append(Result.open(path))
+            results.append(nivel.results.Result.open(path))
         except ModelError as error:
             faults += error.faults
     if faults:
         raise ModelError(faults)
     if vibration is not None:
         results = [each.mode(vibration) for each in results]
-    return Playback(results, ALONE if alone else SERVED)
+    return nivel.view.sources.Playback(results, nivel.view.playback.ALONE if alone else nivel.view.playback.SERVED)
 
 
 def _export(source: Source, target: Path, look: Look, quiet: bool) -> None:
-    from nivel.view.capture import film
-    from nivel.view.page import write_page
-
     if target.suffix.lower() == ".html":
-        write_page(source, target)
+        nivel.view.page.write_page(source, target)
     elif target.suffix.lower() == ".png":
         _still(source, target, None, look)
     else:
         with progress_count("drawing the film", quiet) as tell:
-            film(source, target, look, lambda done, count: tell(done, count, ""))
+            nivel.view.capture.film(source, target, look, lambda done, count: tell(done, count, ""))
     _say(f"written: {target}", quiet)
 
 
 def _still(source: Source, target: Path, moment: float | None, look: Look) -> None:
-    from nivel.view.capture import still
-
-    still(source, target, look, moment)
+    nivel.view.capture.still(source, target, look, moment)
 
 
 def _say(text: str, quiet: bool) -> None:

@@ -8,6 +8,7 @@ import click
 
 from nivel.cli.options import quiet_option
 from nivel.cli.progress import progress_count
+from nivel.lazy import nivel, rich
 
 
 @click.command(short_help="Compile all kernels ahead of the first run.")
@@ -17,15 +18,10 @@ def command(quiet: bool) -> None:
 
     Entries that are compiled already are kept. After an interruption, the next call continues.
     """
-    from rich.console import Console
-
-    from nivel.analysis.plan.compilation import all_entries
-    from nivel.native import library, store
-
-    console = Console(stderr=True, highlight=False, quiet=quiet)
+    console = rich.console.Console(stderr=True, highlight=False, quiet=quiet)
     begin = time.perf_counter()
-    entries = all_entries()
-    missing = library.missing(entries)
+    entries = nivel.analysis.plan.compilation.all_entries()
+    missing = nivel.native.library.missing(entries)
     with progress_count("compiling", quiet) as tell:
         names: list[str] = []
 
@@ -33,8 +29,9 @@ def command(quiet: bool) -> None:
             names.append(name)
             tell(len(names), len(missing), name)
 
-        library.build(missing, done)
+        nivel.native.library.build(missing, done)
     spent = time.perf_counter() - begin
     console.print(
-        f"{len(missing)} of {len(entries)} entries compiled in {spent:.1f} s; cache: {store.folder()}", soft_wrap=True
+        f"{len(missing)} of {len(entries)} entries compiled in {spent:.1f} s; cache: {nivel.native.store.folder()}",
+        soft_wrap=True,
     )

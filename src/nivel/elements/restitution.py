@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from nivel.lazy import scipy
+
 
 def damping_of_restitution(restitution: float) -> float:
     """x with ln((1 + x)/(1 - e x)) = x (1 + e), see `nivel.kernels.forces.impact`; zero for e = 1."""
@@ -22,7 +24,5 @@ def damping_of_restitution(restitution: float) -> float:
         gap *= 1e-3
         if gap < 1e-15 * largest:
             return largest
-    from scipy.optimize import bisect  # takes a fifth of a second to import
-
-    root: Any = bisect(excess, 1e-6 * (1.0 - e), largest - gap, xtol=1e-15)
+    root: Any = scipy.optimize.bisect(excess, 1e-6 * (1.0 - e), largest - gap, xtol=1e-15)
     return float(root)

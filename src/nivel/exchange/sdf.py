@@ -11,6 +11,7 @@ from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, 
 from nivel.exchange.translation import Notes
 from nivel.exchange.urdf import digits
 from nivel.files.xml_source import Document, Element
+from nivel.lazy import nivel
 
 KINDS: Final = {
     "revolute": "revolute",
@@ -83,10 +84,12 @@ def pose_of(element: Element, document: Document) -> Frame:
 
 
 def _axes_of(parameters: tuple[float, ...]) -> Array:
-    from nivel.machine.core.orientation import matrix_from_euler_parameters
-
     length = float(np.linalg.norm(parameters))
-    return matrix_from_euler_parameters(np.array(parameters) / length) if length else np.eye(3)
+    return (
+        nivel.machine.core.orientation.matrix_from_euler_parameters(np.array(parameters) / length)
+        if length
+        else np.eye(3)
+    )
 
 
 def read_sdf(document: Document, base: str | None) -> Mechanism:

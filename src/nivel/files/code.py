@@ -9,6 +9,7 @@ from nivel.errors import ModelError
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources, resolved
 from nivel.files.tree import Path, Tree
+from nivel.lazy import nivel
 
 # another word for the time between samples, as states have it
 EVERY, SAMPLE_TIME = "every", "sample_time"
@@ -59,16 +60,16 @@ def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> No
 def _look_up(tree: Tree, path: Path, block: dict[str, Any], content: bytes, file: str) -> None:
     """Whether the file is an FMU with the variables that the block names."""
     # archives take some milliseconds to import
-    from nivel.files.fmu_file import read_description, unknown_variables
-
     try:
-        description = read_description(content, file)
+        description = nivel.files.fmu_file.read_description(content, file)
     except ModelError as error:
         for fault in error.faults:
             tree.report((*path, "file"), f"`{file}`: {fault.message}")
         tree.broken.add(path)
         return
-    for key, message in unknown_variables(description, *(_variables(block, each) for each in NAMED)):
+    for key, message in nivel.files.fmu_file.unknown_variables(
+        description, *(_variables(block, each) for each in NAMED)
+    ):
         tree.report((*path, key), message)
         tree.broken.add(path)
 

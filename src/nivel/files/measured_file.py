@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.extras import needed
+from nivel.lazy import nivel, scipy
 from nivel.words.wording import unknown_word
 
 RECORDING_KINDS: Final = (".mf4", ".mcap")
@@ -92,9 +93,7 @@ def _topic(column: str, topics: list[str]) -> str | None:
 
 def _decoders() -> list[Any]:
     """Of messages of ROS 2, where its library is installed."""
-    from nivel.extras import is_installed
-
-    if not is_installed("mcap_ros2.decoder"):
+    if not nivel.extras.is_installed("mcap_ros2.decoder"):
         return []
     decoder: Any = needed("mcap_ros2.decoder", "messages of ROS 2 need")
     return [decoder.DecoderFactory()]
@@ -179,10 +178,8 @@ def _of_recording(content: bytes, file: str, column: str | None) -> dict[str, tu
 
 def _mat(content: bytes) -> dict[str, tuple[NDArray[np.float64], str]]:
     """Vectors of real numbers; those that are called `time` or `t` come first."""
-    from scipy.io import loadmat
-
     found = {}
-    for name, value in loadmat(io.BytesIO(content)).items():
+    for name, value in scipy.io.loadmat(io.BytesIO(content)).items():
         if (
             not name.startswith("__")
             and isinstance(value, np.ndarray)

@@ -8,6 +8,7 @@ from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model import FiniteElementModel
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets
+from nivel.lazy import nivel
 
 Stage = Callable[[str, float], None]
 
@@ -20,9 +21,5 @@ def source_model(located: Located, say: Stage) -> tuple[FiniteElementModel, Node
     if located.record.frame is not None:
         return frame_model(located), {}
     if located.record.solid is not None:
-        from nivel.flexible.model.solid_source import solid_model
-
-        return solid_model(located, say)
-    from nivel.flexible.foreign.source import matrix_model
-
-    return matrix_model(located)
+        return nivel.flexible.model.solid_source.solid_model(located, say)
+    return nivel.flexible.foreign.source.matrix_model(located)

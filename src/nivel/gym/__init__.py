@@ -11,15 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nivel.api import Machine, load
 from nivel.errors import Fault, ModelError
 from nivel.extras import require
+from nivel.lazy import gymnasium, nivel
 from nivel.words.arguments import checked_arguments
-
-if TYPE_CHECKING:
-    import gymnasium
 
 __all__ = ["environment", "environments"]
 
@@ -53,9 +51,7 @@ def environment(
     An event with `stop: true` terminates an episode, as does a step that fails, with `failure` in the information. Raises ModelError.
     """
     require("environments for reinforcement learning need", "gymnasium")
-    from nivel.gym.machine_environment import MachineEnvironment
-
-    return MachineEnvironment(
+    return nivel.gym.machine_environment.MachineEnvironment(
         machine if isinstance(machine, Machine) else load(machine),
         reward=reward,
         observe=observe,
@@ -77,7 +73,5 @@ def environments(
     require("environments for reinforcement learning need", "gymnasium")
     if count < 1:
         raise ModelError(Fault.at("count", f"at least one environment was expected, got {count}"))
-    from gymnasium.vector import SyncVectorEnv
-
     same = machine if isinstance(machine, Machine) else load(machine)
-    return SyncVectorEnv([lambda: environment(same, reward=reward, **given)] * count)
+    return gymnasium.vector.SyncVectorEnv([lambda: environment(same, reward=reward, **given)] * count)

@@ -36,6 +36,7 @@ from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core import status as codes
 from nivel.kernels.output.observe import observe
+from nivel.lazy import nivel
 from nivel.live import shared
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run
@@ -98,10 +99,10 @@ def _end_with_the_server(left: str) -> None:
 
 def _facts(live_run: LiveRun) -> dict[str, Any]:
     """What the server has to know of the machine as it was assembled."""
-    from nivel.analysis.preparation.attributes import run_attributes
-
     system = live_run.prepared.motion.system
-    attributes = run_attributes(live_run.plan.machine, "", live_run.prepared, live_run.plan.settings)
+    attributes = nivel.analysis.preparation.attributes.run_attributes(
+        live_run.plan.machine, "", live_run.prepared, live_run.plan.settings
+    )
     return {"sizes": tuple(live_run.sizes), "layout": system.layout, "attributes": attributes}
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.lazy import nivel, scipy, xarray
 from nivel.machine.beams.beam import Beam
 from nivel.machine.core.record import unknown_word
 from nivel.machine.machine_record import MachineRecord
@@ -41,26 +42,24 @@ AT_ONCE: Final = 20_000  # elements, counted anew at every time
 
 def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
     """From places (t, N, 3), Euler parameters (t, N, 4) and modal coordinates (t, N, m) of the nodes of `beam`."""
-    from scipy.spatial.transform import Rotation
-
-    from nivel.system.beams.elements import elements_of, strains
-
     if beam.model == "segments":
         return _felt_by_springs(beam, place, theta)
     if beam.has_gradients:
-        turned = Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix()
+        turned = scipy.spatial.transform.Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix()
         return felt_by_gradients(beam, place, turned.reshape(*theta.shape[:2], 3, 3), modal)
-    elements = elements_of(beam)
+    elements = nivel.system.beams.elements.elements_of(beam)
     count, points = elements.N.shape[:2]
     times, rows = len(place), max(AT_ONCE // count, 1)
     parts = [np.zeros((0, count * points, 6))]
     for start in range(0, times, rows):
         x, turned = place[start : start + rows], theta[start : start + rows]
         axes = (
-            Rotation.from_quat(turned[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix().reshape(*turned.shape[:2], 3, 3)
+            scipy.spatial.transform.Rotation.from_quat(turned[:, :, [1, 2, 3, 0]].reshape(-1, 4))
+            .as_matrix()
+            .reshape(*turned.shape[:2], 3, 3)
         )
         many = len(x)
-        now = strains(
+        now = nivel.system.beams.elements.strains(
             x[:, elements.nodes].reshape(many * count, -1, 3),
             axes[:, elements.nodes].reshape(many * count, -1, 3, 3),
             elements.reference,
@@ -90,14 +89,14 @@ def modes_of_nodes(result: Result, beam: Beam) -> Array:
 
 def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
     """The same where segments meet: the deflection of the spring over the length of its piece of beam."""
-    from scipy.spatial.transform import Rotation
-
-    from nivel.system.beams.segments import boundaries, deflections
-
-    axes = Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True).as_matrix().reshape(*theta.shape[:2], 3, 3)
+    axes = (
+        scipy.spatial.transform.Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True)
+        .as_matrix()
+        .reshape(*theta.shape[:2], 3, 3)
+    )
     weight = beam.line.length * np.diff(beam.shares)
-    strain = deflections(beam, place, axes) / weight[:, None]
-    return _felt_elastically(beam, boundaries(beam), weight, strain)
+    strain = nivel.system.beams.segments.deflections(beam, place, axes) / weight[:, None]
+    return _felt_elastically(beam, nivel.system.beams.segments.boundaries(beam), weight, strain)
 
 
 def beam_sections(result: Result, name: str) -> xr.Dataset:
@@ -111,8 +110,6 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
 
     Raises ModelError where the machine has no such beam.
     """
-    import xarray as xr
-
     with understood(result, "machine_record"):
         machine = MachineRecord.model_validate_json(result.dataset.attrs["machine_record"])
     found = {beam.name: beam for beam in machine.beams}
@@ -122,7 +119,7 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
     data = result.dataset.sel(body=list(beam.node_names))
     of = felt(beam, data["position"].values, data["orientation"].values, modes_of_nodes(result, beam))
     dims = ("time", "point", "component")
-    out = xr.Dataset(
+    out = xarray.Dataset(
         {
             "strain": (dims, of.strain[:, :, :3], {"units": "1", "long_name": "stretch and shears"}),
             "curvature": (dims, of.strain[:, :, 3:], {"units": "1/m", "long_name": "twist and curvatures"}),

@@ -11,6 +11,7 @@ import numpy as np
 from nivel.errors import ModelError
 from nivel.extras import require
 from nivel.files.target import written
+from nivel.lazy import matplotlib
 from nivel.results.frames.csv_table import columns
 
 if TYPE_CHECKING:
@@ -23,9 +24,7 @@ if TYPE_CHECKING:
 def plot_stress(body: RecoveredBody, nodes: Sequence[int | str]) -> Figure:
     """A pair of axes per node: signed principal and von Mises stress at the station where the latter is largest."""
     require("plots need", "matplotlib")
-    from matplotlib.figure import Figure
-
-    figure = Figure(layout="constrained", figsize=(8, 1.2 + 2.4 * len(nodes)))
+    figure = matplotlib.figure.Figure(layout="constrained", figsize=(8, 1.2 + 2.4 * len(nodes)))
     axes = figure.subplots(len(nodes), 1, sharex=True, squeeze=False)
     for axis, node in zip(axes[:, 0], nodes, strict=True):
         size, signed = body.von_mises(node), body.signed_principal(node)
@@ -61,13 +60,11 @@ def plot(result: Result, names: tuple[str, ...], band: bool = False) -> Figure:
     band : from each curve less its estimated error to the curve and that, as far as the run was verified.
     """
     require("plots need", "matplotlib")
-    from matplotlib import pyplot
-
     default = "joint_coordinate" if "joint_coordinate" in result.variables else "*energy"
     by_unit: dict[str, list[str]] = {}
     for name in columns(result, names or (default,)):
         by_unit.setdefault(result.units(name), []).append(name)
-    figure, axes = pyplot.subplots(
+    figure, axes = matplotlib.pyplot.subplots(
         len(by_unit), 1, sharex=True, squeeze=False, layout="constrained", figsize=(8, 1.2 + 2.4 * len(by_unit))
     )
     for axis, (unit, group) in zip(axes[:, 0], by_unit.items(), strict=True):

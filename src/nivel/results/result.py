@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import provided
+from nivel.lazy import nivel, provided
 from nivel.results.estimate import ATTRIBUTE, Estimate
 from nivel.results.frames.contents import Contents
 from nivel.results.frames.names import Selection, own_units, selections, unknown_name
@@ -119,9 +119,7 @@ class Result(Tabulated):
     @checked_arguments
     def sections(self, beam: str) -> xarray.Dataset:
         """Strains, forces and moments along a beam at all times; see `nivel.results.beams`."""
-        from nivel.results.beams import beam_sections
-
-        return beam_sections(self, beam)
+        return nivel.results.beams.beam_sections(self, beam)
 
     def _json(self, attribute: str) -> dict[str, Any]:
         return json.loads(str(self.attributes.get(attribute, "{}")))
@@ -239,9 +237,7 @@ class Result(Tabulated):
 
     @checked_arguments
     def __getitem__(self, name: str) -> xarray.DataArray:
-        from nivel.results.frames.labelled import data_array
-
-        return data_array(self, name)
+        return nivel.results.frames.labelled.data_array(self, name)
 
     def keys(self) -> tuple[str, ...]:
         """The names that ``result[…]`` takes, as `names`."""
@@ -252,9 +248,10 @@ class Result(Tabulated):
         return self.dataset
 
     def _rows(self, select: list[str]) -> Rows:
-        from nivel.results.frames.csv_table import columns
-
-        its = {name: Column(self.array(name), self.units(name)) for name in columns(self, select)}
+        its = {
+            name: Column(self.array(name), self.units(name))
+            for name in nivel.results.frames.csv_table.columns(self, select)
+        }
         return Rows("time", Column(self.time, "s"), its)
 
     @checked_arguments
@@ -266,9 +263,7 @@ class Result(Tabulated):
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """Everything as one xarray dataset; read from the file when used where the run is over."""
-        from nivel.results.frames.labelled import dataset
-
-        return dataset(self)
+        return nivel.results.frames.labelled.dataset(self)
 
     @checked_arguments
     def recover(self, body: str | None = None, *, file: str | os.PathLike[str] | None = None) -> RecoveredBody:
@@ -277,9 +272,7 @@ class Result(Tabulated):
         file : where the file of the body is now, if it was moved. Raises ModelError where the body is not flexible, or its file is gone
         or was changed since the run.
         """
-        from nivel.results.stress import RecoveredBody
-
-        return RecoveredBody(self, body, file)
+        return nivel.results.stress.RecoveredBody(self, body, file)
 
     # --- for people ---
 
@@ -289,16 +282,12 @@ class Result(Tabulated):
 
         band : the estimated error of each curve around it, where the run was verified.
         """
-        from nivel.results.plots import plot
-
-        return plot(self, names, band)
+        return nivel.results.plots.plot(self, names, band)
 
     @checked_arguments
     def mode(self, number: int, frame: int = -1) -> Result:
         """Vibration `number` (from 1) about an equilibrium of a statics run as a motion of its own, slow and large enough to be seen."""
-        from nivel.results.analyses.mode_motion import mode_motion
-
-        return mode_motion(self, number, frame)
+        return nivel.results.analyses.mode_motion.mode_motion(self, number, frame)
 
     @checked_arguments
     def report(self, path: str | os.PathLike[str]) -> Path:
@@ -322,38 +311,28 @@ class Result(Tabulated):
 
     def reactions(self) -> xarray.Dataset:
         """Peak and RMS force and torque of every joint, and when."""
-        from nivel.results.frames.loads import reactions
-
-        return reactions(self)
+        return nivel.results.frames.loads.reactions(self)
 
     @checked_arguments
     def powers(self, *, period: float | str | None = None) -> xarray.Dataset:
         """Peak power, work done and work taken back of every driver, coupling and force that reports its power; with the period of a cycle
         [s] the work in the last whole one, and its mean power."""
-        from nivel.results.frames.loads import powers
-
-        return powers(self, period)
+        return nivel.results.frames.loads.powers(self, period)
 
     @checked_arguments
     def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:
         """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began."""
-        from nivel.results.frames.loads import cycles
-
-        return cycles(self, name, repeating=repeating)
+        return nivel.results.frames.loads.cycles(self, name, repeating=repeating)
 
     @checked_arguments
     def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
         """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""
-        from nivel.results.analyses.mechanism import coupler_curve
-
-        return coupler_curve(self, body, position)
+        return nivel.results.analyses.mechanism.coupler_curve(self, body, position)
 
     @checked_arguments
     def transmission_angle(self, first: str, at: str, last: str) -> xarray.DataArray:
         """[rad] angle at the joint `at` between the lines to the joints `first` and `last`; π/2 transmits best."""
-        from nivel.results.analyses.mechanism import transmission_angle
-
-        return transmission_angle(self, first, at, last)
+        return nivel.results.analyses.mechanism.transmission_angle(self, first, at, last)
 
     @checked_arguments
     def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:
@@ -361,22 +340,14 @@ class Result(Tabulated):
 
         An existing file is replaced.
         """
-        from nivel.results.frames.csv_table import write_csv
-
-        return write_csv(self, path, select)
+        return nivel.results.frames.csv_table.write_csv(self, path, select)
 
     def summary(self) -> dict[str, Any]:
         """The run in a few words and numbers, as `nivel run --json` prints it."""
-        from nivel.results.frames.summary import summary
-
-        return summary(self)
+        return nivel.results.frames.summary.summary(self)
 
     def __repr__(self) -> str:
-        from nivel.results.frames.summary import summary_text
-
-        return summary_text(self)
+        return nivel.results.frames.summary.summary_text(self)
 
     def _repr_html_(self) -> str:
-        from nivel.results.frames.summary import summary_html
-
-        return summary_html(self)
+        return nivel.results.frames.summary.summary_html(self)

@@ -32,6 +32,7 @@ from nivel.flexible.body.recovery import (
     stress_modes,
     von_mises,
 )
+from nivel.lazy import nivel, scipy
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
@@ -197,8 +198,6 @@ class RecoveredBody:
 
         times : [s] the frames nearest to these, default all. told : hears how far it is.
         """
-        from nivel.flexible.body.vtk import write_motion
-
         frames = np.arange(len(self.time)) if times is None else np.unique([self.frame(time) for time in times])
         place = self._result.selection(f"{self.name}.position").where[1]
         R = self._result.array("position")[frames, place]
@@ -209,14 +208,12 @@ class RecoveredBody:
                 told(f"writing frame {k + 1} of {len(frames)}", k / len(frames))
                 yield float(self.time[frame])
 
-        return write_motion(self.body, Path(path), followed(), self.q[frames], R, A)
+        return nivel.flexible.body.vtk.write_motion(self.body, Path(path), followed(), self.q[frames], R, A)
 
 
 def _rotation(theta: Array) -> Array:
     """(t, 3, 3) of Euler parameters (t, 4)."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_quat(theta, scalar_first=True).as_matrix()
+    return scipy.spatial.transform.Rotation.from_quat(theta, scalar_first=True).as_matrix()
 
 
 ATTRIBUTE = "flexible_bodies"

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from nivel.errors import ModelError
+from nivel.lazy import websockets
 
 if TYPE_CHECKING:
     from websockets.sync.client import ClientConnection
@@ -104,13 +105,13 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
     Raises ModelError where no browser is found or it does not start.
     """
     program = require_browser()
-    from websockets.sync.client import connect
-
     with tempfile.TemporaryDirectory(prefix="nivel-browser-", ignore_cleanup_errors=True) as profile:
         running = _started(program, Path(profile))
         try:
             address = _address(running, Path(profile))
-            with connect(address, max_size=None, open_timeout=PATIENCE, compression=None) as connection:
+            with websockets.sync.client.connect(
+                address, max_size=None, open_timeout=PATIENCE, compression=None
+            ) as connection:
                 opened = Tab(connection)
                 opened.call(
                     "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False

@@ -19,6 +19,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.extras import is_installed, require
 from nivel.files.target import write_file
+from nivel.lazy import PIL, imageio_ffmpeg
 from nivel.view.browser import Tab, require_browser, tab
 from nivel.view.page import page_of
 from nivel.view.sources import Source
@@ -134,16 +135,16 @@ Take = Callable[[bytes], Any]
 
 @contextmanager
 def _gif(path: Path, look: Look) -> Iterator[Take]:
-    from PIL import Image
-
     pictures: list[Any] = []
 
     def take(content: bytes) -> None:
-        picture = Image.open(BytesIO(content)).convert("RGB")
+        picture = PIL.Image.open(BytesIO(content)).convert("RGB")
         # the colours of the first picture serve all: none flickers
         palette = pictures[0] if pictures else None
         pictures.append(
-            picture.quantize(255) if palette is None else picture.quantize(palette=palette, dither=Image.Dither.NONE)
+            picture.quantize(255)
+            if palette is None
+            else picture.quantize(palette=palette, dither=PIL.Image.Dither.NONE)
         )
 
     yield take
@@ -195,9 +196,7 @@ def _ffmpeg() -> str:
         return program
     if not is_installed("imageio_ffmpeg"):
         raise ModelError(NO_FFMPEG)
-    from imageio_ffmpeg import get_ffmpeg_exe
-
     try:
-        return get_ffmpeg_exe()
+        return imageio_ffmpeg.get_ffmpeg_exe()
     except RuntimeError:
         raise ModelError(NO_FFMPEG) from None

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.lazy import nivel
 from nivel.results.result import Result
 from nivel.view import frames as frame_plan
 from nivel.view.arrows import Moments, arrows, described, places_of
@@ -133,10 +134,9 @@ def _circuit(result: Result, record: dict[str, Any]) -> str:
     """The diagram of its hydraulic circuits; empty without one. Machines without load nothing for it."""
     if not record.get("hydraulics") or not len(result.time):
         return ""
-    from nivel.looks.circuit.drawing import circuit_diagram
-    from nivel.results.frames.circuit_balance import pressures_at
-
-    return circuit_diagram(record, pressures_at(result, 0))
+    return nivel.looks.circuit.drawing.circuit_diagram(
+        record, nivel.results.frames.circuit_balance.pressures_at(result, 0)
+    )
 
 
 def _coloured(
@@ -145,13 +145,9 @@ def _coloured(
     """Flexible bodies with their stress, what beams feel, and in sentences what is left out. Machines without both load nothing for it."""
     felt, missing = None, []
     if result.scene.get("sweeps"):
-        from nivel.view.colours import sections
-
-        felt, missing = sections(result, frames, block, budget.sections)
+        felt, missing = nivel.view.colours.sections(result, frames, block, budget.sections)
     if bending:
-        from nivel.view.colours import with_stress
-
-        bending, more = with_stress(result, bending, block, budget.stress)
+        bending, more = nivel.view.colours.with_stress(result, bending, block, budget.stress)
         missing = [*missing, *more]
     return bending, felt, missing
 

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import parse_qs, urlsplit
 
 from nivel.errors import ModelError
+from nivel.lazy import websockets
 from nivel.view.page import script_hash, served_page
 from nivel.view.sources import Source
 from nivel.view.stream import LARGEST, REFUSED, Stream
@@ -75,8 +76,6 @@ class Viewing:
 
     async def talk(self, connection: ServerConnection) -> None:
         """One page, as long as it stays."""
-        from websockets.exceptions import ConnectionClosed
-
         if len(self.streams) >= MOST_PAGES:
             await connection.close(REFUSED, "too many pages")
             return
@@ -84,7 +83,7 @@ class Viewing:
         self.streams.add(stream)
         try:
             await stream.run()
-        except* ConnectionClosed:
+        except* websockets.exceptions.ConnectionClosed:
             pass
         finally:
             self.streams.discard(stream)
@@ -165,8 +164,6 @@ async def start(viewing: Viewing) -> Server:
 
     Raises ModelError where the port is taken.
     """
-    from websockets.asyncio.server import serve
-
     loop = asyncio.get_running_loop()
 
     def changed() -> None:
@@ -179,7 +176,7 @@ async def start(viewing: Viewing) -> Server:
     problem = OSError("no port is free")
     for port in ports:
         try:
-            server = await serve(
+            server = await websockets.asyncio.server.serve(
                 viewing.talk,
                 address.host,
                 port,

@@ -33,6 +33,7 @@ from nivel.elements.circuits.volumes import VOLUME
 from nivel.errors import Fault, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
+from nivel.lazy import scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
 
@@ -377,8 +378,6 @@ def _held_by(columns: Array, right: Array, lowest: Array) -> Array:
     Pressures that do nothing do not change. The least |x| is found with a small weight, which is left out again where the pressures at
     their bounds are known.
     """
-    from scipy.optimize import lsq_linear  # takes a fifth of a second to import
-
     size = np.linalg.norm(columns, axis=0)
     working = size > IDLE * max(float(size.max()), 1e-300)
     out = np.zeros(columns.shape[1])
@@ -389,7 +388,9 @@ def _held_by(columns: Array, right: Array, lowest: Array) -> Array:
     unit = float(np.linalg.norm(right)) or 1.0
     bound = lowest[working] * size[working] / unit
     weighted = np.vstack([scaled, WEIGHT * np.eye(count)])
-    x = lsq_linear(weighted, np.concatenate([right / unit, np.zeros(count)]), (bound, np.inf), method="bvls").x
+    x = scipy.optimize.lsq_linear(
+        weighted, np.concatenate([right / unit, np.zeros(count)]), (bound, np.inf), method="bvls"
+    ).x
     inside = x > bound
     if np.any(inside):
         at_bounds = scaled[:, ~inside] @ bound[~inside]

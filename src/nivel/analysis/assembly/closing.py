@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
+from nivel.lazy import scipy
 from nivel.system.system import Array
 
 Index = NDArray[np.int64]
@@ -174,9 +175,6 @@ def _least_solution(row: Index, body: Index, block: Array, bodies: int, target: 
         except np.linalg.LinAlgError:
             message = "the positions and lengths of the machine are too far apart in size to compute with"
             raise ModelError(Fault.at("machine", message)) from None
-    from scipy.sparse import csr_array
-    from scipy.sparse.linalg import lsmr
-
     column = 6 * body[:, None] + np.arange(6)
-    J = csr_array((block.ravel(), (np.repeat(row, 6), column.ravel())), shape=shape)
-    return lsmr(J, target, atol=1e-15, btol=1e-15, conlim=1e15, maxiter=20 * len(target))[0]
+    J = scipy.sparse.csr_array((block.ravel(), (np.repeat(row, 6), column.ravel())), shape=shape)
+    return scipy.sparse.linalg.lsmr(J, target, atol=1e-15, btol=1e-15, conlim=1e15, maxiter=20 * len(target))[0]

@@ -18,6 +18,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
+from nivel.lazy import scipy
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joints import JOINTS
@@ -80,15 +81,13 @@ def _used(machine: MachineRecord) -> set[str]:
 
 def _groups(motion: MotionEquations, N: Array, repeated: Sequence[str]) -> list[set[str]]:
     """Names of elements whose rows repeat each other; elements of different groups do not."""
-    from scipy.sparse.csgraph import connected_components
-
     names = np.array(repeated)
     owner = np.array(motion.system.row_owner[: len(N)])
     share = np.abs(N @ N.T)
     own = [owner == name for name in names]
     coupled = np.array([np.max(share[rows], axis=0) for rows in own])
     coupled = np.array([np.max(coupled[:, rows], axis=1) for rows in own]) > COUPLED
-    _, group = connected_components(coupled, directed=False)
+    _, group = scipy.sparse.csgraph.connected_components(coupled, directed=False)
     return [set(names[group == k].tolist()) for k in dict.fromkeys(group.tolist())]
 
 

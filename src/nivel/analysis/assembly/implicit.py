@@ -39,6 +39,7 @@ from nivel.kernels.residual.beam_tangent import tangent
 from nivel.kernels.residual.element_crossing import pass_nodes
 from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.slider_nodes import pass_sliders
+from nivel.lazy import scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.beams.beams import nodes_of_elements
 from nivel.system.beams.tangent import (
@@ -135,11 +136,9 @@ def with_residual(
 
 def _independent(C_q: Array, rank: int) -> Index:
     """Numbers of `rank` independent rows, in units of their scales. Of a row that joints of a tree hold already round-off is left."""
-    from scipy.linalg import qr  # takes a tenth of a second to import
-
     lengths = np.linalg.norm(C_q, axis=1, keepdims=True)
     unit = np.where(lengths > NOTHING * lengths.max(), C_q / np.maximum(lengths, 1e-300), 0.0)
-    pivoted: Any = qr(unit.T, mode="economic", pivoting=True)
+    pivoted: Any = scipy.linalg.qr(unit.T, mode="economic", pivoting=True)
     order = pivoted[2]
     return np.sort(order[:rank])
 

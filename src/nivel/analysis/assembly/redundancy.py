@@ -11,6 +11,7 @@ from nivel.analysis.assembly.closing import close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, moved
 from nivel.analysis.assembly.modal_rows import ModalRows
 from nivel.kernels.core.status import OK
+from nivel.lazy import scipy
 from nivel.system.system import Array
 
 # Rows count as dependent below this share of their length: assembled machines are closed to about 1e-12.
@@ -120,11 +121,9 @@ def _vanishing(J: Array) -> Array:
     Eigenvectors of J Jᵀ of eigenvalues up to NEARLY² span them and few others. Round-off ε turns that space towards a vector of singular
     value σ by ε/σ², which adds at most ε/NEARLY to its own singular values: far below DEPENDENT.
     """
-    from scipy.linalg import eigh
-
     if not len(J):
         return np.zeros((0, 0))
-    _, V = eigh(J @ J.T, subset_by_value=(-np.inf, NEARLY**2))
+    _, V = scipy.linalg.eigh(J @ J.T, subset_by_value=(-np.inf, NEARLY**2))
     U, sizes, _ = np.linalg.svd(V.T @ J, full_matrices=V.shape[1] > J.shape[1])
     small = np.concatenate([sizes, np.zeros(U.shape[1] - len(sizes))]) <= DEPENDENT
     return V @ U[:, small]
@@ -176,11 +175,9 @@ def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int,
 
 def _held_directions(J: Array) -> Array:
     """(n, rank) orthonormal: the directions that rows of J feel."""
-    from scipy.linalg import qr
-
     if not len(J):
         return np.zeros((J.shape[1], 0))
-    factors: Any = qr(J.T, mode="economic", pivoting=True)
+    factors: Any = scipy.linalg.qr(J.T, mode="economic", pivoting=True)
     Q, R, _ = factors
     return Q[:, np.abs(np.diag(R)) > DEPENDENT]
 

@@ -11,6 +11,7 @@ from typing import TypeGuard
 import numpy as np
 
 from nivel.kernels.record.function import NEAR
+from nivel.lazy import scipy
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
@@ -96,8 +97,6 @@ def _of_expression(expression: Expression, end: float) -> tuple[float, ...]:
 
 
 def _found(expression: Expression, end: float) -> Iterator[float]:
-    from scipy.optimize import root_scalar  # takes a fifth of a second to import
-
     times = np.linspace(0.0, end, SAMPLES + 1)
     for first, second in sides(expression.tree, _of_time_alone, curves=True):
 
@@ -109,7 +108,9 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
         except ExpressionError:
             continue
         roots = [
-            root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=LEAST, rtol=CLOSE, maxiter=MOST).root
+            scipy.optimize.root_scalar(
+                difference, bracket=(times[k], times[k + 1]), xtol=LEAST, rtol=CLOSE, maxiter=MOST
+            ).root
             for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
         ]
         # where it is zero all along, as between two equal functions, only the ends are corners

@@ -19,6 +19,7 @@ from nivel.analysis.curves.functions import ExpressionCurve, Varying, is_local
 from nivel.errors import ModelError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import LEAST, PARTS
+from nivel.lazy import scipy
 from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import cross
 from nivel.machine.laws.functions import functions_of
@@ -108,9 +109,7 @@ class Path:
 
     @cached_property
     def _splines(self) -> Mapping[str, Any]:
-        from scipy.interpolate import CubicSpline  # takes a quarter of a second to import
-
-        return {name: CubicSpline(self.time, values) for name, values in self.signals.items()}
+        return {name: scipy.interpolate.CubicSpline(self.time, values) for name, values in self.signals.items()}
 
     @property
     def can_curve(self) -> bool:
@@ -257,15 +256,13 @@ def _through(values: Array, count: int) -> Array:
 
 def _over_steps(values: Array, steps: Steps) -> Array:
     """A spline through the ends of all steps, straight lines where these miss less of the integral."""
-    from scipy.interpolate import CubicSpline  # takes a quarter of a second to import
-
     straight = _through(values, ENDS)
     follow = np.allclose(steps.begin[1:], steps.begin[:-1] + steps.length[:-1], rtol=1e-9, atol=0.0)
     if len(steps.begin) < LEAST_STEPS or not follow:
         return straight
     ends = np.append(steps.begin, steps.begin[-1] + steps.length[-1])
     share = np.linspace(0.0, 1.0, values.shape[1])
-    curve = CubicSpline(ends, np.append(values[:, 0], values[-1, -1]))
+    curve = scipy.interpolate.CubicSpline(ends, np.append(values[:, 0], values[-1, -1]))
     smooth = curve(steps.begin[:, None] + steps.length[:, None] * share)
     closer = np.abs((values - smooth).mean(axis=1)) < np.abs((values - straight).mean(axis=1))
     return np.where(closer[:, None], smooth, straight)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, refuse
+from nivel.lazy import scipy
 from nivel.model import Model
 from nivel.results.result import Result
 from nivel.words.wording import shown
@@ -48,14 +49,12 @@ class Box:
 
     def starts(self, count: int, seed: int) -> Array:
         """(count, d) places in the unit cube: the start, then those of a Latin hypercube."""
-        from scipy.stats import qmc
-
         if count < 1:
             raise ModelError(Fault.at("starts", f"a number of starts of at least 1 was expected, got {count}"))
         first = self.scaled(self.start)[None]
         if count == 1:
             return first
-        more = qmc.LatinHypercube(len(self.paths), rng=np.random.default_rng(seed)).random(count - 1)
+        more = scipy.stats.qmc.LatinHypercube(len(self.paths), rng=np.random.default_rng(seed)).random(count - 1)
         return np.vstack([first, more])
 
 

@@ -23,6 +23,7 @@ from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError, refuse
+from nivel.lazy import scipy
 from nivel.model import Model
 from nivel.results.result import Result
 
@@ -203,9 +204,7 @@ class _Fit:
 
     def from_start(self, z: Array, most: int, tolerance: float) -> Any:
         """What SciPy found from one start."""
-        from scipy.optimize import least_squares
-
-        return least_squares(
+        return scipy.optimize.least_squares(
             self.residuals,
             np.clip(z, INSIDE, 1.0 - INSIDE),
             jac=self.slopes,  # type: ignore[arg-type]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.optimise.evaluations import Evaluations
 from nivel.analysis.optimise.libraries import OF_LIBRARIES
+from nivel.lazy import scipy
 
 Array = NDArray[np.float64]
 Row = tuple[int, float, float]  # output, sign, limit
@@ -60,11 +61,9 @@ class Search:
         """The place that was reached, and what the method says."""
         first = self._evaluations.at(z)[0]
         self._size = abs(float(first)) or 1.0 if np.isfinite(first) else 1.0
-        from scipy import optimize
-
         bounds = [(0.0, 1.0)] * len(z)
         if self._method == "differential-evolution":
-            found = optimize.differential_evolution(
+            found = scipy.optimize.differential_evolution(
                 self._with_penalty, bounds, maxiter=self._most, rng=self._seed, tol=self._tolerance, x0=z, polish=False
             )
             return found.x, str(found.message)
@@ -82,7 +81,7 @@ class Search:
             given["constraints"] = self._constraints()
         elif self._rows or self._equal:
             objective = self._with_penalty
-        found = optimize.minimize(objective, z, **given)
+        found = scipy.optimize.minimize(objective, z, **given)
         return np.clip(found.x, 0.0, 1.0), str(found.message)
 
     def _objective(self, z: Array) -> float:
@@ -95,15 +94,13 @@ class Search:
 
     def _constraints(self) -> list[Any]:
         """Constraints as the method takes them."""
-        from scipy import optimize
-
         out: list[Any] = []
         for kind, rows, most in (("ineq", self._rows, np.inf), ("eq", self._equal, 0.0)):
             if not rows:
                 continue
             room, slope = partial(self._room, rows), partial(self._room_slope, rows)
             if self._method == "trust-constr":
-                out.append(optimize.NonlinearConstraint(room, 0.0, most, jac=slope))  # type: ignore[arg-type]
+                out.append(scipy.optimize.NonlinearConstraint(room, 0.0, most, jac=slope))  # type: ignore[arg-type]
             else:
                 out.append({"type": kind, "fun": room, "jac": slope})
         return out

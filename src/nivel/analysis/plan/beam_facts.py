@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
 from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
@@ -64,8 +65,6 @@ def fastest_frequency(beam: Beam, section: BeamSection) -> float:
 
     The frequencies of a structure lie below the highest one of its elements (Irons, Treharne 1971).
     """
-    from scipy.linalg import eigh  # takes a tenth of a second to import
-
     if beam.has_gradients:
         return fastest_of_gradients(beam)
     if beam.model == "segments":
@@ -75,7 +74,7 @@ def fastest_frequency(beam: Beam, section: BeamSection) -> float:
         length = float(elements_of(beam).weight.sum(axis=1).min())
         stiffness = _stiffness(section, beam.order, length)
         mass = _mass(section, beam.order, length, lumped=not beam.shares_mass)
-    return float(np.sqrt(eigh(stiffness, mass, eigvals_only=True)[-1])) / (2.0 * np.pi)
+    return float(np.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)[-1])) / (2.0 * np.pi)
 
 
 def _stiffness(section: BeamSection, order: int, length: float) -> Array:

@@ -21,6 +21,7 @@ from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.friction import Friction
 from nivel.integrate.catalogue import INTEGRATORS, step_for
+from nivel.lazy import nivel
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.forces.sticking import is_sticking
@@ -116,8 +117,6 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     Methods of the rates cut where it leaves the fewest rows. Those that solve for multipliers at the ends of a step err by what the
     reactions of cut joints do in between: they cut at the lightest bodies (20 times less energy error on the spatial slider-crank).
     """
-    from nivel.system.states.relative import tree_of
-
     settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
     frictions = [force for force in machine.forces if isinstance(force, Friction) or is_sticking(force)]
     if frictions and (not facts.residual or any(map(is_sticking, frictions))):
@@ -126,27 +125,27 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
     if machine.simulation.cut or not facts.residual or facts.first_order:
         return settings
-    tree = tree_of(machine, settings, heavy_first=True)
+    tree = nivel.system.states.relative.tree_of(machine, settings, heavy_first=True)
     return settings.replace(cut=tuple(machine.joints[k].name for k in tree.cut))
 
 
 def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: SimulationSettings | None = None) -> bool:
     """Whether with these methods a beam carries a body that slides along it. cut : as `choose_cut` has it, where it is known."""
-    from nivel.system.states.relative import has_sliders
-
     if coordinates != "relative" or not any(JOINT_WORDS[joint.type].rail for joint in machine.joints):
         return False
     machine = with_nodes(machine)
-    return has_sliders(machine, (cut or choose_cut(machine)).replace(formulation=formulation))
+    return nivel.system.states.relative.has_sliders(
+        machine, (cut or choose_cut(machine)).replace(formulation=formulation)
+    )
 
 
 def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
     """Owner, number of rows and bodies of every joint, coupling and driver."""
-    from nivel.system.joints.joints import composition_of
-    from nivel.system.states.relative import bodies_of
-
-    bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}
-    rows = [(joint.name, len(composition_of(joint).rows), bodies[joint.name]) for joint in machine.joints]
+    bodies = {joint.name: set(nivel.system.states.relative.bodies_of(machine, joint)) for joint in machine.joints}
+    rows = [
+        (joint.name, len(nivel.system.joints.joints.composition_of(joint).rows), bodies[joint.name])
+        for joint in machine.joints
+    ]
     for coupling in machine.couplings:
         terms = zip(coupling.terms, coupling.kinds, strict=True)
         named = [resolve(reference, machine.joints, kind)[0] for (reference, _), kind in terms]
@@ -176,14 +175,14 @@ def _absolute_cost(machine: MachineRecord) -> float:
 
 
 def _relative_cost(machine: MachineRecord) -> float:
-    from nivel.system.elimination.topology import FREE
-    from nivel.system.states.relative import tree_of
-    from nivel.system.states.tree_nodes import tree_joint
-
-    tree = tree_of(machine, machine.simulation)
+    tree = nivel.system.states.relative.tree_of(machine, machine.simulation)
     number = {body.name: k for k, body in enumerate(machine.bodies)}
     branch_of = {branch.child: branch for branch in tree.branches}
-    carried = {machine.joints[branch.joint].name for branch in tree.branches if branch.joint != FREE}
+    carried = {
+        machine.joints[branch.joint].name
+        for branch in tree.branches
+        if branch.joint != nivel.system.elimination.topology.FREE
+    }
     cost, left = TREE_BODY * len(machine.bodies), []
     for owner, count, touched in _rows(machine):
         if owner in carried:
@@ -193,8 +192,12 @@ def _relative_cost(machine: MachineRecord) -> float:
             at = number[name]
             while at in branch_of and (at, 0) not in columns:
                 branch = branch_of[at]
-                kind = "free" if branch.joint == FREE else machine.joints[branch.joint].type
-                columns |= {(at, k) for k in range(tree_joint(kind).velocities)}
+                kind = (
+                    "free"
+                    if branch.joint == nivel.system.elimination.topology.FREE
+                    else machine.joints[branch.joint].type
+                )
+                columns |= {(at, k) for k in range(nivel.system.states.tree_nodes.tree_joint(kind).velocities)}
                 at = branch.parent
         cost += count * (TREE_ROW + TREE_BLOCK * len(columns))
         left.append((count, columns))

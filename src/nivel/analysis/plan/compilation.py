@@ -24,6 +24,7 @@ from nivel.kernels.signals.c_function import output as c_output
 from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.input import apply as read_inputs
+from nivel.lazy import rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.joints.joint import JOINT_WORDS
@@ -108,9 +109,7 @@ def _compile(missing: Sequence[Entry], listener: Listener, begin: float) -> None
 
 @contextmanager
 def _bar() -> Iterator[Listener]:
-    from rich.console import Console
-
-    console = Console(stderr=True)
+    console = rich.console.Console(stderr=True)
     with console.status("") as status:
 
         def stage(text: str, _total: float | None = None) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation import preparation
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.lazy import nivel
 
 
 def prepare(methods: Methods) -> Prepared:
@@ -14,6 +15,4 @@ def prepare(methods: Methods) -> Prepared:
     """
     if methods.machine.simulation.start != "equilibrium":
         return preparation.prepare(methods)
-    from nivel.analysis.statics.start import settled  # is imported where it is needed: most runs start as given
-
-    return preparation.prepare(methods, equilibrium=settled)
+    return preparation.prepare(methods, equilibrium=nivel.analysis.statics.start.settled)

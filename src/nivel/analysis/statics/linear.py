@@ -19,6 +19,7 @@ from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import ArpackNoConvergence, splu
 
 from nivel.analysis.statics.equations import Change, Sparse, Tangent
+from nivel.lazy import scipy
 from nivel.system.system import Array
 
 # Up to so many unknowns the null space of the constraints is made as a full matrix.
@@ -280,8 +281,6 @@ def fastest(tangent: Tangent) -> float:
 
 
 def _lanczos(tangent: Tangent, count: int, M: Sparse, which: str = "LM") -> tuple[Array, Array]:
-    from scipy.sparse.linalg import LinearOperator, eigs, eigsh
-
     size, rows = tangent.K.shape[0], tangent.C.shape[0]
     count = min(count, size - rows - 1)
     if count < 1:
@@ -304,11 +303,13 @@ def _lanczos(tangent: Tangent, count: int, M: Sparse, which: str = "LM") -> tupl
         return last.solve(np.concatenate([np.ravel(b), np.zeros(rows)]))[:size]
 
     begin = inverse(M @ np.random.default_rng(0).standard_normal(size))
-    operator = LinearOperator((size, size), matvec=inverse, dtype=float)  # type: ignore[call-arg]
+    operator = scipy.sparse.linalg.LinearOperator((size, size), matvec=inverse, dtype=float)  # type: ignore[call-arg]
     mass = csc_matrix(M)
     if not even:
-        found_pairs: Any = eigs(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which="LM")
+        found_pairs: Any = scipy.sparse.linalg.eigs(
+            K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which="LM"
+        )
         return _real(found_pairs[0], found_pairs[1], mass)
-    values, vectors = eigsh(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which=which)
+    values, vectors = scipy.sparse.linalg.eigsh(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which=which)
     order = np.argsort(values)
     return values[order], vectors[:, order]

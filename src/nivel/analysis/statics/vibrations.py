@@ -18,6 +18,7 @@ from nivel.analysis.statics.linear import (
     saddle_factors,
     symmetric,
 )
+from nivel.lazy import scipy
 from nivel.system.system import Array
 
 # Squares of frequencies ω² = φᵀ K φ below this share of |φ|ᵀ |K| |φ| are round-off: rigid motions. Where forces have no potential all are
@@ -107,16 +108,16 @@ def buckling_factors(before: Tangent, after: Tangent, count: int) -> tuple[Array
         except np.linalg.LinAlgError:
             raise PivotError from None
         return _positive(values, Z @ vectors, count)
-    from scipy.sparse.linalg import LinearOperator, eigsh
-
     found = saddle_factors(before)
 
     def inverse(b: Array) -> Array:
         return found.solve(np.concatenate([np.ravel(b), np.zeros(rows)]))[:size]
 
     begin = inverse(np.random.default_rng(0).standard_normal(size))
-    operator = LinearOperator((size, size), matvec=inverse, dtype=float)  # type: ignore[call-arg]
-    values, vectors = eigsh(-dK, k=min(count, size - rows - 1), M=K0, Minv=operator, v0=begin, which="LA")
+    operator = scipy.sparse.linalg.LinearOperator((size, size), matvec=inverse, dtype=float)  # type: ignore[call-arg]
+    values, vectors = scipy.sparse.linalg.eigsh(
+        -dK, k=min(count, size - rows - 1), M=K0, Minv=operator, v0=begin, which="LA"
+    )
     return _positive(values, vectors, count)
 
 

@@ -15,6 +15,7 @@ from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import KILLED, VariantRun
 from nivel.errors import ModelError
 from nivel.extras import needed
+from nivel.lazy import distributed
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -49,8 +50,6 @@ def run_on_cluster(jobs: Iterable[Job], client: Client) -> Generator[tuple[int, 
     Dask gives up a task whose worker died several times. It may have been together with the one that was to blame, so it is run once
     more, alone. Raises what a worker could not do for a fault of nivel.
     """
-    import distributed
-
     left, alone = deque(jobs), deque[Job]()
     together = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
     pending: dict[Any, Job] = {}
@@ -95,8 +94,6 @@ def run_on_cluster(jobs: Iterable[Job], client: Client) -> Generator[tuple[int, 
 
 
 def _alone(client: Client, job: Job) -> VariantRun:
-    import distributed
-
     _, task, values = job
     future = client.submit(compute, pickle.dumps(task, pickle.HIGHEST_PROTOCOL), values, pure=False)
     error: Any = future.exception()

@@ -27,6 +27,7 @@ from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Sweep, Variant
+from nivel.lazy import rich
 from nivel.machine.study import Output
 
 # facts of every run: attribute of VariantRun, and what it is
@@ -252,10 +253,12 @@ def progress_bar(count: int) -> Iterator[Listener]:
     if not sys.stderr.isatty():
         yield Log().listener
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as shown:
+    columns = (
+        rich.progress.TextColumn("{task.description}"),
+        rich.progress.BarColumn(),
+        rich.progress.MofNCompleteColumn(),
+        rich.progress.TimeRemainingColumn(),
+    )
+    with rich.progress.Progress(*columns, console=rich.console.Console(stderr=True), transient=True) as shown:
         task = shown.add_task("variants", total=count)
         yield Listener(None, lambda done: shown.update(task, completed=done))

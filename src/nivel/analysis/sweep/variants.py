@@ -12,6 +12,7 @@ import numpy as np
 
 from nivel.analysis.sweep.quantiles import Distribution, quantiles
 from nivel.errors import Fault, ModelError, refuse
+from nivel.lazy import scipy
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study import DRAWN, SOBOL_INDICES
 from nivel.machine.study.any_quantity import si_or_text
@@ -88,13 +89,11 @@ def _shares(design: str, samples: int, count: int, seed: int) -> np.ndarray[Any,
     """
     if design == "random":
         return np.random.default_rng(seed).random((samples, count))
-    from scipy.stats import qmc
-
     if design == "latin-hypercube":
-        return qmc.LatinHypercube(count, rng=np.random.default_rng(seed)).random(samples)
+        return scipy.stats.qmc.LatinHypercube(count, rng=np.random.default_rng(seed)).random(samples)
     if design == "sobol":
-        return qmc.Sobol(count, rng=np.random.default_rng(seed)).random(samples)
-    both = qmc.Sobol(2 * count, rng=np.random.default_rng(seed)).random(samples)
+        return scipy.stats.qmc.Sobol(count, rng=np.random.default_rng(seed)).random(samples)
+    both = scipy.stats.qmc.Sobol(2 * count, rng=np.random.default_rng(seed)).random(samples)
     first, second = both[:, :count], both[:, count:]
     mixed = [np.where(np.arange(count) == k, second, first) for k in range(count)]
     return np.concatenate([first, second, *mixed])

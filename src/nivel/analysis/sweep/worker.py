@@ -9,6 +9,8 @@ import signal
 import sys
 from typing import Any
 
+from nivel.lazy import nivel
+
 
 def main() -> None:
     """Compute variants until the input ends. A job is a task, or None for the one before, and values by path.
@@ -18,8 +20,6 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that asked, which ends its workers
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what foreign code prints is no answer
-    from nivel.analysis.sweep.variant import run_variant
-
     task: Any = None
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         while True:
@@ -31,7 +31,7 @@ def main() -> None:
             if task.time_limit is not None:
                 faulthandler.dump_traceback_later(task.time_limit, exit=True, file=nowhere)
             try:
-                answer: Any = run_variant(task, values)
+                answer: Any = nivel.analysis.sweep.variant.run_variant(task, values)
             except Exception as problem:  # whatever it is, the process that asked has to say it
                 answer = problem
             faulthandler.cancel_dump_traceback_later()

@@ -13,6 +13,7 @@ from pydantic import BeforeValidator
 
 from nivel.elements.control.blocks import OfInput, refuse_order
 from nivel.elements.kind import Kind
+from nivel.lazy import scipy
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.part import VALUE, Part
@@ -57,12 +58,10 @@ def of_transfer_function(numerator: tuple[float, ...], denominator: tuple[float,
 
 def sampled(system: LinearSystem, period: float) -> LinearSystem:
     """The exact system after a period [s] in which u holds: [A_d B_d; 0 1] = exp([A B; 0 0] T)."""
-    from scipy.linalg import expm
-
     n, m = system.B.shape
     block = np.zeros((n + m, n + m))
     block[:n, :n], block[:n, n:] = system.A * period, system.B * period
-    exact = np.asarray(expm(block), dtype=np.float64)
+    exact = np.asarray(scipy.linalg.expm(block), dtype=np.float64)
     return LinearSystem(exact[:n, :n], exact[:n, n:], system.C, system.D)
 
 

@@ -17,6 +17,7 @@ from nivel.flexible.foreign.matrix import (
     from_triplets,
     text_lines,
 )
+from nivel.lazy import scipy
 
 WORDS: Final = {"x": 1, "y": 2, "z": 3, "rx": 4, "ry": 5, "rz": 6, **{str(k): k for k in range(1, 7)}}
 
@@ -116,11 +117,8 @@ def _each_once(labels: list[Label]) -> tuple[Label, ...]:
 
 def read_matrix_market(path: Path) -> FileMatrix:
     """A real matrix in Matrix Market format, sparse or dense. Raises FormatError."""
-    import scipy.sparse as sp
-    from scipy.io import mmread
-
     try:
-        matrix: Any = sp.csc_array(mmread(path))
+        matrix: Any = scipy.sparse.csc_array(scipy.io.mmread(path))
     except (ValueError, OverflowError) as error:
         raise FormatError(f"this is no Matrix Market file: {error}") from None
     if np.iscomplexobj(matrix.data):

@@ -18,6 +18,7 @@ from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity, surface
 from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
+from nivel.lazy import meshio, skfem
 from nivel.machine.beams.section import Material
 
 # degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
@@ -89,25 +90,20 @@ def matrices(mesh: SolidMesh, material: Material) -> tuple[Sparse, sp.csr_array]
     The stiffness between two nodes is λ G + μ (Gᵀ + tr G), of G_ab = ∫ ∂_a N_i ∂_b N_j dV: nine scalar forms, which need a ninth of the
     memory that the form of vectors does.
     """
-    import meshio
-    import skfem
-    from skfem.helpers import grad
-    from skfem.io.meshio import from_meshio
-    from skfem.models.elasticity import lame_parameters
-    from skfem.models.poisson import mass as mass_form
-
-    grid = from_meshio(meshio.Mesh(mesh.position, [("tetra10", mesh.nodes)]))
+    grid = skfem.io.meshio.from_meshio(meshio.Mesh(mesh.position, [("tetra10", mesh.nodes)]))
     basis: Any = skfem.Basis(grid, skfem.ElementTetP2(), intorder=MASS_DEGREE)
     node = np.argsort(_nodes_of(basis.doflocs.T, mesh.position))
-    mass = _reordered(mass_form.assemble(basis) * material.density, node)
+    mass = _reordered(skfem.models.poisson.mass.assemble(basis) * material.density, node)
     basis = skfem.Basis(grid, skfem.ElementTetP2(), intorder=STIFFNESS_DEGREE)
     products: dict[tuple[int, int], Any] = {}
-    slope: Any = grad
+    slope: Any = skfem.helpers.grad
     for a, b in AXES:
         form: Any = skfem.BilinearForm(lambda u, v, _, a=a, b=b: slope(v)[a] * slope(u)[b])
         products[a, b] = _reordered(form.assemble(basis), node)
         products[b, a] = sp.csr_array(products[a, b].T)
-    return _stiffness(products, *lame_parameters(material.youngs_modulus, material.poisson_ratio)), mass
+    return _stiffness(
+        products, *skfem.models.elasticity.lame_parameters(material.youngs_modulus, material.poisson_ratio)
+    ), mass
 
 
 def _reordered(matrix: Any, order: Whole) -> sp.csr_array:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.other_elements import changed, doubled
 from nivel.machine.joints.joint import JOINT_WORDS
@@ -170,8 +171,6 @@ def errors_along_path(result: Readable, other: Readable, factor: float) -> Eleme
     """Errors of places against the nearest state of a path whose states have other times: states count by places over the size and time
     over the duration."""
     # here, as runs of rigid bodies need no SciPy
-    from scipy.interpolate import CubicSpline
-
     names, others = result.coordinates["body"], other.coordinates["body"]
     both = [k for k, name in enumerate(names) if name in others]
     if len(other.time) < 4 or not both:
@@ -181,7 +180,7 @@ def errors_along_path(result: Readable, other: Readable, factor: float) -> Eleme
     curve = np.column_stack([place, other.time / span])
     along = other.array("path")
     rising = np.concatenate([[True], np.diff(along) > 0.0])
-    spline = CubicSpline(along[rising], curve[rising])
+    spline = scipy.interpolate.CubicSpline(along[rising], curve[rising])
     steps = np.arange(IN_A_STEP * (int(rising.sum()) - 1) + 1) / IN_A_STEP
     dense = spline(np.interp(steps, np.arange(int(rising.sum())), along[rising]))
     own = result.array("position")[:, both].reshape(len(result.time), -1) / size

@@ -27,6 +27,7 @@ from nivel.judge.after.subject import Run
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.core.status import SINGULAR
 from nivel.kernels.solve.saddle import LEFT_OUT
+from nivel.lazy import scipy
 from nivel.motion.catalogue import FLOATING
 from nivel.results.scales import Readable
 from nivel.system.system import Array, System
@@ -96,9 +97,7 @@ class RowPivots:
         saddle, n = self.motion.system.record.saddle, self.rank
         x, last = np.zeros(len(saddle.order)), np.zeros(n)
         last[-1] = 1.0
-        from scipy.linalg import solve_triangular  # takes a tenth of a second to import
-
-        x[saddle.pivot[:n]] = solve_triangular(saddle.dense[:n, :n], last, lower=True, trans=1)
+        x[saddle.pivot[:n]] = scipy.linalg.solve_triangular(saddle.dense[:n, :n], last, lower=True, trans=1)
         return x
 
 

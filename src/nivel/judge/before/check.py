@@ -31,6 +31,7 @@ from nivel.judge.before.in_words import (
     state_in_words,
 )
 from nivel.kernels.core.status import OK
+from nivel.lazy import nivel
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.circuit_elements import without_slopes
@@ -259,11 +260,9 @@ def check(plan: Plan) -> Check:
     own, machine, settings = plan.machine, plan.methods.machine, plan.settings
     system = prepared.absolute.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
-    from nivel.kernels.output.observe import observe
-
     status, _ = prepared.absolute.evaluate(0.0, assembly.y)
     frame = np.zeros(system.layout.width)
-    observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
+    nivel.kernels.output.observe.observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
     reactions = unique_reactions(prepared.absolute, loaded=status == OK) if redundancy.redundant_rows else ()
     modes, rotors = _modes(machine), rotors_of(machine)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nivel.lazy import scipy
 from nivel.machine.core.placement import PARALLEL, frame_between
 
 Array = NDArray[np.float64]
@@ -73,14 +74,12 @@ def arc(start: ArrayLike, via: ArrayLike, end: ArrayLike) -> Line:
 
 def smooth(points: ArrayLike) -> Line:
     """A cubic spline through the points, its parameter their distance. Raises NoCurveError where two neighbours are one."""
-    from scipy.interpolate import CubicSpline
-
     p = np.asarray(points, dtype=float)
     steps = np.linalg.norm(np.diff(p, axis=0), axis=1)
     if np.any(steps <= 1e-9 * np.sum(steps)):
         raise NoCurveError("this point of the curve is the same as the one before", point=int(np.argmin(steps)) + 1)
     chord = np.concatenate([[0.0], np.cumsum(steps)])
-    spline = CubicSpline(chord, p)
+    spline = scipy.interpolate.CubicSpline(chord, p)
     slope = spline.derivative()
     knots = np.concatenate([np.linspace(a, b, PIECES, endpoint=False) for a, b in pairwise(chord)] + [chord[-1:]])
     place, weight = np.polynomial.legendre.leggauss(4)

@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import scipy
 from nivel.machine.bodies.polygon import section
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Long, Mesh, Shape, Sphere, Tube
 from nivel.machine.bodies.surface import Enclosed, Triangles, enclosed, surface_arrays, welded, why_open
@@ -148,19 +149,15 @@ def part_corners(mesh: Mesh, part: int) -> Array:
 
 def share_of_hull(shape: Extrusion | Mesh) -> float:
     """Volume of a solid by that of its convex hull; 1 of a mesh that encloses none."""
-    from scipy.spatial import ConvexHull
-
     if isinstance(shape, Extrusion):
         outline = np.array(shape.outline)
-        return abs(section(outline).area) / float(ConvexHull(outline).volume)
+        return abs(section(outline).area) / float(scipy.spatial.ConvexHull(outline).volume)
     return 1.0 if why_not_solid(shape) else _share_of_hull(shape.surface or "")
 
 
 @lru_cache(maxsize=64)
 def _share_of_hull(surface: str) -> float:
-    from scipy.spatial import ConvexHull
-
-    return _enclosed(surface).volume / float(ConvexHull(surface_arrays(surface)[0]).volume)
+    return _enclosed(surface).volume / float(scipy.spatial.ConvexHull(surface_arrays(surface)[0]).volume)
 
 
 def why_not_solid(mesh: Mesh) -> str:

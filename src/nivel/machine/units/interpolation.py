@@ -10,6 +10,8 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import scipy
+
 Interpolation = Literal["linear", "cubic", "monotone", "quintic", "periodic"]
 INTERPOLATIONS: Final = ("linear", "cubic", "monotone", "quintic", "periodic")
 PERIODIC: Final = "periodic"
@@ -34,18 +36,19 @@ def pieces(kind: str, points: Sequence[float], values: Sequence[float]) -> NDArr
         straight[:, 0] = y[:-1]
         straight[:, 1] = np.diff(y) / np.diff(x)
         return straight
-    from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly, make_interp_spline
-
     if kind == "cubic":
-        curve = CubicSpline(x, y, bc_type="natural").c
+        curve = scipy.interpolate.CubicSpline(x, y, bc_type="natural").c
     elif kind == PERIODIC:
         y[-1] = y[0]
-        curve = CubicSpline(x, y, bc_type="periodic").c
+        curve = scipy.interpolate.CubicSpline(x, y, bc_type="periodic").c
     elif kind == "monotone":
-        curve = PchipInterpolator(x, y).c
+        curve = scipy.interpolate.PchipInterpolator(x, y).c
     else:
         rest = [(1, 0.0), (2, 0.0)]
-        curve = _between(x, PPoly.from_spline(make_interp_spline(x, y, k=5, bc_type=(rest, rest))))
+        curve = _between(
+            x,
+            scipy.interpolate.PPoly.from_spline(scipy.interpolate.make_interp_spline(x, y, k=5, bc_type=(rest, rest))),
+        )
     return np.ascontiguousarray(curve[::-1].T)
 
 

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from functools import cache
 from typing import Any, NamedTuple
 
+from nivel.lazy import pint
 from nivel.machine.units.dimension import BASES, Dimension, dimension
 
 
@@ -106,8 +107,6 @@ def _may_be_unit(name: str) -> bool:
 
 @cache
 def _registry() -> Any:
-    import pint
-
     return pint.UnitRegistry(cache_folder=None)
 
 
@@ -128,8 +127,6 @@ def _ask_pint(name: str) -> Unit | None:
     """The unit `name` by pint; None where pint does not know it, or where it is no plain multiple of SI units (degC,
     dB).
     """
-    import pint
-
     registry = _registry()
     try:
         parsed = registry.parse_units(name)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.target import written
+from nivel.lazy import xarray
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.trust import Trust
 
@@ -53,8 +54,6 @@ class ConfigurationCurve(Tabulated):
 
     def to_xarray(self) -> xarray.Dataset:
         """The joint coordinates over the curve."""
-        import xarray
-
         values = {
             name: (("arc",), self.values[:, k], {"units": unit})
             for k, (name, unit) in enumerate(zip(self.names, self.units, strict=True))
@@ -145,8 +144,6 @@ class JointPath(Tabulated):
 
     def to_xarray(self) -> xarray.Dataset:
         """Coordinates, errors and measures over time."""
-        import xarray
-
         values = {
             "value": (("time", "coordinate"), self.values),
             "position_error": (("time",), self.error[:, 0], {"units": "m"}),

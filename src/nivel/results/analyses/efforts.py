@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.files.target import write_text
-from nivel.lazy import provided
+from nivel.lazy import provided, xarray
 from nivel.results.curve import TOLD, curve
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms
@@ -110,8 +110,6 @@ class Efforts(Tabulated):
 
     def to_xarray(self) -> xarray.Dataset:
         """Histories with names and units."""
-        import xarray
-
         dims = ("time", "actuator")
         values = {
             "effort": (dims, self.effort, {"units": ", ".join(self.units)}),

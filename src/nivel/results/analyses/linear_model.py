@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.files.target import write_text
-from nivel.lazy import provided
+from nivel.lazy import nivel, provided, scipy, xarray
 from nivel.results.analyses.sampled_model import SampledModel
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust
@@ -189,10 +189,8 @@ class LinearModel(Tabulated):
 
     def state_space(self) -> Any:
         """`scipy.signal.StateSpace` of A, B, C, D. Raises ModelError without inputs or outputs."""
-        from scipy.signal import StateSpace
-
         self._need_ports()
-        return StateSpace(self.A, self.B, self.C, self.D)
+        return scipy.signal.StateSpace(self.A, self.B, self.C, self.D)
 
     def control(self) -> Any:
         """`control.StateSpace` with names, whose dots are underscores there: `rail_displacement`. Needs the package python-control."""
@@ -214,8 +212,6 @@ class LinearModel(Tabulated):
 
         Raises ModelError without inputs or outputs, and where a frequency is that of an undamped vibration.
         """
-        import xarray
-
         self._need_ports()
         f = np.atleast_1d(np.asarray(self.frequencies() if frequencies is None else frequencies, dtype=float))
         n = len(self.A)
@@ -233,8 +229,6 @@ class LinearModel(Tabulated):
 
     def to_xarray(self) -> xarray.Dataset:
         """Everything, with names and units."""
-        import xarray
-
         of_states, doubled = {"units": ", ".join(self.state_units)}, ("state", "state_")
         values = {
             "A": (doubled, self.A, of_states),
@@ -299,9 +293,7 @@ class LinearModel(Tabulated):
 
         Raises ModelError where there is no such mode.
         """
-        from nivel.results.analyses.linear_motion import linear_motion
-
-        return linear_motion(self, number)
+        return nivel.results.analyses.linear_motion.linear_motion(self, number)
 
     def summary(self) -> dict[str, Any]:
         """Numbers and words for programs."""

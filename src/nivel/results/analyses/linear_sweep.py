@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
-from nivel.lazy import provided
+from nivel.lazy import provided, scipy, xarray
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.linear_model import LinearModel
@@ -81,8 +81,6 @@ class LinearSweep:
     @cached_property
     def eigenvalues(self) -> Complex:
         """(values, n) [1/s], a column each mode; not a number where the machine does not move steadily."""
-        from scipy.optimize import linear_sum_assignment
-
         out = np.full((len(self.models), len(self.models[0].states)), np.nan, dtype=np.complex128)
         order, before = np.arange(out.shape[1]), None
         for k, model in enumerate(self.models):
@@ -90,15 +88,13 @@ class LinearSweep:
                 continue
             if before is not None:
                 place = np.array([model.states.index(name) for name in before.states])
-                order = linear_sum_assignment(_distance(before, model, place)[order])[1]
+                order = scipy.optimize.linear_sum_assignment(_distance(before, model, place)[order])[1]
             before = model
             out[k] = model.eigenvalues[order]
         return out
 
     def to_xarray(self) -> xarray.Dataset:
         """Eigenvalues, natural frequencies and damping ratios over the parameter."""
-        import xarray
-
         found = self.eigenvalues
         size = np.abs(found)
         with np.errstate(invalid="ignore", divide="ignore"):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
-from nivel.lazy import provided
+from nivel.lazy import provided, xarray
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.motion import rotation_matrices
@@ -103,8 +103,6 @@ def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0
     curvature |ṙ × r̈|/|ṙ|³ [1/m], not a number where the point stands still; cusp : 1 where it does while it accelerates.
     Raises ModelError for a body that the result does not have.
     """
-    import xarray
-
     names = list(result.coordinates.get("body", ()))
     if body not in names:
         raise ModelError(unknown_name("body", body, names))
@@ -138,8 +136,6 @@ def transmission_angle(result: Result, first: str, at: str, last: str) -> xarray
     Where `last` slides along a line, that between the line to `first` and the normal of the slide, from 0 to π/2. Raises ModelError for
     joints that the machine does not have, or that are in one place.
     """
-    import xarray
-
     d = _line(result, at, first)
     if (slide := _slide(result, last)) is not None:
         along = np.abs(np.sum(d * slide, axis=1))

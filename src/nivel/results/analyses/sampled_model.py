@@ -9,6 +9,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import scipy
+
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-7  # by which a pole on the unit circle may be outside
@@ -210,8 +212,6 @@ def _refined(period: float, transition: Array, entering: Array, leaving: Array) 
 
 def _crossings(frequency: Array, values: Array, find: Callable[[float], float]) -> list[float]:
     """Where what has these values at the frequencies is zero."""
-    from scipy.optimize import brentq
-
     found = np.flatnonzero(values[:-1] * values[1:] < 0.0)
-    solve: Any = brentq
+    solve: Any = scipy.optimize.brentq
     return [float(solve(find, frequency[k], frequency[k + 1], xtol=1e-14, rtol=1e-14)) for k in found]

@@ -17,6 +17,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.extras import needed
 from nivel.files.target import keep_sources, written
+from nivel.lazy import pyarrow, scipy
 from nivel.results.frames.names import unknown_name
 
 if TYPE_CHECKING:
@@ -98,8 +99,6 @@ def write_mat(result: Result, path: Path, select: Iterable[str] = ()) -> None:
 
     Raises ModelError.
     """
-    from scipy.io import savemat
-
     chosen = columns(result, select)
     table: dict[str, Any] = {"time": np.asarray(result.time)}
     for name in chosen:
@@ -112,20 +111,18 @@ def write_mat(result: Result, path: Path, select: Iterable[str] = ()) -> None:
     names = np.array(["time", *chosen], dtype=object)
     units = np.array(["s", *(result.units(name) for name in chosen)], dtype=object)
     with written(path, "table") as draft, draft.open("wb") as file:
-        savemat(file, {**table, "names": names, "units": units}, oned_as="column", long_field_names=True)
+        scipy.io.savemat(file, {**table, "names": names, "units": units}, oned_as="column", long_field_names=True)
 
 
 def write_parquet(result: Result, path: Path, select: Iterable[str] = ()) -> None:
     """Write `time` and a column of each name, with its unit in the metadata of its field. Raises ModelError."""
     parquet = needed("pyarrow.parquet", "Parquet files need")
-    import pyarrow as arrow  # pyright: ignore[reportMissingImports]
-
     chosen = columns(result, select)
-    fields = [arrow.field(name, arrow.float64(), metadata={"unit": result.units(name)}) for name in chosen]
-    schema = arrow.schema([arrow.field("time", arrow.float64(), metadata={"unit": "s"}), *fields])
-    arrays = [arrow.array(np.asarray(values)) for values in (result.time, *(result.array(name) for name in chosen))]
+    fields = [pyarrow.field(name, pyarrow.float64(), metadata={"unit": result.units(name)}) for name in chosen]
+    schema = pyarrow.schema([pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"}), *fields])
+    arrays = [pyarrow.array(np.asarray(values)) for values in (result.time, *(result.array(name) for name in chosen))]
     with written(path, "table") as draft:
-        parquet.write_table(arrow.Table.from_arrays(arrays, schema=schema), draft, compression="zstd")
+        parquet.write_table(pyarrow.Table.from_arrays(arrays, schema=schema), draft, compression="zstd")
 
 
 def write_mdf(result: Result, path: Path, select: Iterable[str] = ()) -> None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body.recovery import Cycle, rainflow
+from nivel.lazy import xarray
 from nivel.machine.units.quantity import expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.curve import TOLD, Curve, curve, curve_of, probed
@@ -29,8 +30,6 @@ def reactions(result: Result) -> xarray.Dataset:
     The attributes have the trust report of the result; what the frames leave open is not verified. Raises ModelError for a result
     without reactions.
     """
-    import xarray
-
     if "joint_force" not in result.variables or not len(result.time):
         raise ModelError("the result has no reactions of joints")
     values, lacks = {}, []
@@ -71,8 +70,6 @@ def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
     period : [s] of a cycle; then also the work of the last whole one [J], and its mean power [W]. Raises ModelError for a result without
     any power, or shorter than the period.
     """
-    import xarray
-
     names = [name for name in result.variables if name.endswith(".power")]
     if not names or not len(result.time):
         raise ModelError("the result has no power of drivers or forces")
@@ -127,8 +124,6 @@ def cycles(result: Result, name: str, *, repeating: bool = False) -> xarray.Data
     repeating : the history goes on as it began, so that it starts at its largest peak and has no half cycles (section 5.4.5).
     Raises ModelError for names that the result does not have, and for vectors: take a component.
     """
-    import xarray
-
     values = result.array(name)
     if values.ndim != 1:
         raise ModelError(f"`{name}` has several numbers at a time; take one of them, e.g. `{name}.x`")

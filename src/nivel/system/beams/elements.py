@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 
 Array = NDArray[np.float64]
@@ -103,17 +104,15 @@ def strains(place: Array, axes: Array, reference: int, N: Array, slope: Array) -
 
 def relative_turns(axes: Array, reference: int) -> Array:
     """(n, p + 1, 3) rotation vectors of the nodes' axes (n, p + 1, 3, 3) seen from those of one of them."""
-    from scipy.spatial.transform import Rotation  # takes a fifth of a second to import
-
     relative = np.swapaxes(axes[:, reference], 1, 2)[:, None] @ axes
-    return Rotation.from_matrix(relative.reshape(-1, 3, 3)).as_rotvec().reshape(*axes.shape[:2], 3)
+    return (
+        scipy.spatial.transform.Rotation.from_matrix(relative.reshape(-1, 3, 3)).as_rotvec().reshape(*axes.shape[:2], 3)
+    )
 
 
 def rotation(psi: Array) -> Array:
     """(…, 3, 3) of rotation vectors (…, 3)."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_rotvec(psi.reshape(-1, 3)).as_matrix().reshape(*psi.shape, 3)
+    return scipy.spatial.transform.Rotation.from_rotvec(psi.reshape(-1, 3)).as_matrix().reshape(*psi.shape, 3)
 
 
 def tangent(psi: Array) -> Array:

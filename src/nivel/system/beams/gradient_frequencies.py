@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 from nivel.system.beams.elements import gauss
 from nivel.system.beams.gradient_beams import section_stiffness
@@ -33,9 +34,7 @@ def fastest_of_gradients(beam: Beam) -> float:
     length = whole.line.length
     stiffness = _cable_stiffness(whole, length) if beam.model == "ancf-cable" else _beam_stiffness(whole, length)
     mass = np.kron(consistent_mass(whole, length), np.eye(3))
-    from scipy.linalg import eigh
-
-    fastest = float(eigh(stiffness, mass, eigvals_only=True)[-1])
+    fastest = float(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)[-1])
     if beam.model == "ancf-cable":
         own = whole.properties
         fastest = max(fastest, 4.0 * float(own.stiffness[3, 3] / own.inertia[0, 0]) / length**2)

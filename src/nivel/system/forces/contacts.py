@@ -28,6 +28,7 @@ from nivel.kernels.forces import (
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
+from nivel.lazy import scipy
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
@@ -290,13 +291,11 @@ def _corners(body: Body) -> NDArray[np.float64]:
 
     Raises ModelError where there are more than MOST_CORNERS.
     """
-    from scipy.spatial import ConvexHull, QhullError
-
     assert isinstance(body.shape, Extrusion | Mesh)  # the record was checked
     points = mesh_surface(body.shape)[0] if isinstance(body.shape, Mesh) else extrusion_corners(body.shape)
     try:
-        corners = points[ConvexHull(points).vertices]
-    except QhullError:  # a flat mesh has no hull
+        corners = points[scipy.spatial.ConvexHull(points).vertices]
+    except scipy.spatial.QhullError:  # a flat mesh has no hull
         corners = np.unique(points, axis=0)
     if len(corners) > MOST_CORNERS:
         message = (

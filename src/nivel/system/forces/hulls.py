@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.forces.hull_pair import NUMBERS
+from nivel.lazy import scipy
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
@@ -45,11 +46,9 @@ def hull_of(body: Body, part: int | None = None) -> Hull:
 
     Raises ModelError for a flat one, or one of too many faces.
     """
-    from scipy.spatial import QhullError
-
     try:
         hull = hull_of_points(_points(body, part))
-    except QhullError:
+    except scipy.spatial.QhullError:
         raise _fault(body, "is flat, and a contact of two bodies needs two solids") from None
     if len(hull.faces) > MOST_FACES:
         message = (
@@ -62,9 +61,7 @@ def hull_of(body: Body, part: int | None = None) -> Hull:
 
 def hull_of_points(points: Array) -> Hull:
     """The convex hull of points (n, 3) [m] of a body. Raises QhullError where they lie in a plane."""
-    from scipy.spatial import ConvexHull
-
-    found = ConvexHull(points)
+    found = scipy.spatial.ConvexHull(points)
     corners = points[found.vertices]
     middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
     normals = _distinct(found.equations[:, :3])

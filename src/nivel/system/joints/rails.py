@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from nivel.errors import Fault, ModelError
+from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.core.checked import Problem
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
@@ -89,21 +90,16 @@ def element_of(stations: Array, place: float) -> int:
 def between(stations: Array, values: Array, e: int) -> Any:
     """An axis of the sections, or its rate, between the nodes e and e + 1, from its values (N, 3) at all nodes: slopes at nodes are those
     between their neighbours. A spline of scipy."""
-    from scipy.interpolate import CubicHermiteSpline
-
     slopes = []
     for n in (e, e + 1):
         before, after = max(n - 1, 0), min(n + 1, len(values) - 1)
         slopes.append((values[after] - values[before]) / (stations[after] - stations[before]))
-    return CubicHermiteSpline(stations[e : e + 2], values[e : e + 2], np.array(slopes))
+    return scipy.interpolate.CubicHermiteSpline(stations[e : e + 2], values[e : e + 2], np.array(slopes))
 
 
 def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> tuple[float, Array]:
     """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], and the point there."""
-    from scipy.interpolate import CubicHermiteSpline
-    from scipy.optimize import minimize_scalar
-
-    line = CubicHermiteSpline(stations, places, tangents)
+    line = scipy.interpolate.CubicHermiteSpline(stations, places, tangents)
     samples = np.linspace(stations[0], stations[-1], SAMPLES * (len(stations) - 1) + 1)
     k = int(np.argmin(np.linalg.norm(line(samples) - point, axis=1)))
     low, high = float(samples[max(k - 1, 0)]), float(samples[min(k + 1, len(samples) - 1)])
@@ -111,7 +107,7 @@ def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> t
     def square(s: float) -> float:
         return float(np.sum((line(s) - point) ** 2))
 
-    found = minimize_scalar(
+    found = scipy.optimize.minimize_scalar(
         square, bounds=(low, high), method="bounded", options={"xatol": 1e-12 * float(stations[-1])}
     )
     place = min((float(found.x), low, high), key=square)

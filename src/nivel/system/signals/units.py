@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.hook import Family
+from nivel.lazy import nivel
 from nivel.machine.control.unit_output import CFacts, FmuFacts, UnitFacts
 
 
@@ -60,19 +61,13 @@ class OwnUnit(Unit, Protocol):
 def unit_of(facts: UnitFacts) -> Unit:
     """The unit that a block asks for. Raises ModelError where its file is none."""
     if facts.own_process:
-        from nivel.system.signals.own_process import UnitProcess
-
-        return UnitProcess(facts)
+        return nivel.system.signals.own_process.UnitProcess(facts)
     return unit_here(facts)
 
 
 def unit_here(facts: UnitFacts) -> OwnUnit:
     """The unit of a block in this process. Raises ModelError where its file is none."""
     if isinstance(facts, CFacts):
-        from nivel.system.signals.c_instance import CInstance
-
-        return CInstance(facts)
-    from nivel.system.signals.fmu_instance import FmuInstance
-
+        return nivel.system.signals.c_instance.CInstance(facts)
     assert isinstance(facts, FmuFacts)
-    return FmuInstance(facts)
+    return nivel.system.signals.fmu_instance.FmuInstance(facts)

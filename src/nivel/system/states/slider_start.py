@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nivel.lazy import scipy
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.system.joints.rails import between, element_of
 from nivel.system.system import Array
@@ -65,14 +66,12 @@ def slider_start(kind: str, pose: tuple[Array, Array, Array, Array], rail: Rail)
 
 def _line(rail: Rail, e: int, *, rates: bool = False) -> CubicHermiteSpline:
     """The line between the nodes e and e + 1, or its rates at fixed places."""
-    from scipy.interpolate import CubicHermiteSpline  # takes a quarter of a second to import
-
     ends = slice(e, e + 2)
     if rates:
-        return CubicHermiteSpline(
+        return scipy.interpolate.CubicHermiteSpline(
             rail.station[ends], rail.rdot[ends], np.cross(rail.omega[ends], rail.axes[ends, :, 0])
         )
-    return CubicHermiteSpline(rail.station[ends], rail.r[ends], rail.axes[ends, :, 0])
+    return scipy.interpolate.CubicHermiteSpline(rail.station[ends], rail.r[ends], rail.axes[ends, :, 0])
 
 
 def _axis(rail: Rail, e: int, sigma: float, rate: float, k: int) -> tuple[Array, Array]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Motion, Run
 from nivel.judge.after.touching_pairs import DEEP, HullPair, Pair, hulls_of, spheres_among, spheres_of, way_between
+from nivel.lazy import scipy
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.results.scales import Readable, machine_size, rotated
@@ -130,8 +131,6 @@ def _between(theta: Array, k: int, share: float) -> Array:
 
 def _depth(pair: HullPair, r: Array, first: Array, second: Array) -> float:
     """[m] by which two hulls overlap, r from the first middle to the second; negative where a face keeps them apart, 0 where edges do."""
-    from scipy.optimize import linprog
-
     normals = [rotated(turn, faces[:, :3]) for turn, faces in zip((first, second), pair.faces, strict=True)]
     corners = [rotated(turn, points) for turn, points in zip((first, second), pair.corners, strict=True)]
     of_first = pair.faces[0][:, 3] - ((corners[1] + r) @ normals[0].T).min(axis=0)
@@ -141,7 +140,7 @@ def _depth(pair: HullPair, r: Array, first: Array, second: Array) -> float:
         return least
     rows = np.vstack([np.column_stack([n, np.ones(len(n))]) for n in normals])
     heights = np.concatenate([pair.faces[0][:, 3], pair.faces[1][:, 3] + normals[1] @ r])
-    deepest = linprog([0.0, 0.0, 0.0, -1.0], rows, heights, bounds=[(None, None)] * 4)
+    deepest = scipy.optimize.linprog([0.0, 0.0, 0.0, -1.0], rows, heights, bounds=[(None, None)] * 4)
     return 2.0 * max(float(deepest.x[3]), 0.0) if deepest.success else 0.0
 
 

@@ -335,22 +335,21 @@ class Machine(Model):
         if fmi not in nivel.fmu.writer.VERSIONS:
             raise ModelError(Fault.at("fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
         self._refuse_target(path, force)
-        values = nivel.fmu.defaults.defaults_of(self, paths)
+        given = nivel.analysis.gradients.parameters.parameters_of(self, paths, "an FMU") if paths else ()
         plan = self._plan({}, stepwise=True)
         build(run_entries(plan), listener)
         with self._faults_in_file():
             nominal = nivel.c_library.exported.export(plan, "an FMU", chosen)
             # with other values it keeps its method, which may follow from them
-            same = self.with_settings({"integrator": nominal.plan.settings.integrator}) if values else self
+            same = self.with_settings({"integrator": nominal.plan.settings.integrator}) if given else self
             return nivel.fmu.writer.write_unit(
                 nominal,
                 Path(fspath(path)),
                 version=fmi,
                 platforms=systems,
-                values=values,
-                units=nivel.fmu.defaults.units_of(self, paths),
+                parameters=given,
                 vary=lambda changes: nivel.c_library.exported.export(
-                    same.with_values(changes)._plan({}, stepwise=True), "an FMU"
+                    same.with_values(changes)._plan({}, stepwise=True), "an FMU", chosen
                 ),
             )
 

@@ -411,6 +411,41 @@ def test_parameters_that_only_act_together_are_refused(tmp_path):
         machine.export_fmu(tmp_path / "both.fmu", parameters=["parameters.a", "parameters.b"])
 
 
+CART = """
+format: 1
+name: cart
+parameters: {ki: 0, kd: 0, damping: 0, load: 2}
+bodies:
+  cart: {mass: load + 1, inertia: [1, 1, 1]}
+joints:
+  rail: {type: translational, bodies: [ground, cart], point: [0, 0, 0], axis: [1, 0, 0], start: {displacement: 0}}
+forces:
+  drive: {type: motor, coordinate: rail, effort: axis}
+  drag: {type: joint-spring-damper, coordinate: rail.displacement, stiffness: 10, damping: damping}
+control:
+  axis: {type: pid, reference: 0.1, measured: rail.displacement, kp: 300, ki: ki, kd: kd, filter_time: 1 ms, sample_time: 2 ms, units: N}
+simulation: {duration: 0.2, step: 1 ms, integrator: rk4}
+"""
+
+
+def test_gains_damping_and_masses_are_parameters_from_zero(written, tmp_path):
+    """The machine with gains of zero lacks the states that they need; its unit has them."""
+    path = tmp_path / "cart.yaml"
+    path.write_text(CART, encoding="utf-8")
+    machine, names = nivel.load(path), ["rail.displacement", "rail.displacement.rate"]
+    paths = [f"parameters.{name}" for name in ("ki", "kd", "damping", "load")]
+    unit = written(machine, "cart", select=names, parameters=paths)
+    assert [float(unit.variables[path].get("start")) for path in paths] == [0.0, 0.0, 0.0, 2.0]
+    assert [float(unit.variables[path].get("min")) for path in paths] == [-1e300, -1e300, 0.0, 0.0]
+    for values in (dict(zip(paths, (400.0, 20.0, 3.0, 5.0), strict=True)), {paths[1]: 30.0}, {}):
+        instance, simulation = unit.instance().start(values), machine.with_values(values).start()
+        for k in range(200):
+            assert instance.step(1e-3 * k, 1e-3) == OK
+            simulation.step()
+        found, wanted = instance.get(names), {name: in_python(simulation, name) for name in names}
+        assert found == pytest.approx(wanted, rel=1e-11, abs=1e-13)
+
+
 def test_the_command_says_what_it_wrote_and_what_is_wrong(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ball.yaml").write_text(BALL, encoding="utf-8")

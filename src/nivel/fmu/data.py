@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from nivel.c_library.exported import Exported, Output
-from nivel.fmu.formulas import Formulas
+from nivel.fmu.parameters import Followed
 
-MAGIC = 0x314D464E
+MAGIC = 0x324D464E
 # value references: outputs have their places in a frame
 INPUT, PARAMETER = 1 << 20, 2 << 20
 OFFSET, PRIME = 14695981039346656037, 1099511628211
@@ -23,20 +23,21 @@ def outputs_of(machine: Exported) -> tuple[Output, ...]:
     return tuple(sorted(chosen, key=lambda each: each.place))
 
 
-def machine_data(machine: Exported, found: Formulas, token: str) -> bytes:
+def machine_data(found: Followed, token: str) -> bytes:
     """The file. token : that of the unit."""
+    machine = found.machine
     places = [each.place for each in outputs_of(machine)] + [each.followed for each in machine.inputs]
     numbers = {**machine.numbers, "output_count": len(places)}
     numbers["size"] = machine.size_for(len(places))
     names = [name for failure in machine.failures for name in failure.names]
     texts = [token, *machine.codes, *(failure.sentence for failure in machine.failures), *names]
     energy = machine.image.byte_of(machine.loop.machine.record.control.energy.ctypes.data)
-    counts = len(machine.codes), len(names), len(found.parameters), len(found.formulas), energy, 0
+    counts = len(machine.codes), len(names), len(found.parameters), len(found.words), energy, len(found.terms)
     rest = b"".join(
         [
             struct.pack("<6Q", *counts),
             struct.pack(f"<{len(numbers)}Q", *numbers.values()),
-            *_tables(machine, found),
+            *_tables(found),
             np.array(machine.image.words.nonzero()[0], dtype="<u4").tobytes(),
             np.array(places, dtype="<u4").tobytes(),
             *(text.encode() + b"\0" for text in texts),
@@ -46,16 +47,19 @@ def machine_data(machine: Exported, found: Formulas, token: str) -> bytes:
     return struct.pack("<2Q", MAGIC, _sum(rest)) + rest
 
 
-def _tables(machine: Exported, found: Formulas) -> Iterator[bytes]:
-    image = machine.image
+def _tables(found: Followed) -> Iterator[bytes]:
+    machine, image = found.machine, found.machine.image
     yield image.words[image.words.nonzero()[0]].astype("<u8").tobytes()
     for each in machine.inputs:
         yield struct.pack("<2I2d", each.kind, each.value, each.low, each.high)
-    for parameter in found.parameters:
-        yield struct.pack("<2d", parameter.value, parameter.least)
-    for formula in found.formulas:
-        (factor, power), (other, second) = (*formula.terms, (0.0, 1.0))[:2]
-        yield struct.pack("<2I4d", formula.word, formula.parameter, factor, power, other, second)
+    if (numbers := found.numbers) is not None:
+        defaults = [each.value for each in found.parameters]
+        yield np.array([defaults, found.least, numbers.centres, numbers.widths], dtype="<f8").T.tobytes()
+        for word, *law in zip(found.words, numbers.constants, numbers.powers, numbers.signs, strict=True):
+            yield struct.pack("<Q3d", word, *law)
+        for number, parameter in found.terms:
+            law = *numbers.factors[number, parameter], *numbers.divisors[number, parameter]
+            yield struct.pack("<2I8d", number, parameter, *law)
     for word, byte in image.inner.items():
         yield struct.pack("<2I", word, byte)
     for word, symbol in image.outer.items():

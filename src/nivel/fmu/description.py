@@ -9,7 +9,7 @@ from xml.sax.saxutils import quoteattr
 import nivel
 from nivel.c_library.exported import Exported
 from nivel.fmu.data import INPUT, PARAMETER, outputs_of
-from nivel.fmu.formulas import Formulas
+from nivel.fmu.parameters import Followed
 from nivel.machine.units.dimension import BASES
 from nivel.machine.units.unit import UnknownUnitError, unit
 
@@ -30,16 +30,17 @@ class Variable(NamedTuple):
     description: str = ""
 
 
-def variables_of(machine: Exported, found: Formulas, units: Mapping[str, str]) -> list[Variable]:
-    """Outputs, inputs and parameters. units : of parameters, by name."""
+def variables_of(found: Followed) -> list[Variable]:
+    """Outputs, inputs and parameters."""
+    machine = found.machine
     outputs = [Variable(each.name, each.place, "output", each.units) for each in outputs_of(machine)]
     inputs = [
         Variable(each.name, INPUT + k, "input", each.units, each.rest, each.low, each.high, each.description)
         for k, each in enumerate(machine.inputs)
     ]
     parameters = [
-        Variable(each.name, PARAMETER + k, "parameter", units.get(each.name, ""), each.value, max(each.least, -1e300))
-        for k, each in enumerate(found.parameters)
+        Variable(each.path, PARAMETER + k, "parameter", each.units, each.value, max(least, -1e300))
+        for k, (each, least) in enumerate(zip(found.parameters, found.least, strict=True))
     ]
     return [*outputs, *inputs, *parameters]
 

@@ -11,13 +11,14 @@ from importlib.metadata import PackageNotFoundError, distribution
 from importlib.resources import files
 from pathlib import Path
 
+from nivel.analysis.gradients.parameters import Parameter
 from nivel.c_library.exported import Exported
 from nivel.c_library.writer import PLATFORMS, known_platform
 from nivel.files.target import written
 from nivel.fmu.binary import binary
 from nivel.fmu.data import machine_data
 from nivel.fmu.description import description, variables_of
-from nivel.fmu.formulas import Formulas, Vary, find_formulas
+from nivel.fmu.parameters import Followed, Vary, follow
 from nivel.native import shipped
 
 VERSIONS = (3, 2)
@@ -42,22 +43,21 @@ def write_unit(
     *,
     version: int,
     platforms: Sequence[str],
-    values: Mapping[str, float],
-    units: Mapping[str, str],
+    parameters: Sequence[Parameter],
     vary: Vary,
 ) -> Unit:
-    """Write the unit of a machine. version : of FMI. platforms : none is this one. values, units : defaults of parameters, and their
-    units; vary : prepares the machine with other values.
+    """Write the unit of a machine. version : of FMI. platforms : none is this one. vary : prepares the machine with other values
+    of parameters.
 
     Raises ModelError where a parameter needs an assembly, or a compiler is missing.
     """
     chosen = tuple(dict.fromkeys(known_platform(each) for each in platforms or ("",)))
-    found = find_formulas(values, machine, vary) if values else Formulas()
-    variables = variables_of(machine, found, units)
-    token = _token(machine, found, description(machine, variables, "", version))
+    found = follow(parameters, machine, vary) if parameters else Followed(machine)
+    machine, variables = found.machine, variables_of(found)
+    token = _token(found, description(machine, variables, "", version))
     content = {
         "modelDescription.xml": description(machine, variables, token, version).encode(),
-        "resources/machine.bin": machine_data(machine, found, token),
+        "resources/machine.bin": machine_data(found, token),
         **{f"documentation/licenses/{name}": text.encode() for name, text in licences()},
     }
     for name in chosen:
@@ -72,9 +72,9 @@ FROM_NUMBA = "The binaries contain functions (of arrays and of mathematics) that
 KINDS = ("output", "input", "parameter")
 
 
-def _token(machine: Exported, found: Formulas, text: str) -> str:
+def _token(found: Followed, text: str) -> str:
     """What a unit is known by: it follows from its content."""
-    digest = hashlib.sha256(machine_data(machine, found, "") + text.encode()).digest()
+    digest = hashlib.sha256(machine_data(found, "") + text.encode()).digest()
     return f"{{{uuid.UUID(bytes=digest[:16], version=4)}}}"
 
 

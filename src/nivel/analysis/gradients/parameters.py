@@ -30,8 +30,9 @@ class Parameter:
         return abs(self.value) or 1.0
 
 
-def parameters_of(machine: Model, paths: Sequence[str]) -> tuple[Parameter, ...]:
-    """The numbers at these paths. Raises ModelError with every path that leads to no number of which a run depends smoothly."""
+def parameters_of(machine: Model, paths: Sequence[str], of: str = "a gradient") -> tuple[Parameter, ...]:
+    """The numbers at these paths. of : whose parameters they are, for messages. Raises ModelError with every path that leads to no number
+    of which a run depends smoothly."""
     out: list[Parameter] = []
     faults: list[Fault] = []
     if not paths:
@@ -43,9 +44,9 @@ def parameters_of(machine: Model, paths: Sequence[str]) -> tuple[Parameter, ...]
             faults += [Fault.at(path, fault.message) for fault in error.faults]
             continue
         if isinstance(value, bool) or not isinstance(value, int | float):
-            faults.append(Fault.at(path, f"the parameter of a gradient is a number; here is {shown(value)}"))
+            faults.append(Fault.at(path, f"the parameter of {of} is a number; here is {shown(value)}"))
         elif path.split(".")[0].strip() == "simulation":
-            faults.append(Fault.at(path, "settings of a run are no parameters of a gradient: it is that of one run"))
+            faults.append(Fault.at(path, f"settings of a run are no parameters of {of}: it is that of one run"))
         elif path in (each.path for each in out):
             faults.append(Fault.at(path, "this parameter is given twice"))
         else:

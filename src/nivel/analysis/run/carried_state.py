@@ -7,35 +7,19 @@ lengths and laws stay those of the machine that takes it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from operator import attrgetter
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.preparation.roles import Role, leaves
 from nivel.errors import ModelError
 from nivel.integrate.loop.run import ALL_STEPS, BUDGET, END, EVERY, FRAMES, LAST_FRAME, OPEN_LIMIT, TOLERANCE, Run
 
 Structure = Mapping[str, tuple[str, ...]]
 
-# what the record of a machine remembers of its motion
-CARRIED: Final = (
-    "coordinates.reference",
-    "elements.memory",
-    "elements.proposal",
-    "friction.anchor",
-    "friction.force",
-    "friction.work",
-    "watched.followed",
-    "watched.held",
-    "sampled.came",
-    "sampled.due",
-    "tree.element",
-    "tree.state",
-)
-OF_RUN: Final = ("clock", "counter", "y", "previous", "samples")
 # entries of clocks and counters that belong to a simulation, not to its motion
 OWN_CLOCKS, OWN_COUNTERS = (END, TOLERANCE, OPEN_LIMIT), (ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET)
 
@@ -95,10 +79,10 @@ def _pairs(
 ) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
     """Arrays that are carried, and what the state has for them."""
     record, functions = prepared.motion.system.record, prepared.motion.system.record.functions
-    mine = [*(getattr(run, name) for name in OF_RUN), *(attrgetter(path)(record) for path in CARRIED)]
-    for array in mine:
-        if array.size:
-            yield array, _found(array, kept, given)
+    for leaf in (*leaves(run), *leaves(record)):
+        is_carried = leaf.role is Role.STATE or (leaf.role is Role.BEGUN and leaf.name.startswith("friction."))
+        if is_carried and leaf.array.size:
+            yield leaf.array, _found(leaf.array, kept, given)
     inputs = list(prepared.motion.system.input_functions)
     for array in (functions.kind, functions.value):
         if inputs:

@@ -99,7 +99,7 @@ def start_history(
     _forget_runs(prepared, settings, facts)
     system.hold_sliders(y)
     _begin_states(prepared, y)
-    _refer_energies(prepared, y)
+    refer_energies(prepared, y)
     at_switches = at_switches and settings.steps > 0
     values = _watch(system, chosen=settings.steps == 0 or at_switches)
     count[SWITCHED] = values > len(system.record.watched.event)
@@ -272,7 +272,7 @@ def _begin_states(prepared: Prepared, y: Array) -> None:
     y[first + sampled.state[begins]] = sampled.value[begins]
 
 
-def _refer_energies(prepared: Prepared, y: Array) -> None:
+def refer_energies(prepared: Prepared, y: Array) -> None:
     """Energies of the record are referred to the state y."""
     motion = prepared.motion
     energy = motion.system.record.control.energy

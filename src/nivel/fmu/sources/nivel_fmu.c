@@ -19,7 +19,7 @@ typedef struct { const char *name; void *code; } nivel_entry;
 typedef struct { int (*fits)(void); const nivel_entry *entries; } nivel_table;
 extern const nivel_table nivel_tables[];
 
-enum { MAGIC = 0x314d464e, HEAD = 8, NUMBERS = 22 };
+enum { MAGIC = 0x324d464e, HEAD = 8, NUMBERS = 22 };
 /* places of a run's clock */
 enum { TICKS = 15, TICK_RATE = 16 };
 /* value references: places of outputs in a frame, inputs, parameters */
@@ -27,9 +27,11 @@ enum { INPUT = 1 << 20, PARAMETER = 2 << 20 };
 enum { OK = 0, DISCARD = 2, ERROR = 3 };
 typedef enum { INSTANTIATED, INITIALISING, STEPPING, TERMINATED } Mode;
 
-/* A word of the image that follows from a parameter x: a constant and factor x^power + other x^second. */
-typedef struct { uint32_t word, parameter; double factor, power, other, second; } Formula;
-typedef struct { double value, least; } Parameter;
+/* A word y of the image that follows from parameters: y = sign |z|^power, or z where power = 1, with z = constant + the sum of its terms
+   P(t)/Q(t), t = (x - centre)/width. */
+typedef struct { double value, least, centre, width; } Parameter;
+typedef struct { uint64_t word; double constant, power, sign; } Number;
+typedef struct { uint32_t number, parameter; double factors[4], divisors[4]; } Term;
 
 typedef void logger3(void *, int, const char *, const char *);
 typedef struct {
@@ -51,8 +53,9 @@ typedef struct {
   nivel_failure *failures;
   const char **names;
   const Parameter *defaults;
-  const Formula *formulas;
-  size_t formula_count;
+  const Number *numbers;
+  const Term *terms;
+  size_t number_count, term_count;
   uint64_t energy;
   const char *token;
   double *parameters;
@@ -121,7 +124,7 @@ static const char *read_model(Instance *i, size_t size) {
   for (size_t k = 2; k < size / 8; ++k) sum = (sum ^ head[k]) * 1099511628211u;
   if (sum != head[1]) return "it is damaged";
   size_t codes = head[2], names = head[3];
-  i->parameter_count = head[4], i->formula_count = head[5], i->energy = head[6];
+  i->parameter_count = head[4], i->number_count = head[5], i->energy = head[6], i->term_count = head[7];
   memcpy(&i->model, head + HEAD, 8 * NUMBERS);
   nivel_model *m = &i->model;
   const char *at = i->file + 8 * (HEAD + NUMBERS);
@@ -129,7 +132,8 @@ static const char *read_model(Instance *i, size_t size) {
   m->words = ARRAY(uint64_t, m->count);
   m->inputs = ARRAY(nivel_input, m->input_count);
   i->defaults = ARRAY(Parameter, i->parameter_count);
-  i->formulas = ARRAY(Formula, i->formula_count);
+  i->numbers = ARRAY(Number, i->number_count);
+  i->terms = ARRAY(Term, i->term_count);
   m->inner = ARRAY(nivel_place, m->inner_count);
   m->outer = ARRAY(nivel_place, m->outer_count);
   const uint32_t *failures = ARRAY(uint32_t, 3 * m->failure_count);
@@ -179,8 +183,26 @@ static Instance *instantiate(const char *name, const char *token, const char *fo
   return i;
 }
 
-static double formula(const Formula *f, double x) {
-  return f->factor * pow(x, f->power) + (f->other != 0.0 ? f->other * pow(x, f->second) : 0.0);
+static double polynomial(const double c[4], double t) { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
+
+/* Puts the numbers that follow from parameters which are not at their defaults; whether there are any. */
+static bool follow(const Instance *i) {
+  bool any = false;
+  for (size_t k = 0; k < i->term_count;) {
+    uint32_t number = i->terms[k].number;
+    const Number *n = i->numbers + number;
+    double z = n->constant;
+    bool other = false;
+    for (; k < i->term_count && i->terms[k].number == number; ++k) {
+      const Term *term = i->terms + k;
+      const Parameter *p = i->defaults + term->parameter;
+      double x = i->parameters[term->parameter], t = (x - p->centre) / p->width;
+      z += polynomial(term->factors, t) / polynomial(term->divisors, t);
+      other |= x != p->value;
+    }
+    if (other) ((double *)i->block)[n->word] = n->power == 1.0 ? z : n->sign * pow(fabs(z), n->power), any = true;
+  }
+  return any;
 }
 
 /* Puts the machine at the start that follows from its parameters and inputs. */
@@ -207,11 +229,7 @@ static int begin(Instance *i) {
       }
     memcpy(nivel_changed(m, i->block), kept, own);
     *nivel_changed(m, i->block) = 0;
-    for (size_t k = 0; k < i->formula_count; ++k) {
-      const Formula *f = i->formulas + k;
-      double x = i->parameters[f->parameter], usual = i->defaults[f->parameter].value;
-      if (x != usual) ((double *)i->block)[f->word] += formula(f, x) - formula(f, usual), other = true;
-    }
+    other = follow(i);
     if (other) memcpy((char *)i->block + i->energy, energy, sizeof energy);
     i->now.failure = nivel_go(m, i->block, 0);
     if (!other || i->now.failure) break;

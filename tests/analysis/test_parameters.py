@@ -14,7 +14,7 @@ from nivel.analysis.run.dynamics import GOES_ON, start_loop
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.sweep.patched import PatchedRuns, learn
 from nivel.files import parse_machine
-from nivel.files.origin import Origin
+from nivel.files.reader import Origin
 from nivel.integrate.loop.run import BUDGET, FRAMES
 from nivel.kernels.record.record import Tree
 

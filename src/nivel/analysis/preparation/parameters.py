@@ -89,8 +89,8 @@ def _powers_of(t: Array) -> Array:
 
 
 class Sample(NamedTuple):
-    """A parameter at several values x (N,), the nominal one last, and the numbers (N, n) of the machine there. is_lawful : all that are no
-    workspace follow laws."""
+    """A parameter at several values x (N,), the nominal one last, and the numbers (N, n) of the machine there. is_lawful : all that
+    have a part in what follows from parameters follow laws."""
 
     x: Array
     numbers: Array
@@ -190,7 +190,7 @@ def _turned(nominal: MachineMemory, k: int, x: float, turns: Turns, prepare: Pre
             rows.append(other.numbers)
             xs.append(value)
         sample = Sample(np.array([*xs, x]), np.array([*rows, base]))
-        places = np.flatnonzero(_changed(sample) & ~nominal.workspace & ~_noise(nominal, sample))
+        places = np.flatnonzero(_changed(sample) & ~nominal.left & ~_noise(nominal, sample))
         if np.any([_fit(sample, places, *form).fits for form in FORMS], axis=0).all():
             return sample._replace(is_lawful=True)
     return sample

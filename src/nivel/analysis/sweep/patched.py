@@ -6,9 +6,8 @@ changes its structure, or depends on two parameters together is left to those wh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import partial
 from time import thread_time
 from typing import Any, Final, NamedTuple
 
@@ -127,7 +126,7 @@ class Patches:
     """How the memory of a machine follows from its parameters.
 
     paths : of the parameters; varied : those of them that are not the same in all variants. start : both pieces at the start of the nominal
-    machine. apart : of each parameter whether a machine in which it is zero has another structure.
+    machine. apart : parameters by number with values for which the machine is refused, or has another structure.
     """
 
     paths: tuple[str, ...]
@@ -136,11 +135,11 @@ class Patches:
     blank: Blank
     patches: tuple[Patch, Patch]
     start: tuple[NDArray[np.uint8], NDArray[np.uint8]]
-    apart: NDArray[np.bool_]
+    apart: frozenset[tuple[int, float]] = frozenset()
 
     def has(self, x: Array) -> bool:
         """Whether the variant with parameters x has the structure of the machine."""
-        return not (self.apart & (x == 0.0)).any()
+        return self.apart.isdisjoint(enumerate(x.tolist()))
 
     def put(self, pieces: tuple[NDArray[np.uint8], ...], x: Array) -> None:
         """The memory of the variant with parameters x at its start, into `pieces`."""
@@ -209,7 +208,7 @@ def _learned(base: Model, paths: tuple[str, ...], xs: Array, *, judged: bool) ->
     varied, low, high = _varied(xs), xs.min(axis=0), xs.max(axis=0)
     nominal = low + NOMINAL * (high - low)
     first = _prepared(base, dict(zip(paths, nominal.tolist(), strict=True)), judged=judged)
-    memory = first.memory
+    memory, places = first.memory, first.prepared.absolute.system.positions
 
     def memory_at(x: Array) -> MachineMemory:
         other = _prepared(base, dict(zip(paths, x.tolist(), strict=True)), judged=judged)
@@ -218,9 +217,7 @@ def _learned(base: Model, paths: tuple[str, ...], xs: Array, *, judged: bool) ->
         if judged:
             if fact := other_fact(first.prepared, other.prepared):
                 raise UnsuitedError(f"`{fact}` varies")
-        elif not _same(
-            *(each.prepared.assembly.y[: each.prepared.absolute.system.positions] for each in (first, other))
-        ):
+        elif not _same(*(each.prepared.assembly.y[:places] for each in (first, other))):
             raise UnsuitedError("the places where its bodies are assembled vary")
         return other.memory
 
@@ -230,33 +227,31 @@ def _learned(base: Model, paths: tuple[str, ...], xs: Array, *, judged: bool) ->
     values = [[[(low[k] + SHARES * (high[k] - low[k])).tolist()]] for k in varied]
     numbers = numbers_of(memory, nominal[varied], values, with_one)
     start = tuple(piece.copy() for piece in first.pieces)
-    places = memory.addresses[numbers.places]
-    patches = []
+    addresses, patches = memory.addresses[numbers.places], []
     for piece in first.pieces:
-        words = (places - piece.ctypes.data) // 8
+        words = (addresses - piece.ctypes.data) // 8
         chosen = (words >= 0) & (words < len(piece) // 8)
         patches.append(Patch(words[chosen], numbers.among(chosen)))
-    out = Patches(
-        paths, varied, base, first, (patches[0], patches[1]), (start[0], start[1]), np.zeros(len(paths), bool)
-    )
-    for n, k in enumerate(varied):
-        if low[k] <= 0.0 <= high[k]:
-            out.apart[k] = not _is_whole_at_zero(
-                out, partial(with_one, n), np.where(np.arange(len(paths)) == k, 0.0, nominal)
-            )
-    whole = xs[~(out.apart & (xs == 0.0)).any(axis=1)]
+    out = Patches(paths, varied, base, first, (patches[0], patches[1]), (start[0], start[1]))
+
+    def is_apart(k: int, value: float) -> bool:
+        """A machine may be refused at a bound, and lack what zero multiplies."""
+        x = np.where(np.arange(len(paths)) == k, value, nominal)
+        try:
+            if value == 0.0:
+                return bool(_differences(out, x, memory_at(x)))
+            base.with_values(dict(zip(paths, x.tolist(), strict=True)))
+        except (UnsuitedError, UnlikeError, NivelError):
+            return True
+        return False
+
+    asked = {(int(k), float(value)) for k in varied for value in (low[k], high[k], 0.0) if low[k] <= value <= high[k]}
+    out = replace(out, apart=frozenset(each for each in asked if is_apart(*each)))
+    whole = np.array([x for x in xs if out.has(x)])
     for x in np.random.default_rng(SEED).permutation(whole)[:CHECKED]:
         if names := _differences(out, x, memory_at(x)):
             raise UnsuitedError(f"`{names[0]}` depends on several parameters together")
     return out
-
-
-def _is_whole_at_zero(found: Patches, with_one: Callable[[float], MachineMemory], x: Array) -> bool:
-    """Whether the machine in which one parameter is zero, x, is that of the others: it may lack what is multiplied by nothing."""
-    try:
-        return not _differences(found, x, with_one(0.0))
-    except (UnsuitedError, UnlikeError, NivelError):
-        return False
 
 
 def differences(found: Patches, x: Array) -> list[str]:

@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     import nivel.analysis.assembly.mass
     import nivel.analysis.compare.compare
     import nivel.analysis.gradients.gradient
+    import nivel.analysis.gradients.parameters
     import nivel.analysis.gradients.sensitivities
     import nivel.analysis.interactive.posing
     import nivel.analysis.inverse.actuators
@@ -151,7 +152,6 @@ if TYPE_CHECKING:
     import nivel.flexible.model.model_file
     import nivel.flexible.model.solid_source
     import nivel.flexible.reduce
-    import nivel.fmu.defaults
     import nivel.fmu.writer
     import nivel.gym.machine_environment
     import nivel.judge.after.report

@@ -124,6 +124,21 @@ def test_what_follows_no_law_is_named(value):
     assert refused.value.args[0].parameter == 0
 
 
+def test_slopes_of_numbers_that_hardly_change_are_those_of_their_changes():
+    """A large constant hides the curvature of what is added to it: two values do not make a law of it, four give its slope."""
+    value, asked = (lambda x: 1e3 + 1e-2 * np.sin(x)), []
+
+    def at(_, x):
+        asked.append(x)
+        return memory_with([value(x), 3.0 * x])
+
+    x, h = 0.7, 1e-3
+    turns = ((x - h, x + h), (x - 2.0 * h, x + 2.0 * h))
+    numbers = numbers_of(memory_with([value(x), 3.0 * x]), np.array([x]), [[turns]], at, lambda sample: True)
+    assert len(asked) == 4
+    np.testing.assert_allclose(numbers.slopes(np.array([x]))[:, 0], [1e-2 * np.cos(x), 3.0], rtol=1e-7)
+
+
 CART = """
 format: 1
 parameters: {kp: 300, ki: 100, kd: 20, load: 2}

@@ -19,7 +19,7 @@ from nivel.analysis.gradients.whole_loop import WholeLoop, leaves
 from nivel.analysis.preparation.memory import MachineMemory, UnlikeError
 from nivel.analysis.preparation.parameters import Sample, Unfit, UnfitError, numbers_of
 from nivel.analysis.run.dynamics import Loop
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.native.duals import DUAL
 
 # parameters of the machines beside are away from their own values by these shares of their scales, and twice as far: wide, narrow
@@ -39,21 +39,28 @@ def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Para
     beside(parameter, value) : the loop of the machine with another value, built in the same way. Raises ModelError with every parameter
     with which the machine changes otherwise than in numbers.
     """
-    memory, x = _memory(loop), np.array([each.value for each in parameters])
-    values = [
-        [[[each.value + side * aside * each.scale for side in turn] for turn in turns] for aside, turns in TURNS]
-        for each in parameters
-    ]
-    try:
-        numbers = numbers_of(
-            memory, x, values, lambda k, value: _memory(beside(parameters[k], value)), partial(_is_smooth, memory)
-        )
-    except UnfitError as error:
-        raise ModelError([fault for unfit in error.args for fault in _faults(unfit, parameters)]) from None
-    slopes = np.zeros((len(memory.numbers), len(x)))
-    slopes[numbers.places] = numbers.slopes(x)
-    slopes[~np.isfinite(slopes)] = 0.0
-    return [memory.arrays_of(slopes[:, k] * each.scale) for k, each in enumerate(parameters)]
+    memory, faults, out = _memory(loop), list[Fault](), list[Seeds]()
+    for each in parameters:
+        values = [
+            [[each.value + side * aside * each.scale for side in turn] for turn in turns] for aside, turns in TURNS
+        ]
+        x = np.array([each.value])
+        try:
+            numbers = numbers_of(
+                memory,
+                x,
+                [values],
+                lambda _, value, each=each: _memory(beside(each, value)),
+                partial(_is_smooth, memory),
+            )
+        except UnfitError as error:
+            faults += _faults(error.args[0], each)
+            continue
+        slopes = np.zeros(len(memory.numbers))
+        slopes[numbers.places] = numbers.slopes(x)[:, 0] * each.scale
+        out.append(memory.arrays_of(np.where(np.isfinite(slopes), slopes, 0.0)))
+    refuse(faults)
+    return out
 
 
 def seed(whole: WholeLoop, seeds: Sequence[Seeds]) -> None:
@@ -83,7 +90,7 @@ def _is_smooth(memory: MachineMemory, sample: Sample) -> bool:
     )
 
 
-def _faults(unfit: Unfit, parameters: Sequence[Parameter]) -> list[Fault]:
+def _faults(unfit: Unfit, parameter: Parameter) -> list[Fault]:
     match unfit.reason:
         case ModelError() as error:
             messages = [fault.message for fault in error.faults]
@@ -92,5 +99,4 @@ def _faults(unfit: Unfit, parameters: Sequence[Parameter]) -> list[Fault]:
             messages = [f"a small change of it changes {what}, not only numbers"]
         case str(name):
             messages = [f"`{name}` is not smooth"]
-    path = parameters[unfit.parameter].path
-    return [Fault.at(path, f"there is no gradient: {message}") for message in messages]
+    return [Fault.at(parameter.path, f"there is no gradient: {message}") for message in messages]

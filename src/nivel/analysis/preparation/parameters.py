@@ -23,7 +23,9 @@ NODES: Final = 4  # most points of a function
 # y = ± z^power, and whether z are fractions: last, as what is the inverse of a sum follows each parameter alone as a fraction, too
 FORMS: Final = ((1.0, False), (-1.0, False), (-0.5, False), (0.5, False), (1.0, True))
 FITS: Final = 1e-11  # share of the largest value of a number by which a law misses points
+OF_CHANGE: Final = 1e-9  # share of the change of a number by which one does where slopes are asked for
 EQUAL: Final = 1e-12  # share of its scale by which a number changes by round-off alone
+LAST_PLACES: Final = 4e-15  # the same before numbers are taken as constant without a further turn
 ROUND_OFF: Final = 1e-13  # constants of this share of the number are those of finding its functions
 
 
@@ -90,11 +92,12 @@ def _powers_of(t: Array) -> Array:
 
 class Sample(NamedTuple):
     """A parameter at several values x (N,), the nominal one last, and the numbers (N, n) of the machine there. is_lawful : all that
-    have a part in what follows from parameters follow laws."""
+    have a part in what follows from parameters follow laws. is_for_slopes : laws meet changes of numbers, not only the numbers."""
 
     x: Array
     numbers: Array
     is_lawful: bool = False
+    is_for_slopes: bool = False
 
     @property
     def nodes(self) -> int:
@@ -169,17 +172,17 @@ def _sampled(
     *others, last = alternatives
     for turns in others:
         try:
-            sample = _turned(nominal, k, x, turns, prepare)
+            sample = _turned(nominal, k, x, turns, prepare, for_slopes=accept is not None)
         except (ModelError, UnlikeError) as error:
             if accept is None and isinstance(error, UnlikeError):
                 raise
             continue
         if accept is None or sample.is_lawful or accept(sample):
             return sample
-    return _turned(nominal, k, x, last, prepare)
+    return _turned(nominal, k, x, last, prepare, for_slopes=accept is not None)
 
 
-def _turned(nominal: MachineMemory, k: int, x: float, turns: Turns, prepare: Prepare) -> Sample:
+def _turned(nominal: MachineMemory, k: int, x: float, turns: Turns, prepare: Prepare, *, for_slopes: bool) -> Sample:
     """The parameter at the values of as many turns as it needs for laws."""
     base, xs, rows = nominal.numbers, list[float](), list[Array]()
     sample = Sample(np.array([x]), base[None])
@@ -189,8 +192,8 @@ def _turned(nominal: MachineMemory, k: int, x: float, turns: Turns, prepare: Pre
             nominal.refuse_unlike(other)
             rows.append(other.numbers)
             xs.append(value)
-        sample = Sample(np.array([*xs, x]), np.array([*rows, base]))
-        places = np.flatnonzero(_changed(sample) & ~nominal.left & ~_noise(nominal, sample))
+        sample = Sample(np.array([*xs, x]), np.array([*rows, base]), is_for_slopes=for_slopes)
+        places = np.flatnonzero(_changed(sample) & ~nominal.left & ~_noise(nominal, sample, LAST_PLACES))
         if np.any([_fit(sample, places, *form).fits for form in FORMS], axis=0).all():
             return sample._replace(is_lawful=True)
     return sample
@@ -201,10 +204,10 @@ def _changed(sample: Sample) -> NDArray[np.bool_]:
     return ((sample.numbers != sample.numbers[-1]) & ~np.isnan(sample.numbers)).any(axis=0)
 
 
-def _noise(nominal: MachineMemory, sample: Sample) -> NDArray[np.bool_]:
+def _noise(nominal: MachineMemory, sample: Sample, share: float = EQUAL) -> NDArray[np.bool_]:
     """(n,) which numbers change by round-off alone."""
     with np.errstate(invalid="ignore"):
-        return np.ptp(sample.numbers, axis=0) <= EQUAL * nominal.scales
+        return np.ptp(sample.numbers, axis=0) <= share * nominal.scales
 
 
 def _fitted(nominal: MachineMemory, x: Array, samples: Sequence[Sample], *, laws: bool) -> Numbers:
@@ -268,17 +271,20 @@ def _fit(sample: Sample, places: NDArray[np.intp], power: float, fractions: bool
     if power != 1.0:
         able &= np.abs(np.sign(y).sum(axis=0)) == len(y)
     z = np.where(able, z, 0.0)
+    allowed = FITS * np.abs(z).max(axis=0)
+    if sample.is_for_slopes:
+        allowed = OF_CHANGE * np.ptp(z, axis=0) + LAST_PLACES * np.abs(z).max(axis=0)
     out = _Fit(np.zeros((len(places), NODES)), np.zeros((len(places), NODES)), ~able)
     for nodes in () if fractions else range(2, min(sample.nodes, len(t) - 1) + 1):
-        _take(out, t, z, np.ones((len(places), nodes)))
+        _take(out, t, z, allowed, np.ones((len(places), nodes)))
     if fractions and len(t) > NODES:
         loewner = (z[2:].T[:, :, None] - z[:2].T[:, None, :]) / (t[2:, None] - t[:2])
-        _take(out, t, z, np.linalg.svd(loewner)[2][:, -1] * [1.0, -1.0])
+        _take(out, t, z, allowed, np.linalg.svd(loewner)[2][:, -1] * [1.0, -1.0])
     out.fits[~able] = False
     return out
 
 
-def _take(out: _Fit, t: Array, z: Array, below: Array) -> None:
+def _take(out: _Fit, t: Array, z: Array, allowed: Array, below: Array) -> None:
     """Take functions whose denominators have the values `below` (n, nodes) at the first points, where they meet all points and have no
     pole between them."""
     nodes = below.shape[1]
@@ -293,7 +299,7 @@ def _take(out: _Fit, t: Array, z: Array, below: Array) -> None:
     bottom = divisors @ at.T
     with np.errstate(divide="ignore", invalid="ignore"):
         missed = np.abs((factors @ at.T) / bottom - z.T)
-    fits = (missed <= FITS * np.abs(z).max(axis=0)[:, None]).all(axis=1) & ~out.fits
+    fits = (missed <= allowed[:, None]).all(axis=1) & ~out.fits
     fits &= np.abs(np.sign(bottom).sum(axis=1)) == len(t)
     out.factors[fits], out.divisors[fits], out.fits[fits] = factors[fits], divisors[fits], True
 

@@ -245,6 +245,8 @@ def test_newton(integrator):
 @pytest.mark.parametrize("stabilisation", ["none", "direct"])
 @pytest.mark.parametrize("path", PATHS, ids="-".join)
 def test_paths(path, stabilisation, integrator):
+    if integrator != EXPLICIT and not PATHS[path].residual:
+        pytest.skip("there is no residual")
     short(machines.slider_crank(), integrator, steps=2, stabilisation=stabilisation, **settings_of(path))
 
 

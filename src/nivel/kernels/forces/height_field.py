@@ -39,8 +39,11 @@ def weights(f):
 
 @leaf
 def place_in(u, count):
-    """(number of the mesh, share within it, 1 inside the grid) of the place u along a side; 0 beyond it, where nothing changes with u."""
-    if real(u) <= 0.0:
+    """(number of the mesh, share within it, 1 inside the grid) of the place u along a side; 0 beyond it, where nothing changes with u.
+
+    A place that is no number lies before the grid, so that it is no index.
+    """
+    if not real(u) > 0.0:
         return 0, 0.0 * u, 0.0
     if real(u) >= count - 1.0:
         return count - 2, 0.0 * u + 1.0, 0.0

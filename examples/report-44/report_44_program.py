@@ -155,7 +155,7 @@ class Equations:
         saddle = np.zeros((n + len(C), n + len(C)))
         saddle[:n, :n] = self.mass(G)
         saddle[n:, :n], saddle[:n, n:] = Cq, Cq.T
-        return np.linalg.solve(saddle, np.concatenate([Q.ravel(), Qd]))[:n]
+        return np.asarray(np.linalg.solve(saddle, np.concatenate([Q.ravel(), Qd]))[:n], dtype=float)
 
     def rates(self, y: Array) -> Array:
         """(14 n,) ẏ."""
@@ -262,7 +262,7 @@ def simulate(machine: Machine, settings: Settings) -> Run:
         history.append(y)
     energies = np.array([equations.energy(y) for y in history])
     return Run(
-        time=settings.step * np.arange(steps + 1),
+        time=np.arange(steps + 1.0) * settings.step,
         violation=np.array([equations.constraints(y)[0] for y in history]),
         energy_error=energies - energies[0] - np.array(work),
         iterations=np.array(iterations),

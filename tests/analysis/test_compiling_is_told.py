@@ -31,7 +31,7 @@ def test_who_listens_hears_how_far_it_is_and_the_rest_is_silent(two_missing, cap
     compilation.build([], Listener(lambda text, _: heard.append(text)))
     assert heard[1].startswith("compiled 1 of 2, about ")
     assert heard[1].endswith(" s left: observe")
-    assert heard[2] == "compiled 2 of 2, about 0 s left: spring, exact derivatives"
+    assert heard[2] == "compiled 2 of 2, about 0 s left: springs, exact derivatives"
     assert capsys.readouterr() == ("", "")
 
 

@@ -185,7 +185,7 @@ FAULTS = {
     "a rating of liquids": ("sonic_conductance: 1 dm^3/(s*bar)", "flow: 1 L/min, pressure_drop: 1 bar", "gases have `sonic_conductance`"),
     "no rating": (", sonic_conductance: 1 dm^3/(s*bar)", "", "`flow` and `pressure_drop` are missing"),
     "both": ("1 dm^3/(s*bar)", "1 dm^3/(s*bar), flow: 1 L/min", "is of liquids, and `sonic_conductance` of gases"),
-    "a component of liquids": ("type: check-valve", "type: pipe", "a pipe is for liquids; circuits of gas know `volume`, `tank`"),
+    "a component of liquids": ("type: check-valve", "type: pipe", "a pipe is for liquids; circuits of gas know `check-valve`, `cylinder`"),
     "another one of liquids": ("type: check-valve", "type: unloading-valve", "an unloading-valve is for liquids"),
     "an elastic wall": ("1 L, fluid", "1 L, wall_modulus: 1 GPa, fluid", "`wall_modulus` belongs to liquids"),
     "an unknown kind of fluid": ("type: ideal-gas", "type: gas", "the type `gas` is not known; did you mean `ideal-gas`?"),

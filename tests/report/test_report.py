@@ -107,7 +107,7 @@ def test_reactions_that_are_not_unique_are_marked():
     result = run(found={"redundancy": Redundancy(("hinge.d1.xz",), ("hinge",))})
     text = words(report_html(result))
     assert "hinge * revolute" in text
-    assert "With care: see what is amber" in text
+    assert "share the load is not unique" in text
 
 
 @pytest.mark.parametrize(

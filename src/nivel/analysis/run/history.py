@@ -263,10 +263,10 @@ def _begin_states(prepared: Prepared, y: Array) -> None:
     """States that begin with what a function gives at t = 0, from there on: energies are referred to them."""
     motion, sampled = prepared.motion, prepared.motion.system.record.sampled
     begins = (sampled.ticks >= ONCE) & (sampled.first == 0.0)
+    sampled.due[:] = begins  # an earlier run may have left others
     if not begins.any():
         return
     motion.evaluate(0.0, y)
-    sampled.due[:] = begins
     sample.code(motion.handle.address, 0, 0.0)
     first = len(y) - len(motion.system.start_of_states)
     y[first + sampled.state[begins]] = sampled.value[begins]

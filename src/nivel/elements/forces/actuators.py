@@ -29,7 +29,7 @@ from nivel.machine.core.coefficient import (
     PositiveGain,
     Restitution,
 )
-from nivel.machine.core.element import ForceElement
+from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction, CoordinatePosition, CoordinateSpeed
 from nivel.machine.laws.table import Table
@@ -50,6 +50,25 @@ class Stop(ForceElement):
     """A coordinate is pushed back where it passes `lower` or `upper`: effort stiffness · depth ** exponent, damped."""
 
     outputs: ClassVar[tuple[str, ...]] = (*ACTS, Output("depth", "m|rad", "overlap"))
+
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is free of its lower end", "touches its lower end"),
+            "coordinate",
+            lambda own, of: own.lower - of.value(own.coordinate),
+            lambda own, of: of.part("magnitude", 1.0),
+            lambda own, of: -of.rate(own.coordinate),
+            applies=lambda own: own.lower is not None,
+        ),
+        Acts(
+            ("is free of its upper end", "touches its upper end"),
+            "coordinate",
+            lambda own, of: of.value(own.coordinate) - own.upper,
+            lambda own, of: of.part("magnitude", -1.0),
+            lambda own, of: of.rate(own.coordinate),
+            applies=lambda own: own.upper is not None,
+        ),
+    )
 
     type: Literal["stop"] = "stop"
     coordinate: CoordinateReference

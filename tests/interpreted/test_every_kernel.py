@@ -256,6 +256,11 @@ def test_ways(way, integrator):
     short(machines.slider_crank(), integrator, steps=2, **WAYS[way])
 
 
+def test_dependent_positions_of_lagrange_equations_move():
+    """Steps so long that the loop opens, and closes again."""
+    short(machines.slider_crank(), steps=3, step=0.02, coordinates="independent", formulation="lagrange")
+
+
 @pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 def test_redundant_joints(coordinates):
     for integrator in (EXPLICIT, "generalised-alpha"):

@@ -14,6 +14,7 @@ from typing import Annotated, get_args, get_origin
 import pytest
 
 import nivel
+import nivel.elements
 import nivel.machine
 from nivel.machine.core.record import Record
 from nivel.machine.units.quantity import Quantity
@@ -24,13 +25,14 @@ SCRIPTS = Path(__file__).parent / "typed"
 
 def kinds_of_records():
     """All classes of records that one meets in a machine."""
-    for module in pkgutil.walk_packages(nivel.machine.__path__, "nivel.machine."):
-        importlib.import_module(module.name)
+    for room in (nivel.machine, nivel.elements):
+        for module in pkgutil.walk_packages(room.__path__, f"{room.__name__}."):
+            importlib.import_module(module.name)
 
     def below(record):
         yield from (each for one in record.__subclasses__() for each in (one, *below(one)))
 
-    found = [each for each in below(Record) if each.__module__.startswith("nivel.machine.")]
+    found = [each for each in below(Record) if each.__module__.startswith(("nivel.machine.", "nivel.elements."))]
     # not those that are made while a file is read, in which some fields are missing
     made = {each for each in found if getattr(sys.modules[each.__module__], each.__name__, None) is each}
     public = {each for each in made if not each.__name__.startswith("_")}

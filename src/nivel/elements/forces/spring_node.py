@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from nivel.system.builder import SystemBuilder
 
 MOST_SPRINGS: Final = 8
-TENSIONS: Final = tuple(Output(f"tension_{k + 1}", "N", f"tension of spring {k + 1}") for k in range(MOST_SPRINGS))
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
 
 
@@ -45,7 +44,7 @@ class SpringNode(ForceElement):
     outputs: ClassVar[tuple[str, ...]] = (
         *of_force("tension of the first spring"),
         *(Output(axis, "m", f"global {axis} of the node") for axis in "xyz"),
-        *TENSIONS,
+        *(Output(f"tension_{k + 1}", "N", f"tension of spring {k + 1}") for k in range(MOST_SPRINGS)),
     )
 
     type: Literal["spring-node"] = "spring-node"
@@ -290,7 +289,7 @@ def meet(machine, number, t):
 def add_spring_node(builder: SystemBuilder, force: SpringNode) -> None:
     """Springs from markers to a node that is kept from state to state."""
     markers = [builder.end(end) for end in force.ends]
-    first = add_outputs(builder, force, without=TENSIONS[len(markers) :])
+    first = add_outputs(builder, force, without=SpringNode.outputs[-MOST_SPRINGS:][len(markers) :])
     springs = np.column_stack([force.stiffness, force.free_length])
     row = NodeRow(
         output=first,

@@ -38,13 +38,16 @@ if TYPE_CHECKING:
     from nivel.system.builder import SystemBuilder
 
 MOST_PARTS: Final = 6
-LENGTHS: Final = tuple(Output(f"length_{k + 1}", "m", f"length of part {k + 1}") for k in range(MOST_PARTS))
 
 
 class SpringSeries(Between):
     """Parts in series along the line between two points: spring and damper side by side in each, one tension in all of them."""
 
-    outputs: ClassVar[tuple[str, ...]] = (*of_force("tension"), *of_value("length"), *LENGTHS)
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_force("tension"),
+        *of_value("length"),
+        *(Output(f"length_{k + 1}", "m", f"length of part {k + 1}") for k in range(MOST_PARTS)),
+    )
 
     type: Literal["spring-series"] = "spring-series"
     stiffness: Annotated[ManyNumbers[Stiffness], BeforeValidator(listed)] = Field(
@@ -166,7 +169,7 @@ def add_spring_series(builder: SystemBuilder, force: SpringSeries) -> None:
     """Parts along a distance; those with dampers have their lengths as states, but the last one where all have dampers."""
     coordinate = builder.coordinates.use(builder.coordinates.add(DISTANCE, *builder.ends(force.ends)))
     parts = list(zip(force.stiffness, force.dampings, force.free_length, strict=True))
-    first = add_outputs(builder, force, without=LENGTHS[len(parts) :])
+    first = add_outputs(builder, force, without=SpringSeries.outputs[-MOST_PARTS:][len(parts) :])
     followed = [k for k, damping in enumerate(force.dampings) if damping]
     if len(followed) == len(parts):
         followed.pop()

@@ -1,11 +1,14 @@
 """Imports of the package: no circle of files, late ones by `nivel.lazy` only, few small files. The numbers may only fall."""
 
 import ast
+import configparser
+import re
 import sys
 from functools import cache
 from pathlib import Path
 
-SOURCE = Path(__file__).parent.parent / "src"
+ROOT = Path(__file__).parent.parent
+SOURCE = ROOT / "src"
 SMALL = 60  # lines of a file, below which its head is most of what one reads
 # What there is at most of it: lower these when there is less.
 MOST_SMALL_FILES = 294
@@ -121,6 +124,60 @@ def test_circles_are_found():
 def test_no_files_import_each_other_in_a_circle():
     found = [circle for circle in circles(arrows()) if not all(name.startswith(KNOWN_CIRCLE) for name in circle)]
     assert not found, found
+
+
+def stands_in(name, rooms):
+    """The narrowest of the rooms (or modules) in which a module stands; None where there is none."""
+    return max((room for room in rooms if f"{name}.".startswith(f"{room}.")), key=len, default=None)
+
+
+def broken(graph, contract):
+    """Arrows of a graph that a contract of `.importlinter` does not allow. Layers that `|` divides do not import each other."""
+    if contract["type"] == "forbidden":
+        sources_, forbidden = contract["source_modules"].split(), contract["forbidden_modules"].split()
+        return [
+            (name, other)
+            for name, others in graph.items()
+            for other in others
+            if stands_in(name, sources_) and stands_in(other, forbidden)
+        ]
+    layers = [line for line in contract["layers"].splitlines() if line.strip()]
+    rank = {room.strip(): k for k, line in enumerate(layers) for room in re.split("[:|]", line)}
+    apart = {room.strip() for line in layers if "|" in line for room in line.split("|")}
+    out = []
+    for name, others in graph.items():
+        here = stands_in(name, rank)
+        for other in others:
+            there = stands_in(other, rank)
+            if here is None or there is None or here == there:
+                continue
+            if rank[there] < rank[here] or (rank[there] == rank[here] and {here, there} <= apart):
+                out.append((name, other))
+    return out
+
+
+def contracts():
+    """The contracts of `.importlinter` by name."""
+    parser = configparser.ConfigParser()
+    parser.read(ROOT / ".importlinter")
+    return {parser[name]["name"]: parser[name] for name in parser.sections() if "type" in parser[name]}
+
+
+def test_arrows_upwards_are_found():
+    layers = {"type": "layers", "layers": "a.high\na.left | a.right\na.one : a.two\na.low"}
+    allowed = {"a.high.x": {"a.low"}, "a.one": {"a.two"}, "a.two": {"a.one"}, "b": {"a.high"}}
+    assert broken(allowed, layers) == []
+    upwards = {"a.low.y": {"a.high.x"}, "a.left": {"a.right.z"}}
+    assert broken(upwards, layers) == [("a.low.y", "a.high.x"), ("a.left", "a.right.z")]
+    forbidden = {"type": "forbidden", "source_modules": "a.low", "forbidden_modules": "a.high"}
+    assert broken(upwards, forbidden) == [("a.low.y", "a.high.x")]
+
+
+def test_late_imports_keep_the_contracts():
+    """`lint-imports` sees import statements alone; here names behind `nivel.lazy` count as well."""
+    assert len(contracts()) > 8
+    found = {name: broken(arrows(), contract) for name, contract in contracts().items()}
+    assert not any(found.values()), found
 
 
 def test_functions_import_nothing_but_what_the_system_may_lack():

@@ -10,7 +10,7 @@ from nivel.kernels.forces.pressure_cells import bound_cap, nearest_faces, overla
 from nivel.native.function import leaf
 
 # columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; the patch as in
-# `nivel.kernels.forces.contact`, and the surface; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says,
+# `nivel.kernels.forces.contact_law`, and the surface; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says,
 # and those of the
 # second
 OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, SECOND_EDGES = range(9)

@@ -13,6 +13,7 @@ import pytest
 import nivel.integrate
 from nivel.cli.run import command as run_command
 from nivel.elements.circuits import COMPONENTS
+from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
@@ -105,6 +106,19 @@ def test_components_are_found_by_their_words_without_being_imported():
     loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
     assert "nivel.elements.circuits.orifices" in loaded
     assert not {"numba", "nivel.elements.circuits.pumps", "nivel.machine.machine_record"} & {*loaded}
+
+
+@pytest.mark.parametrize(
+    ("kinds", "word", "said"),
+    [
+        (FORCES, "stop", "there is a force of type 'stop' already"),
+        (COMPONENTS, "orifice", "there is a component of type 'orifice' already"),
+        (BLOCKS, "pid", "there is a block of type 'pid' already"),
+    ],
+)
+def test_a_word_that_is_taken_is_named_with_what_has_it(kinds, word, said):
+    with pytest.raises(ValueError, match=f"^{said}$"):
+        kinds.register(kinds[word])
 
 
 def test_components_of_gas_alone_have_no_slopes_by_hand():

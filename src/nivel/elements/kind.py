@@ -50,10 +50,13 @@ KindT = TypeVar("KindT", bound=Kind)
 
 
 class Kinds(Mapping[str, KindT], Generic[KindT]):
-    """Kinds of some rooms by their words. A module is imported when its word is asked for, and all of them where kinds are counted."""
+    """Kinds of some rooms by their words. A module is imported when its word is asked for, and all of them where kinds are counted.
 
-    def __init__(self, *rooms: str) -> None:
-        self._rooms = rooms
+    noun : what one of them is called in messages.
+    """
+
+    def __init__(self, *rooms: str, noun: str) -> None:
+        self._rooms, self._noun = rooms, noun
         self._kinds: dict[str, KindT] = {}
 
     @cached_property
@@ -103,7 +106,7 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
     def register(self, kind: KindT) -> None:
         """Let machines have a kind that is not of the package. Raises ValueError where its word is taken."""
         if kind.type in self:
-            raise ValueError(f"there is a {self._rooms[0].rpartition('.')[2][:-1]} of type '{kind.type}' already")
+            raise ValueError(f"there is a {self._noun} of type '{kind.type}' already")
         self._kinds[kind.type] = kind
 
     def withdraw(self, word: str) -> None:

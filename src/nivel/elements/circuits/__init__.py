@@ -6,7 +6,7 @@ from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.kind import Kinds, OneOf
 
-COMPONENTS: Final = Kinds[ComponentKind](__name__)
+COMPONENTS: Final = Kinds[ComponentKind](__name__, noun="component")
 
 if TYPE_CHECKING:
     HydraulicComponent = Component

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 from nivel.elements.kind import Kind, Kinds, OneOf
 from nivel.machine.control.block import Block
 
-BLOCKS: Final = Kinds[Kind](__name__)
+BLOCKS: Final = Kinds[Kind](__name__, noun="block")
 
 if TYPE_CHECKING:
     ControlBlock = Block

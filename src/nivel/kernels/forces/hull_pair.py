@@ -11,8 +11,7 @@ from nivel.native.function import leaf
 
 # columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; the patch as in
 # `nivel.kernels.forces.contact_law`, and the surface; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says,
-# and those of the
-# second
+# and those of the second
 OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, SECOND_EDGES = range(9)
 PATCH, AXES, COORDINATE, SURFACE, EDGES = 9, 10, 11, 12, 15
 # columns of `number`; TRANSITION: 0 where friction is that of a patch. Then work: place of the second hull in axes of the first, velocity

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path as FilePath
 from typing import Any, Final
@@ -12,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.extras import needed
+from nivel.extras import needed, require
+from nivel.files.apart import apart
 from nivel.lazy import nivel, scipy
 from nivel.words.wording import unknown_word
 
@@ -27,7 +29,11 @@ Signal = tuple[NDArray[np.float64], NDArray[np.float64], str]  # times [s], valu
 
 def signal_columns(content: bytes, file: str, column: str | None) -> dict[str, tuple[NDArray[np.float64], str]]:
     """Times and values of the signal `column`, or of the only one. Raises ValueError, and ModelError where a library is missing."""
-    times, values, unit = (_mdf if file.lower().endswith(".mf4") else _mcap)(content, column)
+    if file.lower().endswith(".mf4"):  # what a damaged one leaves of its library ends with the process
+        require("MDF files need", "asammdf")
+        times, values, unit = apart(_mdf, content, column, failed="the file cannot be read")
+    else:
+        times, values, unit = _mcap(content, column)
     name = column or "value"
     return {TIME: (times, "s"), name: (values, unit)}
 
@@ -128,6 +134,7 @@ def _numbers(value: Any, path: str) -> Iterator[tuple[str, float]]:
 
 KINDS: Final = (".mat", ".parquet", *RECORDING_KINDS)
 MOST_ROWS: Final = 20_000_000  # of a table
+UNNAMED: Final = re.compile(r"""["']?<_io\.BytesIO object at 0x[0-9a-f]+>["']?""")  # a file, in messages of libraries
 UNIT_KEYS: Final = (b"unit", b"units")  # of the metadata of a field
 
 
@@ -172,7 +179,7 @@ def _of_recording(content: bytes, file: str, column: str | None) -> dict[str, tu
         raise MeasuredError(str(problem)) from None
     except Exception as problem:  # libraries of recordings raise errors of their own
         raise MeasuredError(
-            f"the file is damaged, or not what its name says: {' '.join(str(problem).split())}"
+            f"the file is damaged, or not what its name says: {' '.join(UNNAMED.sub('it', str(problem)).split())}"
         ) from None
 
 

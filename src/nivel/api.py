@@ -23,7 +23,7 @@ from nivel.analysis.plan.compilation import (
 )
 from nivel.analysis.plan.plan import Plan, methods_of, plan_run
 from nivel.analysis.plan.settings import waiting_time
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.forces import Force
@@ -437,7 +437,7 @@ class Machine(Model):
         if not values:
             with chosen._faults_in_file():
                 return nivel.analysis.run.many.Simulations([plan] * n, source=self.origin.source)
-        rows = nivel.analysis.sweep.rows.rows_of(values)
+        rows = nivel.analysis.sweep.variants.rows_of(values)
         if len(rows) != n:
             raise ModelError(Fault.at("values", f"lists of {n} values are needed; there are {len(rows)}"))
         machines = [chosen.with_values(row) for row in rows]
@@ -493,7 +493,7 @@ class Machine(Model):
         `sweep` does. Raises ModelError where values or names are not known, or no variant can be run.
         """
         given = _given(settings)
-        chosen, rows = self.with_settings(given), nivel.analysis.sweep.rows.rows_of(values)
+        chosen, rows = self.with_settings(given), nivel.analysis.sweep.variants.rows_of(values)
         plan = chosen.with_values(rows[0])._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
         names = (save,) if isinstance(save, str) else tuple(save)
@@ -813,7 +813,7 @@ class Machine(Model):
             record = (
                 self.record
                 if trajectory is None
-                else nivel.analysis.inverse.trajectory.along_trajectory(self.record, trajectory)
+                else nivel.analysis.inverse.number_table.along_trajectory(self.record, trajectory)
             )
             wanted = nivel.analysis.inverse.actuators.actuation(record, asked)
             if nivel.analysis.inverse.friction_efforts.rubs(record):
@@ -824,7 +824,7 @@ class Machine(Model):
                     nivel.analysis.inverse.friction_efforts.driven_alone(record, wanted), self.origin
                 )
                 followed = driven.kinematics(positions=positions, listener=listener)
-                return nivel.analysis.inverse.trust.with_trust(
+                return nivel.analysis.inverse.run.with_trust(
                     nivel.analysis.inverse.friction_efforts.efforts_of_drivers(wanted, drivers, followed),
                     record.drivers,
                     followed,
@@ -844,7 +844,7 @@ class Machine(Model):
         with self._faults_in_file():
             found = nivel.analysis.inverse.run.inverse(methods, wanted, followed, listener=listener)
         replaced = [each for each in record.drivers if motion is not None and each.name not in wanted.hold]
-        return nivel.analysis.inverse.trust.with_trust(found, record.drivers, followed, replaced)
+        return nivel.analysis.inverse.run.with_trust(found, record.drivers, followed, replaced)
 
     @checked_arguments
     def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:

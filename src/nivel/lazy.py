@@ -85,18 +85,15 @@ if TYPE_CHECKING:
     import nivel.analysis.inverse.actuators
     import nivel.analysis.inverse.friction_efforts
     import nivel.analysis.inverse.mechanics
-    import nivel.analysis.inverse.path_file
+    import nivel.analysis.inverse.number_table
     import nivel.analysis.inverse.paths
     import nivel.analysis.inverse.run
-    import nivel.analysis.inverse.trajectory
-    import nivel.analysis.inverse.trust
     import nivel.analysis.kinematics.continuation
     import nivel.analysis.kinematics.drive
     import nivel.analysis.kinematics.ranges
     import nivel.analysis.kinematics.run
     import nivel.analysis.linearise.linearise
     import nivel.analysis.linearise.opened
-    import nivel.analysis.linearise.over
     import nivel.analysis.optimise.evaluations
     import nivel.analysis.optimise.identify
     import nivel.analysis.optimise.inputs
@@ -108,7 +105,6 @@ if TYPE_CHECKING:
     import nivel.analysis.plan.settings
     import nivel.analysis.preparation.attributes
     import nivel.analysis.progress.journal
-    import nivel.analysis.progress.listener
     import nivel.analysis.progress.log
     import nivel.analysis.run.many
     import nivel.analysis.run.prepared_state
@@ -121,7 +117,6 @@ if TYPE_CHECKING:
     import nivel.analysis.sweep.journal
     import nivel.analysis.sweep.outputs
     import nivel.analysis.sweep.resolution
-    import nivel.analysis.sweep.rows
     import nivel.analysis.sweep.sweep
     import nivel.analysis.sweep.task
     import nivel.analysis.sweep.variant

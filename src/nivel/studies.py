@@ -10,7 +10,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.sources import beside, read_bytes, read_text

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from nivel.analysis.compare.compare_grid import Axes, lay_out
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.errors import ModelError
 from nivel.results.comparison import Comparison
 from nivel.results.motion import Motion, distance

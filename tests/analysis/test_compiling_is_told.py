@@ -3,7 +3,7 @@
 import pytest
 
 from nivel.analysis.plan import compilation
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 
 
 class Entry:

@@ -6,7 +6,7 @@ import pytest
 
 import machines
 from nivel import Machine
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.files import parse_machine
 from nivel.results import Result
 

@@ -4,7 +4,7 @@ import pytest
 
 import machines
 from nivel import Friction
-from nivel.analysis.assembly.unknowns import unknown_name
+from nivel.analysis.assembly.unknown_groups import unknown_name
 from preparing import prepare
 from running import run
 

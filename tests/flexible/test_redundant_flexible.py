@@ -6,8 +6,8 @@ from scipy.linalg import block_diag
 
 from models import bar, reduced
 from nivel import Body, Friction, Joint, MachineRecord
-from nivel.analysis.assembly.effective_mass import mobility
-from nivel.analysis.assembly.modal_rows import modal_rows
+from nivel.analysis.assembly.penalties import mobility
+from nivel.analysis.assembly.redundancy import modal_rows
 from nivel.errors import ModelError
 from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import write_body

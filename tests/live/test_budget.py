@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 import cart
 from nivel import Input
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.cli.budget import command
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LONGEST, count_into

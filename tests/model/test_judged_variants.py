@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.sweep.judged_runs import JudgedRuns, judged_runs
 from nivel.analysis.sweep.patched import UnsuitedError, learn
 from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import run_variant
-from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, sample_of
+from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, JudgedRuns, judged_runs, sample_of
 from nivel.files import parse_machine
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -26,7 +26,7 @@ from nivel.errors import ModelError, SolveError
 from nivel.lazy import nivel
 
 if TYPE_CHECKING:
-    from nivel.analysis.progress.listener import Listener
+    from nivel.analysis.progress.log import Listener
     from nivel.api import Machine
 
 

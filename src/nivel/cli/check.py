@@ -43,9 +43,7 @@ def command(
     and the exit code is 2.
     """
     loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
-    facts = loaded.check(
-        listener=nivel.analysis.progress.listener.Listener(lambda text, _total: click.echo(text, err=True))
-    )
+    facts = loaded.check(listener=nivel.analysis.progress.log.Listener(lambda text, _total: click.echo(text, err=True)))
     if circuit is not None:
         drawn = nivel.looks.circuit.drawing.circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
         if not drawn:

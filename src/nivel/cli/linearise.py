@@ -14,7 +14,7 @@ from nivel.lazy import nivel
 from nivel.settings import LineariseSettingsDict
 
 if TYPE_CHECKING:
-    from nivel.analysis.progress.listener import Listener
+    from nivel.analysis.progress.log import Listener
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.linear_sweep import LinearSweep
 
@@ -85,7 +85,7 @@ def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> Non
         models = [
             order.load({path: f"{value!r} {unit}".strip()}).linearise(**settings, listener=listener) for value in values
         ]
-        return nivel.analysis.linearise.over.over(path, unit, values, models)
+        return nivel.analysis.linearise.linearise.over(path, unit, values, models)
 
     def said(sweep: LinearSweep) -> list[str]:
         return [

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
-    from nivel.analysis.progress.listener import Listener
+    from nivel.analysis.progress.log import Listener
 
 
 @contextmanager
 def progress_listener(quiet: bool) -> Iterator[Listener]:
     """Hears what is being done: says nothing where `quiet`, else stages and how far they are."""
     if quiet:
-        yield nivel.analysis.progress.listener.Listener()
+        yield nivel.analysis.progress.log.Listener()
         return
     if not sys.stderr.isatty():
         log = nivel.analysis.progress.log.Log()
@@ -42,7 +42,7 @@ def progress_listener(quiet: bool) -> Iterator[Listener]:
         def progress(time: float) -> None:
             bar.update(task, completed=time, reached=f"t = {time:.3f} s")
 
-        yield nivel.analysis.progress.listener.Listener(stage, progress)
+        yield nivel.analysis.progress.log.Listener(stage, progress)
 
 
 @contextmanager

@@ -201,14 +201,14 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
 def _progress(study: Study, quiet: bool) -> Iterator[tuple[Any, Callable[[int, Any], None] | None]]:
     """A listener, and what hears each variant: in a terminal a bar with the time that is left, over a table of the last variants."""
     if quiet:
-        yield nivel.analysis.progress.listener.Listener(), None
+        yield nivel.analysis.progress.log.Listener(), None
         return
     count = len(study.variants.values)
     left = _Left(count)
     if not sys.stderr.isatty():
         with nivel.cli.progress.progress_listener(quiet) as listener:
             yield (
-                nivel.analysis.progress.listener.Listener(
+                nivel.analysis.progress.log.Listener(
                     listener.stage, lambda done: listener.say(f"{left.done(done)} of {count} variants{left}")
                 ),
                 None,
@@ -230,7 +230,7 @@ def _progress(study: Study, quiet: bool) -> Iterator[tuple[Any, Callable[[int, A
             live.update(rich.console.Group(bar, _recent(study, last)))
 
         yield (
-            nivel.analysis.progress.listener.Listener(
+            nivel.analysis.progress.log.Listener(
                 lambda text, _total: bar.update(task, description=text),
                 lambda done: bar.update(task, completed=left.done(done), left=str(left)),
             ),

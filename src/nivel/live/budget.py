@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.errors import ModelError
 from nivel.integrate.loop.paced import (
     CLOCK,

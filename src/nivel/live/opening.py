@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from nivel.analysis.plan.compilation import build, run_entries
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.integrate.loop.paced import drive

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import RunOutcome, counts_of
 from nivel.analysis.run.simulate import close_run
 from nivel.api import Machine

@@ -9,8 +9,7 @@ import numpy as np
 from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
 from nivel.analysis.assembly.driven_start import half_turns, turn_to_targets
 from nivel.analysis.assembly.equations import MotionEquations, change_between
-from nivel.analysis.assembly.lost_directions import refuse_lost_directions
-from nivel.analysis.assembly.tilted_axes import refuse_tilted_axes
+from nivel.analysis.assembly.lost_directions import refuse_lost_directions, refuse_tilted_axes
 from nivel.analysis.assembly.velocities import (
     ROUND_OFF,
     consistent_velocities,

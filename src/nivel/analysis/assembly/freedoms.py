@@ -10,7 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.system.system import Array
+from nivel.machine.core.record import GROUND
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.states.relative import bodies_of
+from nivel.system.system import Array, System
 
 STILL: Final = 1e-7  # a number whose derivative is below this share cannot move
 DEPENDENT: Final = 1e-6  # what is left of a derivative that follows from others
@@ -108,3 +111,14 @@ def coordinate_derivatives(motion: MotionEquations, places: Sequence[int]) -> Ar
     J = np.zeros((len(places), system.body_count, 6))
     np.add.at(J, (row[own] - system.machine_rows, body[own]), block)
     return J.reshape(len(places), 6 * system.body_count)
+
+
+def touches_ground(machine: MachineRecord, system: System) -> bool:
+    """Whether a joint, a driver of a marker or a force joins a body to the ground."""
+    joined = {body for joint in machine.joints for body in bodies_of(machine, joint)}
+    for driver in machine.drivers:
+        if driver.marker is not None:
+            seen = driver.reference
+            joined |= {machine.marker_named[name].body for name in (driver.marker, seen) if name is not None}
+            joined |= {GROUND} if seen is None else set()
+    return GROUND in joined or any(system.body_count in each.bodies for each in system.coupled)

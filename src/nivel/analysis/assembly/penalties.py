@@ -7,17 +7,19 @@ rows depend on each other. 1/S_kk is the mass that row k moves, so α = factor/S
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
-from nivel.analysis.assembly.effective_mass import mobility
+from nivel.analysis.assembly.always_dependent_rows import LEAST
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.row_settings import of_rows
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.settings.run import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts
 from nivel.system.system import Array, System
+from nivel.words.wording import unknown_word
 
 PLACE = "simulation.penalty"
 # Ω times the step, without an Ω of the user: violations die out within some ten steps, and explicit methods stay stable
@@ -59,6 +61,33 @@ def soft_rows(motion: MotionEquations, y: Array) -> Array:
     return np.maximum(*_mobilities(motion, y)) / REDUNDANT
 
 
+# A row that can be moved by this share of what it was at first, or less, cannot be moved: of 1e-11 radians beside a position in line.
+IMMOVABLE = 1e-22
+
+
+def mobility(motion: MotionEquations, y: Array) -> Array:
+    """1/S_kk of a row is the mass that it moves [1/kg for rows in metres, rad²/(N m s²)]; (K,) in the order of the rows of S."""
+    saddle = motion.system.record.saddle
+    motion.evaluate(0.0, y)
+    diagonal = np.zeros(len(saddle.row))
+    diagonal[saddle.order] = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    return diagonal
+
+
+def bound_pivots(motion: MotionEquations, y: Array) -> None:
+    """Note in the record which pivots of S are nothing but round-off, judged by the mobility at the start y.
+
+    In relative coordinates a row may lose all its mobility: the bars of its loop are in line. Then its diagonal is no scale. Rows that are
+    left out stay so.
+    """
+    record = motion.system.record
+    units = record.constraints.scale[record.saddle.row] ** 2
+    largest = np.max(mobility(motion, y) / units, initial=0.0)
+    least = record.saddle.least
+    bound = np.maximum(IMMOVABLE * largest * units[record.saddle.order], LEAST)
+    least[:] = np.where(least < 0.0, -bound, bound)
+
+
 def _mobilities(motion: MotionEquations, y: Array) -> tuple[Array, Array]:
     """1/S_kk of each row, and the least that counts: what nothing can move still needs a penalty. Where this is all rows, they move nothing
     less than the whole machine."""
@@ -66,6 +95,42 @@ def _mobilities(motion: MotionEquations, y: Array) -> tuple[Array, Array]:
     units = record.constraints.scale[record.saddle.row] ** 2
     largest = np.max(mobile / units, initial=0.0) or 1.0 / (record.bodies.mass.sum() * motion.system.size**2)
     return mobile, IMMOBILE * units * largest
+
+
+Settings = TypeVar("Settings")
+
+
+def of_rows(system: System, given: Mapping[str, Settings], place: str) -> dict[int, Settings]:
+    """Row → its own settings; those of a row by its name go before those of its joint.
+
+    place : of the settings, e.g. `simulation.baumgarte`. Raises ModelError with every name that no constraint has.
+    """
+    constrained = set(system.record.saddle.row.tolist())
+    faults: list[Fault] = []
+    of_joints: dict[int, Settings] = {}
+    of_single: dict[int, Settings] = {}
+    for name, settings in given.items():
+        rows = [k for k, row in enumerate(system.rows) if name == row or row.startswith(f"{name}.")]
+        if not rows:
+            names = [*dict.fromkeys(row.split(".")[0] for row in system.rows), *system.rows]
+            faults.append(Fault.at(f"{place}.rows.{name}", unknown_word(name, names, "constraint")))
+        elif not constrained.intersection(rows):
+            message = (
+                f"`{name}` is no constraint in relative coordinates: it carries a body of the tree; write `coordinates: absolute`, or "
+                f"`cut: [{name.split('.')[0]}]`"
+            )
+            faults.append(Fault.at(f"{place}.rows.{name}", message))
+        (of_single if "." in name else of_joints).update(dict.fromkeys(rows, settings))
+    refuse(faults)
+    return {**of_joints, **of_single}
+
+
+def refuse_unknown_rows(system: System, settings: SimulationSettings, *, penalised: bool) -> None:
+    """Refuse names of the settings in use that no constraint has."""
+    if penalised:
+        of_rows(system, settings.penalty.rows, "simulation.penalty")
+    if settings.stabilisation == "baumgarte" and settings.baumgarte is not None:
+        of_rows(system, settings.baumgarte.rows, "simulation.baumgarte")
 
 
 def _stiffness(system: System, penalty: Penalty, facts: FormulationFacts) -> tuple[Array, Array]:

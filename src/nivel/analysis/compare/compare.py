@@ -12,9 +12,9 @@ import nivel
 from nivel.analysis.compare.compare_grid import Cell, Grid, reasons
 from nivel.analysis.compare.reference import Solution, packed_motion, solve, unpacked_motion
 from nivel.analysis.progress.journal import Journal
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import RunOutcome
-from nivel.analysis.run.in_memory import run_in_memory
+from nivel.analysis.run.simulate import run_in_memory
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Methods

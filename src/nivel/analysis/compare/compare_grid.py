@@ -13,7 +13,7 @@ from typing import Final
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.plan.settings import FRAMES
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.changes import changed

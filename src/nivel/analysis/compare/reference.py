@@ -15,8 +15,8 @@ import numpy as np
 from nivel.analysis.compare.compare_grid import REFERENCES, Grid
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.progress.journal import Journal, packed, unpacked
-from nivel.analysis.progress.listener import Listener
-from nivel.analysis.run.in_memory import run_in_memory
+from nivel.analysis.progress.log import Listener
+from nivel.analysis.run.simulate import run_in_memory
 from nivel.judge.after.report import assess, blindness
 from nivel.judge.after.subject import Run
 from nivel.machine.changes import changed

@@ -22,7 +22,7 @@ from nivel.analysis.plan.plan import Plan, other_run, plan_run
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import FINER, TENTH, refine

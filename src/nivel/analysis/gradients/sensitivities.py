@@ -14,7 +14,7 @@ from nivel.analysis.gradients.outputs import Array, outputs_of
 from nivel.analysis.gradients.parameters import Parameter, parameters_of
 from nivel.analysis.gradients.slopes import Slopes
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.model import Model

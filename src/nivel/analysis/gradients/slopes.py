@@ -17,7 +17,7 @@ from nivel.analysis.plan.compilation import build
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import interruptible
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import GOES_ON, Loop, start_loop
 from nivel.errors import NivelError, SolveError
 from nivel.integrate.loop.run import BUDGET, EVENTS, FRAMES, OPEN_LIMIT, TIME

@@ -19,7 +19,7 @@ from nivel.analysis.assembly.closing import Wishes, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, equations, moved
 from nivel.analysis.assembly.freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.interactive.handles import Handle, Wish, further_handles, measured_handles
-from nivel.analysis.plan.stiff_beams import with_stiff_beams
+from nivel.analysis.plan.beam_facts import with_stiff_beams
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.nodes import with_nodes
 from nivel.system.scene import scene

@@ -17,9 +17,8 @@ from typing import Any, Final
 import numpy as np
 from scipy.linalg import lapack
 
-from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.instant import Instant, frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
-from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.analysis.inverse.quick import Quick, UnsuitedError
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue

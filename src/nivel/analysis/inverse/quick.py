@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from nivel.analysis.assembly.instant import Instant
-from nivel.analysis.run.bound_entry import BoundEntry
+from nivel.analysis.run.prepared_state import BoundEntry
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import RESIDUAL

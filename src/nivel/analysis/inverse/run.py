@@ -12,6 +12,8 @@ with fewer what no effort gives is told. The reactions of the joints do not ente
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +21,14 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.inverse.actuators import Actuation
 from nivel.analysis.inverse.least import Least, least_efforts
-from nivel.analysis.kinematics.states import MovingState, moving_states
+from nivel.analysis.kinematics.singular import MovingState, moving_states
 from nivel.analysis.plan.plan import Methods
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.prepared_state import at_start
+from nivel.judge.after.report import assess
+from nivel.judge.after.subject import Actuated
 from nivel.kernels.output.observe import observe
+from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result
@@ -176,3 +181,10 @@ def _free_motions(rows: Array) -> Array:
     _, size, every = np.linalg.svd(rows)
     rank = int(np.sum(size > RANK * size[0])) if size[0] > 0.0 else 0
     return every[rank:].T
+
+
+def with_trust(efforts: Efforts, drivers: Sequence[Driver], motion: Result, replaced: Sequence[Driver] = ()) -> Efforts:
+    """The efforts with their trust report. drivers : of the machine; replaced : those whose motion another one was given in place of."""
+    followed = tuple(each for each in drivers if each not in replaced)
+    subject = Actuated(outcome="done", result=motion, efforts=efforts, drivers=followed, replaced=tuple(replaced))
+    return replace(efforts, trust=assess(subject))

@@ -9,9 +9,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.instant import Instant, frame_place, frame_velocity
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
-from nivel.analysis.assembly.user_frames import frame_place, frame_velocity
 from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.pressures import pressure_states
 from nivel.analysis.linearise.reduction import Ports

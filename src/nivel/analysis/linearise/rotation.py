@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import lstsq
 
 from nivel.analysis.assembly.instant import Instant
-from nivel.analysis.assembly.unknowns import unknown_name
+from nivel.analysis.assembly.unknown_groups import unknown_name
 from nivel.analysis.run.prepared_state import Moment
 from nivel.analysis.statics.equations import turned
 from nivel.errors import Fault, ModelError, SolveError

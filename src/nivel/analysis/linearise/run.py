@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.instant import Instant, frame_axes, frame_place
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
-from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
-from nivel.analysis.linearise.kinks import kinks
+from nivel.analysis.linearise.kinks import kinks, let_slide
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.opened import Opened
 from nivel.analysis.linearise.ports import Catalogue, Input
@@ -23,12 +22,11 @@ from nivel.analysis.linearise.pressures import PressureStates, pressure_states, 
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
-from nivel.analysis.linearise.sliding import let_slide
 from nivel.analysis.linearise.validity import judged, signed
 from nivel.analysis.linearise.vibrations_apart import graded
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start
 from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.subject import Linearisation

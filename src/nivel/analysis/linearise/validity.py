@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.lanes import NOTHING, Lanes
-from nivel.analysis.assembly.unknowns import unknown_name
+from nivel.analysis.assembly.unknown_groups import unknown_name
 from nivel.analysis.linearise.axes import Frames, candidates
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input, Output

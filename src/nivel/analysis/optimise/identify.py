@@ -20,7 +20,7 @@ from nivel.analysis.optimise.evaluations import Box, Evaluations
 from nivel.analysis.optimise.spoken_outputs import at_times
 from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.progress.journal import Journal
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import scipy

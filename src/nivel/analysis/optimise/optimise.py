@@ -20,7 +20,7 @@ from nivel.analysis.optimise.spoken_outputs import Spoken, event_of, spoken_outp
 from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.plan.settings import with_usual_frames
 from nivel.analysis.progress.journal import Journal
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import OutputFailedError
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import require

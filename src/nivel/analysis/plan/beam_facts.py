@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +12,11 @@ from numpy.typing import NDArray
 from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
+from nivel.machine.joints.joint import Joint
+from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
 from nivel.system.beams.gradient_frequencies import fastest_of_gradients
+from nivel.system.beams.nodes import with_nodes
 
 Array = NDArray[np.float64]
 FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: a beam with free ends
@@ -118,3 +123,44 @@ def _mass_of_halves(section: BeamSection, length: float) -> Array:
             point[3:, 3:] += section.inertia
             total[node : node + 6, node : node + 6] += part * point
     return total
+
+
+# Step times angular frequency: beyond the first no explicit method is accurate, and none of ours is stable beyond the second.
+ACCURATE, STABLE = 1.0, 2.8
+
+
+def too_fast(beams: Sequence[Beam], step: float) -> tuple[str, str] | None:
+    """(message, advice) where an element of a beam vibrates too fast for explicit steps [s]; None where none does."""
+    if not beams:
+        return None
+    frequency, beam = max(
+        ((fastest_frequency(beam, beam.properties), beam) for beam in beams), key=lambda pair: pair[0]
+    )
+    rate = 2.0 * np.pi * frequency
+    if rate * step <= ACCURATE:
+        return None
+    limit = STABLE / rate
+    message = (
+        f"an element of the beam {beam.name} vibrates with up to {frequency:.3g} Hz, which an explicit method follows with steps below "
+        f"{limit:.2g} s only; of {step:.3g} s they let it grow"
+    )
+    advice = (
+        f"Take an implicit method, which steps over such vibrations: --integrator generalised-alpha, or radau; or --step "
+        f"{0.5 * limit:.1g}. Fewer elements of {beam.name}, or `model: segments`, vibrate less fast."
+    )
+    return message, advice
+
+
+def with_stiff_beams(machine: MachineRecord) -> MachineRecord:
+    """The machine with the nodes of its beams as bodies, each fixed to the next; those joints stand behind its own."""
+    whole = with_nodes(machine)
+    if not whole.beams:
+        return whole
+    given: dict[str, Any] = {name: getattr(whole, name) for name in type(whole).model_fields}
+    fixed = [
+        Joint(name=f"{beam.name}-{k}", type="fixed", bodies=pair, point=whole.body_named[pair[0]].position)
+        for beam in whole.beams
+        for k, pair in enumerate(zip(beam.node_names[:-1], beam.node_names[1:], strict=True))
+    ]
+    given |= {"joints": (*whole.joints, *fixed), "beams": ()}
+    return type(whole).model_construct(whole.model_fields_set, **given)

@@ -9,7 +9,7 @@ from time import perf_counter
 
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.elements.circuits.chambers import Actuator
 from nivel.elements.circuits.phase import SLOPES
 from nivel.elements.control.units import UnitBlock

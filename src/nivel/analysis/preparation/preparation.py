@@ -15,15 +15,12 @@ from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everyw
 from nivel.analysis.assembly.assemble import Assembly, assemble
 from nivel.analysis.assembly.branches import both_assemblies
 from nivel.analysis.assembly.circuit_start import circuit_start
-from nivel.analysis.assembly.effective_mass import bound_pivots
 from nivel.analysis.assembly.equations import MotionEquations, equations
 from nivel.analysis.assembly.exact_joints import exact_joints
-from nivel.analysis.assembly.ground import touches_ground
+from nivel.analysis.assembly.freedoms import touches_ground
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
-from nivel.analysis.assembly.modal_rows import modal_rows
-from nivel.analysis.assembly.penalties import penalise, soft_rows
-from nivel.analysis.assembly.redundancy import Redundancy, analyse
-from nivel.analysis.assembly.row_settings import refuse_unknown_rows
+from nivel.analysis.assembly.penalties import bound_pivots, penalise, refuse_unknown_rows, soft_rows
+from nivel.analysis.assembly.redundancy import Redundancy, analyse, modal_rows
 from nivel.analysis.curves.corners import corners, jumping_functions
 from nivel.analysis.curves.step_limits import allowed_steps
 from nivel.analysis.plan.plan import Methods

@@ -6,14 +6,30 @@ import re
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final, TextIO
-
-from nivel.analysis.progress.listener import Listener
 
 STEPS: Final = 10  # of a stage: after each it is worth a line again
 SOONEST: Final = 1.0  # s between two lines about one stage
 LATEST: Final = 10.0  # s after which a stage that goes on is worth a line, however little of it is done
 _COUNTED: Final = re.compile(r"\b(\d+) of (\d+)\b")
+
+
+Progress = Callable[[float], None]
+Stage = Callable[[str, float | None], None]
+
+
+@dataclass(frozen=True)
+class Listener:
+    """`stage` hears what begins and how long it is (None: unknown), `progress` how far it is; for a run both are times [s]."""
+
+    stage: Stage | None = None
+    progress: Progress | None = None
+
+    def say(self, text: str, total: float | None = None) -> None:
+        """Tell what begins now."""
+        if self.stage is not None:
+            self.stage(text, total)
 
 
 class Log:

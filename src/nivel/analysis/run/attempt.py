@@ -8,16 +8,17 @@ from math import inf
 
 import numpy as np
 
-from nivel.analysis.plan.plan import Plan
+from nivel.analysis.plan.plan import Plan, methods_of
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import Leader
 from nivel.analysis.run.dynamics import RunOutcome, march
-from nivel.analysis.run.elements_run import ElementsRun, Found
 from nivel.analysis.run.second_run import SecondRun, Verified
+from nivel.errors import ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks.accuracy import factor
+from nivel.judge.after.other_elements import Compared, Pair, element_errors, other_elements
 from nivel.judge.after.subject import Run, run_of
 from nivel.results.estimate import estimate_errors
 from nivel.results.memory import Memory
@@ -36,6 +37,48 @@ class Options:
     limit: float | None
     listener: Listener
     most: float = inf
+
+
+@dataclass(frozen=True)
+class Found:
+    """A run with other elements as far as it came; None where it has no frame. why : it did not come to its end."""
+
+    pair: Pair
+    verified: Verified | None
+    why: str
+
+    def compared(self, result: Result) -> Compared:
+        """What follows for a result."""
+        other = self.verified.result if self.verified is not None else None
+        errors = element_errors(result, other, self.pair.factor) if other is not None else None
+        return Compared(pair=self.pair, result=other, errors=errors, why=self.why)
+
+
+@dataclass(frozen=True)
+class ElementsRun:
+    """The run of a `pair` in its thread."""
+
+    pair: Pair
+    run: SecondRun
+
+    @classmethod
+    def beside(cls, second: SecondRun, plan: Plan, limit: float | None) -> ElementsRun | None:
+        """Of a plan that has a second run; None where there are no beams. limit [s] : as of `SecondRun`."""
+        pair = other_elements(plan.machine)
+        if pair is None:
+            return None
+        methods = methods_of(pair.machine, plan.methods.formulation, plan.methods.coordinates)
+        other = replace(plan, machine=pair.machine, methods=methods)
+        return cls(pair, SecondRun(other, limit, second, f"{pair.words} elements of beams"))
+
+    def wait(self, listener: Listener) -> Found:
+        """What it found."""
+        try:
+            found = self.run.wait(listener)
+        except (ModelError, SolveError) as error:
+            return Found(self.pair, None, f"the run cannot start: {error}")
+        why = "the run has no state" if found is None else found.ended
+        return Found(self.pair, found, why)
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.penalties import feedback
-from nivel.analysis.assembly.row_settings import of_rows
+from nivel.analysis.assembly.penalties import feedback, of_rows
 from nivel.analysis.curves.corners import jumping_functions
 from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.plan.settings import RunSettings
@@ -24,7 +23,7 @@ from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared, with_integrator
 from nivel.analysis.preparation.shared_loads import sharing
 from nivel.analysis.progress.interrupt import interruptible
-from nivel.analysis.progress.listener import Listener, Progress
+from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import Pacing, work
 from nivel.analysis.run.history import go_on_with, start_history
 from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions

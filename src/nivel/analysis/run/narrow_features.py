@@ -11,6 +11,7 @@ Stretches are counted in steps, so that the motion is the same however a run is 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,6 @@ from nivel.analysis.curves.functions import LawCurve, SideOf, Varying, varying
 from nivel.analysis.curves.missed_impulse import BEYOND, beyond_samples, sampled_densely
 from nivel.analysis.curves.path import Path, Steps, as_seen, path_of
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.run.remembered import remembered
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import DONE_STEPS, EVENTS, FRAMES, HORIZON, INTERVAL, TIME, Run
 from nivel.integrate.loop.sink import Header
@@ -40,6 +40,19 @@ LATER = 0.25
 SEEN = 1.0 / 512.0
 # Steps that features may ask for in a run; a feature shorter than this share of the duration is none that steps can meet.
 MOST_STEPS, SHORTEST = 200_000, 1e-12
+
+
+def remembered(run: Run, motion: MotionEquations) -> list[NDArray[Any]]:
+    """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
+    twin = () if motion.twin is None else _arrays(motion.twin.record)
+    own = [array for name, array in run._asdict().items() if name != "frames"]
+    every = [*own, *_arrays(motion.system.record), *twin]
+    return [array for array in every if array.size and array.dtype != np.uint64]
+
+
+def _arrays(record: Any) -> list[NDArray[Any]]:
+    """All arrays of a record of records."""
+    return [record] if isinstance(record, np.ndarray) else [array for field in record for array in _arrays(field)]
 
 
 class NarrowFeatures:

@@ -16,7 +16,7 @@ from nivel.analysis.plan.plan import Plan
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.interrupt import interruptible
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import Follower, Leader
 from nivel.analysis.run.dynamics import RunOutcome, march
 from nivel.analysis.run.preparation import prepare

@@ -7,17 +7,19 @@ import time
 from os import PathLike
 
 from nivel.analysis.plan.plan import Plan
-from nivel.analysis.preparation.attributes import settings_in_json
+from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
 from nivel.analysis.progress.interrupt import terminable
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.run.attempt import Options, attempt, header_of
+from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_choice import second_choice
 from nivel.errors import SolveError
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED
+from nivel.integrate.loop.sink import Header
 from nivel.judge.after.other_elements import with_elements
 from nivel.judge.after.report import assess
-from nivel.judge.after.subject import Run
+from nivel.judge.after.subject import Run, run_of
 from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.summary import to_json
@@ -111,3 +113,18 @@ def close_run(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=closed)
     return closed
+
+
+def run_in_memory(plan: Plan, progress: Progress | None = None) -> Run:
+    """Prepare and run; what its trust report would look at.
+
+    The result holds the frames and what is known before the first of them, no trust report. Raises ModelError before anything is
+    computed, KeyboardInterrupt where Ctrl-C came.
+    """
+    sink = Memory()
+    prepared = prepare(plan.methods)
+    sink.begin(Header(prepared.motion.system.layout, run_attributes(plan.machine, "", prepared, plan.settings)))
+    finished = march(prepared, plan.settings, [sink], progress=progress)
+    if finished.asked_to_stop:
+        raise KeyboardInterrupt
+    return run_of(plan, prepared, finished, sink.result())

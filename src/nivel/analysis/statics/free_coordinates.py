@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.analysis.plan.choice import choose_coordinates
-from nivel.analysis.plan.smooth_contacts import with_smooth_contacts
+from nivel.analysis.plan.equations_only import with_smooth_contacts
 from nivel.errors import SolveError
 from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord

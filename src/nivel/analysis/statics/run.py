@@ -18,13 +18,12 @@ from nivel.analysis.preparation.broken_function import broken_function
 from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
 from nivel.analysis.preparation.shared_loads import SharedLoads
 from nivel.analysis.progress.interrupt import interruptible, terminable
-from nivel.analysis.progress.listener import Listener
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
-from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
+from nivel.analysis.statics.ends import direction_in_words, no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
 from nivel.analysis.statics.free_coordinates import for_statics, loaded_free
-from nivel.analysis.statics.labels import direction_in_words
 from nivel.analysis.statics.linear import PivotError, has_potential, lowest, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads

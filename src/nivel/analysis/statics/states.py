@@ -5,7 +5,7 @@ Positions q, multipliers λ and states x are found together by Newton's iteratio
     [K  D_x  Cᵀ; -∂g/∂q  -∂g/∂x  0; C  0  0] (Δq, Δx, Δλ) = -(r, -g, C)        g = ẋ at rest
 
 A state whose rate depends on nothing that is at rest keeps its start value: a memory that an event changes. Fluid that is shut in keeps
-its mass: `nivel.analysis.statics.conserved`.
+its mass: `kept_combinations`.
 Sampled states are at rest where a sample would leave them as they are.
 """
 
@@ -16,10 +16,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import svd
 from scipy.sparse import csc_matrix, diags
 
-from nivel.analysis.statics.conserved import kept_combinations
-from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
+from nivel.analysis.statics.equations import Rest, Sparse, StateError, StaticEquations
 from nivel.analysis.statics.linear import PivotError, factors
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration
 from nivel.system.system import Array
@@ -174,6 +174,32 @@ def _changed(equations: StaticEquations, state: Rest, system: _System, x: Array)
     y = equations.displaced(state.y, change * equations.length)
     y[equations.first_state + system.states] += (x * system.unit)[f : f + count]
     return Rest(y, state.lam + (x * system.unit)[f + count :], state.t)
+
+
+# Conserved combinations of states in an equilibrium: fluid that is shut in.
+#
+# Rates ẋ = g(q, v, x) of states whose equations depend on each other do not fix these. With u from the left null space of the derivatives
+# of g at rest, uᵀ ẋ depends on velocities alone, so
+#
+#     uᵀ (x - x₀) = uᵀ ∂g/∂v (q - q₀)
+#
+# holds on every way that the machine may have come: Σ m of volumes behind closed valves stays, or goes from one side of a motor to the
+# other as it turns. This takes the place of uᵀ g = 0.
+
+# Singular values of derivatives, with rows of the size one, that are none.
+DEPENDENT_RATES = 1e-11
+# More states than this are looked at one by one only: those whose own row is zero.
+MOST_RATES = 400
+
+
+def kept_combinations(rates: Sparse) -> Array:
+    """(S, k) orthonormal combinations of the rates that depend on nothing at rest. rates : derivatives (S, ·), rows of the size one."""
+    count = rates.shape[0]
+    if not 0 < count <= MOST_RATES:
+        return np.zeros((count, 0))
+    left, values, _ = svd(rates.toarray())
+    rank = int(np.sum(values > DEPENDENT_RATES * values.max(initial=0.0)))
+    return left[:, rank:]
 
 
 def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System:

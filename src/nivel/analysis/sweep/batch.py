@@ -14,8 +14,8 @@ import xarray
 from numpy.typing import NDArray
 
 from nivel.analysis.progress.interrupt import interruptible
-from nivel.analysis.progress.listener import Listener
-from nivel.analysis.sweep.usual_names import usual_names
+from nivel.analysis.progress.log import Listener
+from nivel.analysis.sweep.task import usual_names
 from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, Ran, Values, VariantRuns, formulas_for
 from nivel.errors import ModelError
 from nivel.model import Model

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.journal import Journal
-from nivel.analysis.progress.listener import Listener
-from nivel.analysis.progress.log import Log
+from nivel.analysis.progress.log import Listener, Log
 from nivel.analysis.sweep.dask_cluster import client_of, run_on_cluster, threads_of
 from nivel.analysis.sweep.journal import row_of, run_of
 from nivel.analysis.sweep.processes import Job, run_in_processes

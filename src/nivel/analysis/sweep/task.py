@@ -9,6 +9,7 @@ from typing import Any
 from nivel.analysis.plan.settings import with_usual_frames
 from nivel.machine.study import Output, PythonOutput
 from nivel.model import Model
+from nivel.results.result import Result
 
 
 @dataclass(frozen=True)
@@ -41,3 +42,15 @@ class Task:
 def only_numbers(outputs: Mapping[str, Output]) -> bool:
     """Whether there are outputs, of which none is a function of the user, which sees frames."""
     return bool(outputs) and not any(isinstance(each, PythonOutput) for each in outputs.values())
+
+
+def usual_names(result: Result) -> tuple[str, ...]:
+    """Joint coordinates and sensors, or the positions of the bodies; of a circuit alone its pressures."""
+    sensors = tuple(name for name in result.variables if name.startswith("sensor."))
+    names = (*result.coordinates.get("joint_coordinate_name", ()), *sensors)
+    return names or (("position",) if "position" in result.variables else pressures(result))
+
+
+def pressures(result: Result) -> tuple[str, ...]:
+    """Names of the pressures of a circuit."""
+    return tuple(name for name in result.variables if name.startswith("hydraulics.") and name.endswith(".pressure"))

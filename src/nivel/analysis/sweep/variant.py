@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
-from nivel.analysis.sweep.judged_runs import JudgedRuns, judged_runs
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
-from nivel.analysis.sweep.task import Task
-from nivel.analysis.sweep.usual_names import usual_names
-from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
+from nivel.analysis.sweep.task import Task, usual_names
+from nivel.analysis.sweep.variant_runs import JudgedRuns, VariantRuns, formulas_for, judged_runs
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from nivel.analysis.assembly.unknowns import unknown_name
-from nivel.analysis.plan.fast_beams import too_fast
+from nivel.analysis.assembly.unknown_groups import unknown_name
+from nivel.analysis.plan.beam_facts import too_fast
 from nivel.analysis.preparation.broken_function import broken_function, owner_of
 from nivel.judge.during.growth import grown_motion, jump_advice
 from nivel.judge.during.stop import (

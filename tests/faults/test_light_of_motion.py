@@ -1,10 +1,13 @@
 """The light is that of the motion: what is not unique, and what was asked for, turns none; a wrong motion does all the same."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import nivel
-from nivel.judge.after.checks.quantities import THRESHOLD, least_range
+from nivel.judge.after.checks.quantities import THRESHOLD, errors_apart, least_range
+from nivel.results.estimate import Estimate
 from simulating import machine
 
 GRAVITY = 9.81
@@ -124,6 +127,19 @@ def test_the_error_of_a_single_frame_is_no_scale_of_it():
         THRESHOLD.verdict(2.0 / max(float(least_range(Numbers(time, wrong), Numbers(time, rests), "x")[0]), 1e-3))
         == "red"
     )
+
+
+def test_a_share_has_an_error_where_it_is_unique():
+    """Held together until 0.5 s; after that the runs differ by 3, of which an error is half."""
+    time = np.linspace(0.0, 1.0, 21)
+    first, second = np.where(time <= 0.5, 100.0, 3.0), np.zeros(21)
+    run = SimpleNamespace(
+        result=Numbers(time, first), second=SimpleNamespace(result=Numbers(time, second)), estimate=None
+    )
+    off = errors_apart(run, Estimate(time, {}, {}, factor=0.5), "x", ((0.0, 0.5),))
+    assert 0 < len(off) < 11
+    assert off == pytest.approx(1.5)
+    assert not len(errors_apart(run, Estimate(time, {}, {}, factor=0.5), "x", ((0.0, 1.0),)))
 
 
 CAR = """

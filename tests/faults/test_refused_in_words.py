@@ -333,3 +333,26 @@ def test_advice_leaves_joints_as_they_are_whose_coordinates_are_used(tmp_path):
     (tmp_path / "door.yaml").write_text(text.replace("duration: 10 s", "duration: 0.01 s"), encoding="utf-8")
     code, said = command("run", "door.yaml", "--no-report", "--no-verify", folder=tmp_path)
     assert code == 0, said
+
+
+BEAM = """
+format: 1
+beams:
+  b: {from: [0, 0, 0], to: [1, 0, 0], elements: 2, mass: %s, section: {type: rectangle, width: 1 cm, height: 1 cm},
+    material: {youngs_modulus: 2.1e11, poisson_ratio: 0.3, density: 7850}}
+joints:
+  a: {type: fixed, bodies: [ground, b.start], point: [0, 0, 0]}
+simulation: {duration: 0.01, coordinates: independent, formulation: lagrange}
+"""
+
+
+def test_no_method_that_nobody_named_is_refused(tmp_path):
+    """These equations of beams have explicit methods alone, which are taken; where no method goes, only what was written is at fault."""
+    (tmp_path / "lumped.yaml").write_text(BEAM % "lumped", encoding="utf-8")
+    (tmp_path / "consistent.yaml").write_text(BEAM % "consistent", encoding="utf-8")
+    code, _ = command("check", "lumped.yaml", folder=tmp_path)
+    assert code == 0
+    code, said = command("check", "consistent.yaml", folder=tmp_path)
+    assert code == 2
+    assert "write `mass: lumped`" in said or "or `mass: lumped`" in said
+    assert "integrator" not in said

@@ -143,7 +143,7 @@ def facts(result: Result) -> list[str]:
     if degrees is not None:
         out.append(_plural(degrees, "degree of freedom", "degrees of freedom"))
     settings = result.settings
-    if "step" in settings:
+    if isinstance(settings.get("step"), int | float):
         out.append(f"step {_seconds(float(settings['step']))}")
     out += [str(settings[name]) for name in ("integrator", "formulation") if name in settings]
     if "stabilisation" in settings:

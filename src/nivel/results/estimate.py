@@ -28,12 +28,13 @@ class Estimate:
     """Estimated errors of all numbers of a result up to some times.
 
     time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time. mean : of each variable (…), the mean
-    of its errors; not kept in a file.
+    of its errors; factor : what distances to the finer run are multiplied by; both are not kept in a file.
     """
 
     time: Array
     values: Mapping[str, Array]
     mean: Mapping[str, Array] = field(default_factory=dict)
+    factor: float = 1.0
 
     def at(self, name: str, time: Array) -> Array:
         """Errors (n, …) of the variable `name` at times (n,) [s]; not a number after the last estimate."""
@@ -72,10 +73,15 @@ def estimate_errors(result: Readable, finer: Readable, factor: float) -> Estimat
         a, b = result.array(name)[first], finer.array(name)[second]
         if name == "orientation":
             b = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -b, b)
-        off = np.maximum(factor * np.abs(a - b), ROUND_OFF * np.abs(a))
+        off = distances(a, b, factor)
         mean[name] = np.mean(off, axis=0)
         values[name] = np.maximum.accumulate(off, axis=0)[ends]
-    return Estimate(result.time[first][ends], values, mean)
+    return Estimate(result.time[first][ends], values, mean, factor)
+
+
+def distances(a: Array, b: Array, factor: float) -> Array:
+    """Errors of numbers a beside those of a finer run, b; never less than round-off."""
+    return np.maximum(factor * np.abs(a - b), ROUND_OFF * np.abs(a))
 
 
 def _rounded(values: Array) -> str:

@@ -227,9 +227,8 @@ class _Start:
         for pair in pairs:
             if (given := self._opposite_a_given_one(pair)) is not None:
                 k, opposite = given
-                base[k] += self._ratio(effect[k], effect[opposite]) * (base[opposite] - ATMOSPHERE) - (
-                    least[free.index(k)] - ATMOSPHERE
-                )
+                over = self._ratio(effect[k], effect[opposite]) * (base[opposite] - ATMOSPHERE)
+                base[k] = max(base[k] + over - (least[free.index(k)] - ATMOSPHERE), NO_LOAD)
                 least[free.index(k)] = NO_LOAD
         left = self._accelerations(base)
         columns = np.array([effect[k] for k in free]).T

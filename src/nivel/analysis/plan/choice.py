@@ -44,6 +44,7 @@ EXPLICIT = f"no method is named; where it is stiff, {FOR_STIFF} goes on"
 STICKING = "friction that sticks is stiff"
 STIFF_CIRCUITS = "circuits are stiff, and every step of it costs the same"
 STIFF_BEAMS = "beams have rates beyond all steps"
+EXPLICIT_BEAMS = "other settings need an explicit method"
 FIXED = "other settings depend on a fixed step"
 
 
@@ -59,7 +60,7 @@ def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
     if machine.beams:
         impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
         names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
-        return tuple((name, STIFF_BEAMS) for name in names)
+        return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
     if any(map(is_sticking, machine.forces)):
         return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))
     return (("dopri5", EXPLICIT), ("rk4", FIXED))

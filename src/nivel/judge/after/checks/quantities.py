@@ -17,7 +17,7 @@ from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, read_quantity
 from nivel.machine.units.tree import ExpressionError
-from nivel.results.estimate import Estimate
+from nivel.results.estimate import Estimate, distances
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, amount, number
@@ -102,12 +102,12 @@ GROUPS = (
 
 @dataclass(frozen=True)
 class _Scales:
-    """By variable, what its numbers are compared with at least: of points of flexible bodies, of contacts. shared : variables without an
-    error of their own."""
+    """By variable, what its numbers are compared with at least: of points of flexible bodies, of contacts. shared : spans
+    of time [s] in which variables have no error of their own."""
 
     points: dict[str, Array]
     contacts: dict[str, float]
-    shared: tuple[str, ...]
+    shared: dict[str, tuple[tuple[float, float], ...]]
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
@@ -115,9 +115,13 @@ def look(run: Run) -> list[QuantityError]:
     """Of each group the number with the largest share of errors."""
     if run.estimate is None:
         return []
-    shared = friction.look(run)  # how much each takes of a load that several hold is not unique, and has no error
+    shared: dict[str, tuple[tuple[float, float], ...]] = {}
+    together = friction.look(run)
+    for each in together.shared if together is not None else ():
+        # how much each takes of a load that several hold is not unique, and has no error while they do
+        shared |= {name: (*shared.get(name, ()), *each.spans) for name in each.efforts}
     points = _of_points(run.result, modal_bodies(run.machine))
-    scales = _Scales(points, _of_contacts(run), shared.efforts if shared is not None else ())
+    scales = _Scales(points, _of_contacts(run), shared)
     return [found for group in GROUPS if (found := _worst(run, run.estimate, group, scales)) is not None]
 
 
@@ -163,8 +167,12 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
     extents = {name: _joined(result.variables[name], least_range(result, second, name)) for name in names}
     sizes = {name: float(np.nanmax(np.abs(result.array(name)), initial=0.0)) for name in names}
     for name in names:
+        mean, error = estimate.mean[name], estimate.values[name][-1]
         if name in scales.shared:
-            continue
+            off = errors_apart(run, estimate, name, scales.shared[name])
+            if not len(off):
+                continue
+            mean, error = np.mean(off, axis=0), np.max(off, axis=0)
         variable = result.variables[name]
         alike = [each for each in names if result.variables[each].units == variable.units]
         largest = max(float(np.max(extents[each], initial=0.0)) for each in alike)
@@ -175,8 +183,7 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))
         moved = np.broadcast_to(scales.points.get(name, 0.0), extent.shape)
         extent = np.maximum(extent, scales.contacts.get(name, 0.0))
-        mean = _joined(variable, estimate.mean[name])
-        error = _joined(variable, estimate.values[name][-1])
+        mean, error = _joined(variable, mean), _joined(variable, error)
         for k in np.flatnonzero(error > rounded):
             label = _label(variable, int(k), run)
             units = variable.units or ("rad/s" if label.endswith("angle") else "m/s" if name == "joint_rate" else "1")
@@ -185,6 +192,18 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
             yield QuantityError(
                 group.name, label, own, float(mean[k]), scale, units, own, points=bool(moved[k] >= scale)
             )
+
+
+def errors_apart(run: Run, estimate: Estimate, name: str, spans: tuple[tuple[float, float], ...]) -> Array:
+    """Errors in the frames that both runs have outside some spans of time and the frames beside them."""
+    assert run.second is not None
+    time, second = run.result.time, run.second.result
+    here, there = common_frames(time, second.time)
+    within = np.zeros(len(time), dtype=bool)
+    for first, last in spans:
+        within[max(np.searchsorted(time, first) - 1, 0) : np.searchsorted(time, last) + 2] = True
+    own = ~within[here]
+    return distances(run.result.array(name)[here[own]], second.array(name)[there[own]], estimate.factor)
 
 
 def least_range(result: Readable, second: Readable | None, name: str) -> Array:

@@ -84,7 +84,7 @@ EVERYTHING = {
     ],
     "markers": [
         {"name": "base", "body": "ground", "axis": [0, 0, 1], "x_axis": [1, 0, 0]},
-        {"name": "tip", "body": "b", "position": [0.1, 0, 0]},
+        {"name": "tip", "body": "b", "position": [0.1, 0, 0], "shape": {"type": "sphere", "radius": "1 cm"}},
         {"name": "eye", "body": "c", "orientation": {"axis": [0, 0, 1], "angle": "30 deg"}},
     ],
     "joints": [

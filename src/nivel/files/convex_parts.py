@@ -31,7 +31,7 @@ def divide_meshes(tree: Tree) -> None:
     """Put the convex parts of each mesh with `convex_parts` into its shape, and contacts of the parts in place of those of the mesh. Faults
     go to `tree.faults`."""
     counts: dict[str, int] = {}
-    for name, body in section_of(tree, "bodies").items():
+    for section, name, body in _elements(tree):
         shape = body.get("shape") if isinstance(body, dict) else None
         if not isinstance(shape, dict) or "surface" not in shape:
             continue
@@ -42,12 +42,17 @@ def divide_meshes(tree: Tree) -> None:
             try:
                 shape[PARTS] = convex_parts(str(shape["surface"]), most)
             except ModelError as error:
-                tree.report(("bodies", name, "shape", KEY), error.faults[0].message)
-                tree.broken.add(("bodies", name))
+                tree.report((section, name, "shape", KEY), error.faults[0].message)
+                tree.broken.add((section, name))
                 continue
         counts[name] = len(shape[PARTS])
     if counts:
         _divide_contacts(tree, counts)
+
+
+def _elements(tree: Tree) -> list[tuple[str, str, Any]]:
+    """Section, name and data of everything that may have a shape that touches."""
+    return [(section, *each) for section in ("bodies", "markers") for each in section_of(tree, section).items()]
 
 
 def convex_parts(surface: str, most: int) -> list[str]:

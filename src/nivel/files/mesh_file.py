@@ -103,13 +103,16 @@ def _times(density: object, factor: float, unit: str) -> float | str:
 
 
 def _shapes(tree: Tree) -> Iterator[tuple[Path, Any]]:
-    """Everything that may be a mesh, and its place: the shape and the looks of each body, and the surroundings."""
+    """Everything that may be a mesh, and its place: the shape and the looks of each body, shapes of markers, and the surroundings."""
     for name, body in section_of(tree, "bodies").items():
         if isinstance(body, dict):
             yield ("bodies", name, "shape"), body.get("shape")
             looks = body.get("looks")
             for k, each in enumerate(looks if isinstance(looks, list) else ()):
                 yield ("bodies", name, "looks", k), each
+    for name, marker in section_of(tree, "markers").items():
+        if isinstance(marker, dict):
+            yield ("markers", name, "shape"), marker.get("shape")
     around = tree.data.get("surroundings") if isinstance(tree.data, dict) else None
     for k, each in enumerate(around if isinstance(around, list) else ()):
         yield ("surroundings", k), each

@@ -23,7 +23,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nivel.files.substitution import Linear, same, substituted
+from nivel.files.substitution import Linear, NotRepresentableError, same, substituted
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
@@ -222,7 +222,9 @@ class Scene:
         if not placing.turns:
             return marker.replace(position=place)
         orientation = placing.axes(axes, kept, on_ground=on_ground)
-        return Marker(name=marker.name, body=marker.body, position=place, orientation=orientation)
+        if marker.shape is not None and placing.mirrored:
+            raise NotRepresentableError("a marker with a shape that touches cannot be mirrored; write it out")
+        return Marker(name=marker.name, body=marker.body, position=place, orientation=orientation, shape=marker.shape)
 
     def end(self, end: str | Marker, kept: Triple = AXIAL_Z) -> str | Marker:
         """A marker of a joint or force. A name stays unless the marker by that name has other axes than are needed."""

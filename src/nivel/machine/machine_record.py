@@ -27,6 +27,7 @@ from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
 from nivel.machine.bodies.shape import Shape, Standing
+from nivel.machine.bodies.touching import Touching
 from nivel.machine.control.problems import problems_of_control
 from nivel.machine.core.checked import Checked, Problem, lines_of
 from nivel.machine.core.index import Index
@@ -123,6 +124,12 @@ class MachineRecord(Checked):
     def body_named(self) -> Mapping[str, Body]:
         """The bodies by name."""
         return {body.name: body for body in self.bodies}
+
+    @cached_property
+    def touching(self) -> Mapping[str, Touching]:
+        """What may touch in a contact, by name: bodies, and markers with a shape."""
+        markers = {each.name: Touching.of_marker(each) for each in self.markers if each.shape is not None and each.name}
+        return markers | {body.name: Touching.of_body(body) for body in self.bodies}
 
     @cached_property
     def poses(self) -> Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:

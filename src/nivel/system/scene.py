@@ -289,11 +289,11 @@ def _ends(builder: SystemBuilder, force: Force) -> tuple[int, ...] | None:
 
 
 def _centre(builder: SystemBuilder, name: str) -> int:
-    """Marker at the centre of a body's shape."""
-    body = builder.machine.body_named[name]
-    shape = body.shape
+    """Marker at the centre of the shape of a body or a marker."""
+    touching = builder.machine.touching[name]
+    shape = touching.shape
     centre = None if shape is None or isinstance(shape, Mesh) else shape.centre
-    return builder.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
+    return builder.place(touching.at(np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
 
 
 def _shape(shape: Shape) -> dict[str, Any]:

@@ -143,7 +143,7 @@ def _mass_at(machine: MachineRecord, force: Contact | Contacts | Stop) -> float:
         return _mass(machine, lightest[:2], turns=False)
     if isinstance(force, Stop):
         return _mass_of(machine, force.coordinate)
-    return _mass(machine, force.bodies or (force.body,), turns=False)
+    return _mass(machine, [machine.touching[name].body for name in force.bodies or (str(force.body),)], turns=False)
 
 
 def _mass_of(machine: MachineRecord, reference: str) -> float:

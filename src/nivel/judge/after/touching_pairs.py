@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
+from nivel.machine.bodies.touching import Touching
+from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import cross
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
@@ -87,7 +88,10 @@ def way_between(result: Readable, bodies: tuple[str, str], points: tuple[Array, 
 
 
 def motion_of(result: Readable, body: str, at: Array) -> tuple[Array, Array, Array]:
-    """Place, velocity and acceleration (n, 3) of a point of a body."""
+    """Place, velocity and acceleration (n, 3) of a point of a body or the ground."""
+    if body == GROUND:
+        still = np.zeros((len(result.time), 3))
+        return still + at, still, still
     k = result.coordinates["body"].index(body)
     arm = rotated(result.array("orientation")[:, k], at)
     omega, alpha = result.array("angular_velocity")[:, k], result.array("angular_acceleration")[:, k]
@@ -98,6 +102,13 @@ def motion_of(result: Readable, body: str, at: Array) -> tuple[Array, Array, Arr
         result.array("velocity")[:, k] + turning,
         result.array("acceleration")[:, k] + bending,
     )
+
+
+def turns_of(result: Readable, body: str) -> Array:
+    """Euler parameters (n, 4) of a body or the ground."""
+    if body == GROUND:
+        return np.tile([1.0, 0.0, 0.0, 0.0], (len(result.time), 1))
+    return result.array("orientation")[:, result.coordinates["body"].index(body)]
 
 
 Array = NDArray[np.float64]
@@ -145,18 +156,19 @@ class HullPair:
 
 def spheres_of(machine: MachineRecord) -> list[Pair]:
     """The contacts of two spheres."""
-    out, bodies = [], machine.body_named
+    out = []
     for force in machine.forces:
         if isinstance(force, Contact) and force.bodies is not None and _are_spheres(machine, force):
-            (first, one), (second, other) = (_ball(bodies[name]) for name in force.bodies)
-            out.append(Pair(force.name, force.bodies, (first, second), one + other))
+            pair = [machine.touching[name] for name in force.bodies]
+            (first, one), (second, other) = map(_ball, pair)
+            out.append(Pair(force.name, (pair[0].body, pair[1].body), (first, second), one + other))
     return out
 
 
 def spheres_among(machine: MachineRecord, force: Contacts, result: Readable) -> list[Pair] | None:
     """The pairs of a heap that move so far between two frames that they may pass each other; None where these are too many to look at."""
     names = spheres_between(machine, force)
-    balls = [_ball(machine.body_named[name]) for name in names]
+    balls = [_ball(machine.touching[name]) for name in names]
     if len(result.time) < 2:
         return []
     # [m] the longest way of each between two frames
@@ -180,28 +192,36 @@ def spheres_among(machine: MachineRecord, force: Contacts, result: Readable) -> 
 
 def hulls_of(machine: MachineRecord) -> list[HullPair]:
     """The contacts of two bodies that are not two spheres."""
-    out, bodies = [], machine.body_named
+    out = []
     for force in machine.forces:
         if isinstance(force, Contact) and force.bodies is not None and not _are_spheres(machine, force):
-            pair = [bodies[name] for name in force.bodies]
+            pair = [machine.touching[name] for name in force.bodies]
             first, second = (_hull(pair[k], part_of(force, pair, k)) for k in range(2))
             middles, corners = (first.middle, second.middle), (first.corners, second.corners)
-            out.append(HullPair(force.name, force.bodies, middles, corners, (first.faces, second.faces)))
+            out.append(
+                HullPair(force.name, (pair[0].body, pair[1].body), middles, corners, (first.faces, second.faces))
+            )
     return out
 
 
 def _are_spheres(machine: MachineRecord, force: Contact) -> bool:
-    return all(isinstance(machine.body_named[name].shape, Sphere) for name in force.bodies or ())
+    return all(isinstance(machine.touching[name].shape, Sphere) for name in force.bodies or ())
 
 
-def _ball(body: Body) -> tuple[Array, float]:
+def _ball(body: Touching) -> tuple[Array, float]:
     """Centre [m] of a sphere in its body, and its radius [m]."""
     assert isinstance(body.shape, Sphere)  # the record was checked
-    return np.array(body.shape.centre or (0.0, 0.0, 0.0), dtype=float), body.shape.radius
+    return body.position + body.axes @ np.array(body.shape.centre or (0.0, 0.0, 0.0), dtype=float), body.shape.radius
 
 
-def _hull(body: Body, part: int | None) -> Hull:
-    """The hull of a solid, or a polyhedron inside a round shape."""
+def _hull(body: Touching, part: int | None) -> Hull:
+    """The hull of a solid, or a polyhedron inside a round shape, in the frame of the body."""
+    found = _hull_of_shape(body, part)
+    faces = np.column_stack([found.faces[:, :3] @ body.axes.T, found.faces[:, 3]])
+    return Hull(body.position + body.axes @ found.middle, found.corners @ body.axes.T, faces, found.edges)
+
+
+def _hull_of_shape(body: Touching, part: int | None) -> Hull:
     match body.shape:
         case Sphere() as shape:
             points = shape.radius * _directions()

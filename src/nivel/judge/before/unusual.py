@@ -113,12 +113,11 @@ def _of_volumes(machine: MachineRecord) -> Iterator[Finding]:
 
 def _hollow(machine: MachineRecord) -> Iterator[Finding]:
     """Contacts of bodies of which the hull touches, and is much more than the body."""
-    bodies = {body.name: body for body in machine.bodies}
     for force in machine.forces:
         if not isinstance(force, Contact) or force.bodies is None:
             continue
         for name in force.bodies:
-            shape = bodies[name].shape
+            shape = machine.touching[name].shape
             if not isinstance(shape, Extrusion | Mesh) or (isinstance(shape, Mesh) and shape.parts is not None):
                 continue
             share = share_of_hull(shape)
@@ -156,13 +155,13 @@ def _immense(machine: MachineRecord) -> Iterator[Finding]:
 
 def _narrow(machine: MachineRecord) -> Iterator[Finding]:
     """Balls on ground with heights that curves more than they do."""
-    bodies = {body.name: body for body in machine.bodies}
     for force in machine.forces:
         if not isinstance(force, Contact) or force.heights is None or force.body is None:
             continue
-        radius = getattr(bodies[force.body].shape, "radius", None)
+        shape = machine.touching[force.body].shape
+        radius = getattr(shape, "radius", None)
         curvature = force.heights.greatest_curvature
-        if not isinstance(bodies[force.body].shape, Sphere | Capsule) or radius is None or radius * curvature <= 1.0:
+        if not isinstance(shape, Sphere | Capsule) or radius is None or radius * curvature <= 1.0:
             continue
         message = (
             f"a valley of the ground curves with a radius of {1.0 / curvature:.3g} m, less than the {radius:.3g} m of "
@@ -213,7 +212,9 @@ def resting_remarks(machine: MachineRecord) -> Iterator[Finding]:
             continue
         if force.body is None or force.plane is None or force.heights is not None or force.stiffness is None:
             continue
-        body = machine.body_named[force.body]
+        body = machine.body_named.get(force.body)
+        if body is None:  # a shape of a marker
+            continue
         marker = machine.marker_named[force.plane] if isinstance(force.plane, str) else force.plane
         if marker.body != "ground" or not isinstance(body.shape, Box | Cylinder) or _moves(body):
             continue

@@ -2,7 +2,8 @@
 
 The factor a follows from the approach speed v and the coefficient of restitution e: the motion m v̇ = -K δⁿ (1 + a δ̇) leaves with
 speed e v where ln((1 + x)/(1 - e x)) = x (1 + e), x = a v, whatever K, n and m are (integrate v dv/(1 + a v) over the contact). x is
-a number of the element; v is remembered from the first accepted state in contact, and is the rate itself until then.
+a number of the element; v is remembered from the first accepted state in contact, and is the rate itself until then. A negative x is -a
+itself, given as damping.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     elastic = stiffness * absolute(depth) ** exponent
     if real(depth) < 0.0:
         elastic = -elastic
-    force = elastic * (1.0 + x / speed * rate)
+    force = elastic * (1.0 + (x / speed if real(x) >= 0.0 else -x) * rate)
     if real(depth) > 0.0 and real(force) < 0.0:
         force = nothing
     return force, elastic * depth / (exponent + 1.0), (force - elastic) * rate, kept
@@ -41,10 +42,11 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
 def slopes_of_impact(depth, rate, stiffness, x, remembered):
     """(∂F/∂δ, ∂F/∂δ̇) of `impact` with the exponent 1, for real numbers: K (1 + a δ̇) and K δ a while the surfaces push."""
     speed = remembered if remembered > 0.0 else max(rate, SLOWEST)
-    push = 1.0 + x / speed * rate
+    damping = x / speed if x >= 0.0 else -x
+    push = 1.0 + damping * rate
     if depth <= 0.0 or push <= 0.0:
         return 0.0, 0.0
-    return stiffness * push, stiffness * depth * x / speed
+    return stiffness * push, stiffness * depth * damping
 
 
 @leaf

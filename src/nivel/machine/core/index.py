@@ -46,12 +46,14 @@ def as_mapping(value: Any) -> Mapping[str, Any]:
 class Index:
     """What the elements of a machine are, by name.
 
-    bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
+    bodies : type of the shape ("" without one), also of the stations of beams. touching : the same of bodies and of markers with a
+    shape. beams : names of the stations.
     point_masses : bodies that are. markers : the body. joints : the type. locked : motions that generic joints lock. inputs, fluids : their
     names. forces, hydraulics, states, control, sensors : the element.
     """
 
     bodies: Mapping[str, str]
+    touching: Mapping[str, str]
     beams: Mapping[str, tuple[str, ...]]
     point_masses: frozenset[str]
     markers: Mapping[str, str]
@@ -68,13 +70,17 @@ class Index:
     @classmethod
     def of(cls, machine: Any) -> Index:
         """The index of a machine record, or of what it is made of."""
-        bodies, beams = _by_name(machine, "bodies"), _stations(machine)
+        bodies, beams = _shapes(_by_name(machine, "bodies")), _stations(machine)
+        markers = _by_name(machine, "markers")
         stations = {station: "" for names in beams.values() for station in names}
         return cls(
-            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()} | stations,
+            bodies=bodies | stations,
+            touching={name: shape for name, shape in _shapes(markers).items() if shape} | bodies | stations,
             beams=beams,
-            point_masses=frozenset(name for name, body in bodies.items() if entry(body, "point_mass") is True),
-            markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
+            point_masses=frozenset(
+                name for name, body in _by_name(machine, "bodies").items() if entry(body, "point_mass") is True
+            ),
+            markers={name: _text(entry(marker, "body")) for name, marker in markers.items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
             inputs=tuple(_by_name(machine, "inputs")),
             locked={
@@ -105,6 +111,10 @@ def _stations(machine: Any) -> dict[str, tuple[str, ...]]:
         name: tuple(f"{name}.{station}" for station in ("start", *as_mapping(entry(beam, "stations")), "end"))
         for name, beam in _by_name(machine, "beams").items()
     }
+
+
+def _shapes(elements: Mapping[str, Any]) -> dict[str, str]:
+    return {name: _text(entry(entry(each, "shape"), "type")) for name, each in elements.items()}
 
 
 def _by_name(machine: Any, section: str) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
+from nivel.machine.bodies.shape import Shape, Standing
 from nivel.machine.core.axes import bad_axis_pair
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.orientation import Orientation
@@ -23,6 +24,7 @@ class Marker(Checked):
     """
 
     collection: ClassVar[str] = "markers"
+    tagged = {"shape": 1}  # noqa: RUF012
 
     name: Name | None = Field(default=None, description="not needed where the marker stands inside an element")
     body: BodyName = Field(description="a body, a station of a beam `BEAM.STATION`, or `ground`")
@@ -31,12 +33,24 @@ class Marker(Checked):
     orientation: Maybe[OneRecord[Orientation]] = Field(default=None, description="of the marker in the body frame")
     axis: Maybe[Direction] = Field(default=None, description="z axis of the marker in the body frame, of any length")
     x_axis: Maybe[Direction] = Field(default=None, description="x axis, made perpendicular to `axis`")
+    shape: Maybe[OneRecord[Shape]] = Field(
+        default=None,
+        description="a solid in the frame of the marker, which contacts that name the marker touch with; not drawn",
+    )
 
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
             yield Problem(("name",), f"`{GROUND}` is the fixed world and cannot be a marker")
         if self.interface is not None and any(self.position):
             yield Problem(("position",), "give `position` or `interface`, not both", at_key=True)
+        if self.shape is not None and self.interface is not None:
+            yield Problem(
+                ("shape",), "of a flexible body its own `shape` touches, about a `centre` that is at an interface"
+            )
+        if self.shape is not None and not isinstance(self.shape, Standing) and self.shape.from_ is not None:
+            yield Problem(
+                ("shape",), "the shape stands in the frame of the marker, at its `centre`: `from` and `to` are global"
+            )
         if self.orientation is not None and (self.axis is not None or self.x_axis is not None):
             yield Problem(("orientation",), "give `orientation` or `axis`, not both")
             return

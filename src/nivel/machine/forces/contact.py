@@ -121,7 +121,7 @@ class Contact(ForceElement):
     )
     damping: Maybe[DampingPerLoad] = Field(
         default=None,
-        description="of a `foundation_modulus`: the pressure is times 1 + damping · speed of approach; 0 loses no energy",
+        description="the force, or the pressure of a `foundation_modulus`, is times 1 + damping · speed of approach; 0 loses no energy",
     )
     restitution: Maybe[Restitution] = Field(
         default=None, description="speed after the impact by the speed before it; 1 loses no energy"
@@ -150,10 +150,6 @@ class Contact(ForceElement):
 
     def problems(self) -> Iterator[Problem]:
         yield from self._problems_of_partners()
-        if self.damping is not None and self.foundation_modulus is None:
-            yield superfluous(
-                "damping", "belongs to a `foundation_modulus`; here `restitution` says what an impact loses"
-            )
         yield from self._problems_of_friction()
         if self.foundation_modulus is not None:
             yield from self._problems_of_foundation()
@@ -209,17 +205,18 @@ class Contact(ForceElement):
             yield Problem((), message)
 
     def _problems_of_law(self) -> Iterator[Problem]:
-        for name in ("stiffness", "materials", "restitution"):
+        for name in ("stiffness", "materials", "restitution", "damping"):
             if getattr(self, name) is not None:
                 yield superfluous(name, "must not be given with a `law`, which is the whole normal force")
         if self.exponent != HERTZ:
             yield superfluous("exponent", "must not be given with a `law`, which is the whole normal force")
 
     def _problems_of_stiffness(self) -> Iterator[Problem]:
-        if self.restitution is None:
-            yield Problem(
-                (), "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost"
-            )
+        if self.restitution is None and self.damping is None:
+            message = "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost; or `damping: 1 s/m`"
+            yield Problem((), message)
+        if self.restitution is not None and self.damping is not None:
+            yield superfluous("damping", "stands in place of `restitution`; give one of them")
         if self.stiffness is None and self.materials is None:
             message = "`stiffness` is missing: a contact needs a `stiffness`, a `law` or, of spheres, two `materials`"
             hulls = "; two boxes, cylinders, extrusions or meshes need a `foundation_modulus`, as in `foundation_modulus: 1e10 N/m^3`"

@@ -156,9 +156,12 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
     yield from _of_shape(body, index, SHAPES_ON_PLANE, (*place, "body"))
     yield from _of_touching_pair(contact, index, place)
     yield from _of_end(plane, index, (*place, "plane"))
-    if isinstance(body, str) and index.body_of(plane) == body:
-        yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
-    shape = index.bodies.get(body, "") if isinstance(body, str) else ""
+    if isinstance(body, str) and index.body_of(plane) == _carrier(body, index):
+        yield (
+            (*place, "plane"),
+            f"the plane is on `{index.body_of(plane)}` itself; it needs another body, or `{GROUND}`",
+        )
+    shape = index.touching.get(body, "") if isinstance(body, str) else ""
     if entry(contact, "heights") is not None and shape == "ellipsoid":
         yield (
             (*place, "heights"),
@@ -172,9 +175,13 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
 def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
     """Two bodies with shapes: those of a round one have a stiffness, two hulls a foundation."""
     pair = as_list(entry(contact, "bodies"))
-    shapes = [index.bodies.get(body, "") if isinstance(body, str) else "" for body in pair]
+    shapes = [index.touching.get(body, "") if isinstance(body, str) else "" for body in pair]
     for at, name in enumerate(pair):
         yield from _of_shape(name, index, SHAPES_ON_PLANE, (*place, "bodies", at))
+    if len(pair) == 2 and all(isinstance(each, str) for each in pair) and pair[0] != pair[1]:
+        first, second = (_carrier(each, index) for each in pair)
+        if first == second:
+            yield (*place, "bodies"), f"both shapes are on `{first}`; a contact needs two different bodies"
     if not shapes or not all(each in SHAPES_ON_PLANE for each in shapes):
         return
     if all(each in HULLS for each in shapes):
@@ -192,16 +199,24 @@ def _of_touching_pair(contact: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -> Faults:
-    """Whether `body` is there and has one of the `allowed` shapes."""
-    yield from _unknown_body(body, index, place)
-    if not isinstance(body, str) or body not in index.bodies:
+    """Whether `body`, or a marker of this name, is there and has one of the `allowed` shapes."""
+    if not isinstance(body, str) or body not in index.touching:
+        if isinstance(body, str) and body in index.markers:
+            yield place, f"the marker `{body}` has no `shape`, and a contact needs a body or a marker with one"
+        else:
+            yield from _unknown_body(body, index, place)
         return
-    shape = index.bodies[body]
+    shape = index.touching[body]
     wanted = " or ".join(", ".join(allowed).rsplit(", ", 1))
     if not shape:
         yield place, f"the body `{body}` has no shape; a contact here needs a {wanted}"
     elif shape in _SHAPES and shape not in allowed:
         yield place, f"the shape of `{body}` is `{shape}`; a contact here needs a {wanted}"
+
+
+def _carrier(name: str, index: Index) -> str:
+    """The body on which the shape of a body or a marker is."""
+    return name if name in index.bodies else index.markers.get(name, name)
 
 
 def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:

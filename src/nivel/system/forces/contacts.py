@@ -29,9 +29,9 @@ from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
 from nivel.lazy import scipy
-from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
+from nivel.machine.bodies.touching import Touching
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces.contact import Contact, Material
 from nivel.machine.forces.contacts import Contacts
@@ -84,7 +84,7 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
     patch = [NONE, 0, 0]
     if force.sticks:
         patch = add_patch(builder, force, (markers[0], markers[1]), first, points.count > 1)
-    frame = markers[1] if force.bodies is None else builder.frame(force.bodies[1])
+    frame = markers[1] if force.bodies is None else builder.frame(bodies[1].body)
     columns = [first, *markers, points.count, law, *patch, *_surface(builder, force, frame), *points.columns]
     numbers = law_numbers(force, _stiffness(builder.machine, force), points.radius)
     memory = points.count + (height_pose.KEPT if family is ground_contact.apply_over_heights else 0)
@@ -94,6 +94,8 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
 def law_numbers(force: Contact | Contacts, stiffness: float | None, radius: float) -> list[float]:
     """Numbers of `nivel.kernels.forces.contact_law`, with a ball of this radius [m] about the marker of the shape."""
     loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
+    if isinstance(force, Contact) and force.damping is not None:
+        loss = -force.damping
     sticks = isinstance(force, Contact) and force.sticks
     friction, transition = 0.0 if sticks else force.friction, force.friction_transition_speed or 1.0
     numbers = [stiffness or 0.0, force.exponent, loss, friction, transition, radius]
@@ -126,12 +128,12 @@ class Points:
     numbers: list[float]
 
 
-def _over_plane(force: Contact, bodies: Sequence[Body]) -> Points:
+def _over_plane(force: Contact, bodies: Sequence[Touching]) -> Points:
     kind, count, size = _ground_shape(bodies[0], _corners)
     return Points(count, _ball(bodies[0]), [kind], size)
 
 
-def _over_heights(force: Contact, bodies: Sequence[Body]) -> Points:
+def _over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:
     assert force.heights is not None
     kind, count, size = _ground_shape(bodies[0], _corners_of_parts)
     work = [0.0] * (ground_contact.GROUND - contact_law.NUMBERS)
@@ -139,12 +141,12 @@ def _over_heights(force: Contact, bodies: Sequence[Body]) -> Points:
     return Points(count, _ball(bodies[0]), [kind, contact_law.NUMBERS + len(numbers)], numbers + size)
 
 
-def _of_spheres(force: Contact, bodies: Sequence[Body]) -> Points:
+def _of_spheres(force: Contact, bodies: Sequence[Touching]) -> Points:
     radii = [_ball(body) for body in bodies]
     return Points(1, sum(radii), [], radii)
 
 
-def _of_round(force: Contact, bodies: Sequence[Body]) -> Points:
+def _of_round(force: Contact, bodies: Sequence[Touching]) -> Points:
     # a sphere before a capsule: it has one point
     first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
     if first is None:
@@ -158,7 +160,7 @@ def _of_round(force: Contact, bodies: Sequence[Body]) -> Points:
     return Points(2 if half > 0.0 else 1, balls, [], [float(first), own.radius, half, core, float(kind), *numbers])
 
 
-def _of_ellipsoid(force: Contact, bodies: Sequence[Body]) -> Points:
+def _of_ellipsoid(force: Contact, bodies: Sequence[Touching]) -> Points:
     first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Ellipsoid))
     own, core, kind, balls = bodies[first].shape, 0.0, round_contact.POLYTOPE, math.inf
     assert isinstance(own, Ellipsoid)
@@ -180,7 +182,7 @@ def _of_ellipsoid(force: Contact, bodies: Sequence[Body]) -> Points:
 
 
 # by what finds the points
-PAIRS: Final[dict[Family, Callable[[Contact, Sequence[Body]], Points]]] = {
+PAIRS: Final[dict[Family, Callable[[Contact, Sequence[Touching]], Points]]] = {
     ground_contact.apply: _over_plane,
     ground_contact.apply_to_spheres: _of_spheres,
     ground_contact.apply_over_heights: _over_heights,
@@ -189,9 +191,9 @@ PAIRS: Final[dict[Family, Callable[[Contact, Sequence[Body]], Points]]] = {
 }
 
 
-def _bodies(machine: MachineRecord, force: Contact) -> list[Body]:
-    """The bodies that touch: one on ground, or two."""
-    return [machine.body_named[name] for name in force.bodies or (str(force.body),)]
+def _bodies(machine: MachineRecord, force: Contact) -> list[Touching]:
+    """What touches: one shape on ground, or two."""
+    return [machine.touching[name] for name in force.bodies or (str(force.body),)]
 
 
 def _stiffness(machine: MachineRecord, force: Contact) -> float | None:
@@ -221,11 +223,11 @@ def hertzian(materials: Sequence[Material], curvature: float) -> float:
 
 def _add_hulls(builder: SystemBuilder, force: Contact, first: int) -> None:
     assert force.bodies is not None  # the record was checked
-    bodies = [builder.machine.body_named[name] for name in force.bodies]
+    bodies = _bodies(builder.machine, force)
     hulls = hull_of(bodies[0], part_of(force, bodies, 0)), hull_of(bodies[1], part_of(force, bodies, 1))
-    markers = [builder.place((body.name, hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
+    markers = [builder.place(body.at(hull.middle, np.eye(3))) for body, hull in zip(bodies, hulls, strict=True)]
     patch = add_patch(builder, force, (markers[0], markers[1]), first, True) if force.sticks else [NONE, 0, 0]
-    frame = builder.frame(bodies[1].name) if force.surface_velocity is not None else NONE
+    frame = builder.frame(bodies[1].body) if force.surface_velocity is not None else NONE
     columns, numbers = row_of(hulls, force, [*patch, *_surface(builder, force, frame)])
     builder.elements.add(hull_contact.apply, [first, *markers, *columns], numbers, 1, (0,))
 
@@ -251,7 +253,7 @@ def _is_smooth(function: TimeFunction) -> bool:
     return True
 
 
-def _ball(body: Body) -> float:
+def _ball(body: Touching) -> float:
     """[m] radius of a ball about the marker of a shape that holds it."""
     match body.shape:
         case Sphere():
@@ -266,10 +268,10 @@ def _ball(body: Body) -> float:
             return max(body.shape.semi_axes)
         case Extrusion() | Mesh():
             return float(np.linalg.norm(_corners(body), axis=1).max())
-    raise ValueError(f"body {body.name} has no shape that can touch")
+    raise ValueError(f"{body.name} has no shape that can touch")
 
 
-def _ground_shape(body: Body, corners: Callable[[Body], NDArray[np.float64]]) -> tuple[int, int, list[float]]:
+def _ground_shape(body: Touching, corners: Callable[[Touching], NDArray[np.float64]]) -> tuple[int, int, list[float]]:
     """Kind, number of points and numbers of a shape for `nivel.kernels.forces.ground_contact`; `corners` of an extrusion or a mesh."""
     match body.shape:
         case Sphere():
@@ -283,11 +285,11 @@ def _ground_shape(body: Body, corners: Callable[[Body], NDArray[np.float64]]) ->
         case Extrusion() | Mesh():
             found = corners(body)
             return ground_contact.HULL, len(found), found.ravel().tolist()
-    raise ValueError(f"body {body.name} has no shape that can touch")
+    raise ValueError(f"{body.name} has no shape that can touch")
 
 
-def _corners(body: Body) -> NDArray[np.float64]:
-    """(n, 3) [m] corners of the convex hull of an extrusion or a mesh, in the body frame: nothing else of it can touch a plane.
+def _corners(body: Touching) -> NDArray[np.float64]:
+    """(n, 3) [m] corners of the convex hull of an extrusion or a mesh, in the frame of the shape: nothing else of it can touch a plane.
 
     Raises ModelError where there are more than MOST_CORNERS.
     """
@@ -302,11 +304,11 @@ def _corners(body: Body) -> NDArray[np.float64]:
             f"the hull of the mesh has {len(corners)} corners, and at most {MOST_CORNERS} can touch a plane: give the body a coarser mesh; "
             f"`looks` may still draw the fine one"
         )
-        raise ModelError(Fault("", 0, 0, f"bodies.{body.name}.shape", message))
+        raise ModelError(Fault("", 0, 0, body.place, message))
     return corners
 
 
-def _corners_of_parts(body: Body) -> NDArray[np.float64]:
+def _corners_of_parts(body: Touching) -> NDArray[np.float64]:
     """The same of all convex parts, each once: on ground that is not flat others than those of the hull may touch."""
     if not isinstance(body.shape, Mesh) or body.shape.parts is None:
         return _corners(body)
@@ -314,7 +316,7 @@ def _corners_of_parts(body: Body) -> NDArray[np.float64]:
     return np.unique(np.concatenate([each.corners + each.middle for each in parts]).round(9), axis=0)
 
 
-def _distance_numbers(body: Body, part: int | None) -> tuple[int, list[float]]:
+def _distance_numbers(body: Touching, part: int | None) -> tuple[int, list[float]]:
     """Kind and numbers of a shape for `nivel.kernels.forces.surface_distance`, in the axes of its marker."""
     match body.shape:
         case Box():
@@ -325,19 +327,19 @@ def _distance_numbers(body: Body, part: int | None) -> tuple[int, list[float]]:
             return surface_distance.SEGMENT, [0.5 * length(body.shape)]
         case Extrusion() | Mesh():
             return surface_distance.HULL, polytope_of(body, part)
-    raise ValueError(f"body {body.name} has no shape that can touch")
+    raise ValueError(f"{body.name} has no shape that can touch")
 
 
-def _shape_marker(builder: SystemBuilder, body: Body) -> int:
-    """Marker at the centre of the shape, z along a cylinder; at the body frame of a hull, whose corners are given there."""
+def _shape_marker(builder: SystemBuilder, body: Touching) -> int:
+    """Marker at the centre of the shape, z along a cylinder; at the frame of a hull, whose corners are given there."""
     shape = body.shape
     if isinstance(shape, Extrusion | Mesh):
-        return builder.place((body.name, np.zeros(3), np.eye(3)))
+        return builder.place(body.at(np.zeros(3), np.eye(3)))
     assert isinstance(shape, Sphere | Ellipsoid | Box | Cylinder | Capsule)  # the record was checked
     axes = np.eye(3)
     if isinstance(shape, Cylinder | Capsule):
         axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])
-    return builder.place((body.name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))
+    return builder.place(body.at(np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))
 
 
 KINDS = (

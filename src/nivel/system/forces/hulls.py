@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.kernels.forces.hull_pair import NUMBERS
 from nivel.lazy import scipy
-from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
+from nivel.machine.bodies.touching import Touching
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.forces.contact import Contact
 
@@ -28,7 +28,8 @@ MOST_FACES = 200
 
 @dataclass(frozen=True)
 class Hull:
-    """middle (3,) [m] in the body frame; corners (n, 3) from there; faces (f, 4): outward normal, distance; edges (e, 2): their corners."""
+    """middle (3,) [m] in the frame of the shape; corners (n, 3) from there; faces (f, 4): outward normal, distance; edges (e, 2): their
+    corners."""
 
     middle: Array
     corners: Array
@@ -41,7 +42,7 @@ class Hull:
         return float(np.linalg.norm(self.corners, axis=1).max())
 
 
-def hull_of(body: Body, part: int | None = None) -> Hull:
+def hull_of(body: Touching, part: int | None = None) -> Hull:
     """The convex hull of a box, a cylinder, an extrusion or a mesh, or of a convex part of a mesh, counted from 1.
 
     Raises ModelError for a flat one, or one of too many faces.
@@ -71,7 +72,7 @@ def hull_of_points(points: Array) -> Hull:
     return Hull(middle, corners, faces, _edges(corners, faces))
 
 
-def part_of(force: Contact, bodies: Sequence[Body], k: int) -> int | None:
+def part_of(force: Contact, bodies: Sequence[Touching], k: int) -> int | None:
     """The convex part with which body k of a contact touches, counted from 1; None where its whole hull does. Raises ModelError."""
     shape = bodies[k].shape
     if not isinstance(shape, Mesh) or shape.parts is None:
@@ -89,7 +90,7 @@ def part_of(force: Contact, bodies: Sequence[Body], k: int) -> int | None:
     return part
 
 
-def _points(body: Body, part: int | None) -> Array:
+def _points(body: Touching, part: int | None) -> Array:
     match body.shape:
         case Mesh() as mesh if part is not None:
             return part_corners(mesh, part)
@@ -102,7 +103,7 @@ def _points(body: Body, part: int | None) -> Array:
             return extrusion_corners(prism)
         case Mesh() as mesh:
             return mesh_surface(mesh)[0]
-    raise ValueError(f"body {body.name} has no hull")
+    raise ValueError(f"{body.name} has no hull")
 
 
 def _prism(cylinder: Cylinder) -> Array:
@@ -156,7 +157,7 @@ def row_of(hulls: tuple[Hull, Hull], force: Contact, patch: list[int]) -> tuple[
     ]
 
 
-def polytope_of(body: Body, part: int | None) -> list[float]:
+def polytope_of(body: Touching, part: int | None) -> list[float]:
     """Counts of corners, faces and edges, then these, in the axes of the body's marker."""
     hull = hull_of(body, part)
     # a box and a cylinder have their marker in the middle, a cylinder z along it
@@ -173,5 +174,5 @@ def polytope_of(body: Body, part: int | None) -> list[float]:
     return [*counts, *corners.ravel().tolist(), *faces.ravel().tolist(), *ends.ravel().tolist()]
 
 
-def _fault(body: Body, said: str) -> ModelError:
-    return ModelError(Fault("", 0, 0, f"bodies.{body.name}.shape", said))
+def _fault(body: Touching, said: str) -> ModelError:
+    return ModelError(Fault("", 0, 0, body.place, said))

@@ -13,7 +13,16 @@ from numpy.typing import NDArray
 
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Motion, Run
-from nivel.judge.after.touching_pairs import DEEP, HullPair, Pair, hulls_of, spheres_among, spheres_of, way_between
+from nivel.judge.after.touching_pairs import (
+    DEEP,
+    HullPair,
+    Pair,
+    hulls_of,
+    spheres_among,
+    spheres_of,
+    turns_of,
+    way_between,
+)
 from nivel.lazy import scipy
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
@@ -91,7 +100,7 @@ def _passages(result: Readable, pair: HullPair) -> Iterator[Passed]:
     far as their distance from the middle times the angle."""
     time, thinnest = result.time, pair.thinnest
     way = way_between(result, (pair.bodies[1], pair.bodies[0]), (pair.middles[1], pair.middles[0]))
-    turns = [result.array("orientation")[:, result.coordinates["body"].index(body)] for body in pair.bodies]
+    turns = [turns_of(result, body) for body in pair.bodies]
     radii = [float(np.linalg.norm(corners, axis=1).max()) for corners in pair.corners]
     swept = sum(radius * _angles(turn) for radius, turn in zip(radii, turns, strict=True))
     length = way.length + swept

@@ -1,0 +1,49 @@
+"""What touches in a contact: the shape of a body, or of a marker on one, and where it is in the body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.machine.core.placement import marker_frame
+
+if TYPE_CHECKING:
+    from nivel.machine.bodies.body import Body
+    from nivel.machine.bodies.shape import Shape
+    from nivel.machine.core.marker import Marker
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Touching:
+    """name : of the body or marker whose `shape` touches. body : on which it is. position (3,) [m], axes (3, 3) : of the frame of the
+    shape in that of the body."""
+
+    name: str
+    body: str
+    shape: Shape | None
+    position: Array = field(default_factory=lambda: np.zeros(3))
+    axes: Array = field(default_factory=lambda: np.eye(3))
+
+    @classmethod
+    def of_body(cls, body: Body) -> Touching:
+        """The shape of a body."""
+        return cls(body.name, body.name, body.shape)
+
+    @classmethod
+    def of_marker(cls, marker: Marker) -> Touching:
+        """The shape of a marker."""
+        return cls(marker.name or "", marker.body, marker.shape, *marker_frame(marker))
+
+    @property
+    def place(self) -> str:
+        """Where the shape stands in the machine."""
+        return f"{'bodies' if self.name == self.body else 'markers'}.{self.name}.shape"
+
+    def at(self, point: Array, axes: Array) -> tuple[str, Array, Array]:
+        """Body, point and axes in it, of a point and axes in the frame of the shape."""
+        return self.body, self.position + self.axes @ point, self.axes @ axes

@@ -28,7 +28,7 @@ def compared(file: Path) -> tuple[int, float] | None:
     for each in OFF:
         model.opt.disableflags |= int(getattr(mj.mjtDisableBit, f"mjDSBL_{each}"))
     model.opt.density = model.opt.viscosity = 0.0
-    machine = nivel.import_model(file)
+    machine = nivel.import_model(file, contacts="none")
     kept = tuple(each for each in machine.record.forces if LIFT in each.name)
     mechanics = machine.replace(forces=kept, simulation=machine.record.simulation).mechanics()
     if not set(model.jnt_type.tolist()) <= {int(mj.mjtJoint.mjJNT_HINGE), int(mj.mjtJoint.mjJNT_SLIDE)}:

@@ -52,7 +52,7 @@ def test_a_tree_with_armature_stacked_joints_and_a_lifted_body_has_the_equations
     path = written(tmp_path, TREE)
     model = mj.MjSpec.from_file(str(path)).compile()
     model.opt.disableflags |= int(mj.mjtDisableBit.mjDSBL_CONTACT)
-    mechanics = nivel.import_model(path).mechanics()
+    mechanics = nivel.import_model(path, contacts="none").mechanics()
     index = [TREE_JOINTS.index(name.split(".")[0].removesuffix("_rotor")) for name in mechanics.names]
     places = [TREE_JOINTS.index(name.split(".")[0].removesuffix("_rotor")) for name in mechanics.position_names]
     zero = np.array(
@@ -93,7 +93,7 @@ def test_a_loop_is_exact_where_mujoco_is_soft(tmp_path):
     J = (jacobians[0] - jacobians[1])[:2]
     saddle = np.block([[M, J.T], [J, np.zeros((2, 2))]])
     exact = np.linalg.solve(saddle, np.concatenate([-data.qfrc_bias, np.zeros(2)]))[:3]
-    mechanics = nivel.import_model(path).mechanics()
+    mechanics = nivel.import_model(path, contacts="none").mechanics()
     assert len(mechanics.names) == 1
     found = mechanics.forward_dynamics(mechanics.start, [0.0], [0.0])
     assert found[0] == pytest.approx(exact[("a", "b", "c").index(mechanics.names[0].split(".")[0])], rel=1e-10)
@@ -127,7 +127,7 @@ def test_joints_follow_each_other_from_where_they_are_placed(tmp_path):
     text = """<mujoco><worldbody><body name="a"><joint name="p" axis="0 0 1" ref="30"/><geom size=".1" pos=".5 0 0"/></body>
     <body name="b"><joint name="q" axis="0 0 1" ref="-10"/><geom size=".1" pos="0 .5 0"/></body></worldbody>
     <equality><joint joint1="q" joint2="p" polycoef="0.2 -3 0 0 0"/></equality></mujoco>"""
-    mechanics = nivel.import_model(written(tmp_path, text)).mechanics()
+    mechanics = nivel.import_model(written(tmp_path, text), contacts="none").mechanics()
     values = dict(zip(mechanics.position_names, mechanics.close(mechanics.start + 0.3), strict=True))
     expected = np.deg2rad(-10) + 0.2 - 3 * (values["p.angle"] - np.deg2rad(30))
     assert values["q.angle"] == pytest.approx(expected, abs=1e-12)
@@ -139,7 +139,7 @@ def test_joints_follow_each_other_by_a_polynomial(tmp_path):
     <body name="b"><joint name="q" type="slide" axis="1 0 0" ref="0.1"/><geom size=".1" pos="0 .5 0"/></body></body></worldbody>
     <equality><joint joint1="q" joint2="p" polycoef="0.05 0.6 0.3 0.04 0.02"/></equality></mujoco>"""
     path = written(tmp_path, text)
-    mechanics = nivel.import_model(path).mechanics()
+    mechanics = nivel.import_model(path, contacts="none").mechanics()
     assert len(mechanics.names) == 1
     values = dict(zip(mechanics.position_names, mechanics.close(mechanics.start + 0.4), strict=True))
     way = values["p.angle"] - np.deg2rad(30)
@@ -196,7 +196,7 @@ def test_a_free_base_with_a_ball_joint_falls_and_turns_as_in_mujoco(tmp_path):
 
 def test_gravity_that_is_switched_off_is_off(tmp_path):
     text = TREE.replace('timestep="0.001"/>', 'timestep="0.001"><flag gravity="disable"/></option>')
-    data = read_model(written(tmp_path, text)).data
+    data = read_model(written(tmp_path, text), contacts="none").data
     assert data["gravity"] == [0.0, 0.0, 0.0]
     assert "forces" not in data
     assert data["simulation"] == {"step": 0.001, "coordinates": "relative"}
@@ -244,6 +244,9 @@ def test_a_name_may_look_like_a_number(tmp_path):
 
 def test_the_example_of_a_leg_is_the_translation_of_its_model():
     folder = Path(__file__).parents[2] / "examples" / "robots"
-    ours, example = nivel.import_model(folder / "leg.xml").record, nivel.load(folder / "leg.yaml").record
+    ours, example = (
+        nivel.import_model(folder / "leg.xml", contacts="none").record,
+        nivel.load(folder / "leg.yaml").record,
+    )
     for section in ("bodies", "markers", "joints", "couplings", "forces", "gravity"):
         assert getattr(ours, section) == getattr(example, section)

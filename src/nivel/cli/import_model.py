@@ -30,6 +30,13 @@ from nivel.lazy import nivel
     help="Folder of packages, in which meshes at package:// are searched for. May be repeated.",
 )
 @click.option(
+    "--contacts",
+    type=click.Choice(["all", "floor", "none"]),
+    default="all",
+    show_default=True,
+    help="Contacts of an MJCF file: all of the model, those with what stands still, or none.",
+)
+@click.option(
     "--density", type=float, metavar="KG/M3", help="Density of the solids of a STEP file; default 7850 kg/m³."
 )
 @quiet_option
@@ -39,6 +46,7 @@ def command(
     target: str | None,
     base: Literal["fixed", "free"] | None,
     package_paths: tuple[Path, ...],
+    contacts: Literal["all", "floor", "none"],
     density: float | None,
     quiet: bool,
     force: bool,
@@ -49,7 +57,9 @@ def command(
     """
     path = Path(target) if target is not None else Path(f"{Path(model).stem}.yaml")
     nivel.files.target.check_target(path, "machine file", force=force, sources=[Path(model)])
-    translation = nivel.exchange.read_model(model, base=base, package_paths=package_paths, target=path, density=density)
+    translation = nivel.exchange.read_model(
+        model, base=base, package_paths=package_paths, target=path, contacts=contacts, density=density
+    )
     for name, content in translation.files().items():
         mesh = path.parent / name
         mesh.parent.mkdir(exist_ok=True)

@@ -58,7 +58,7 @@ class Drawing:
         if look.kind == "mesh":
             return self._mesh(look, at)
         if look.surface is not None:
-            return self._surface(name, look.surface, at)
+            return self.surface(name, look.surface, at)
         if not all(0.0 < size < 1e6 for size in look.sizes):
             raise NotFoundError(f"a {look.kind} without size")
         centre = {"centre": triple(at.origin)} if np.any(at.origin) else {}
@@ -74,7 +74,7 @@ class Drawing:
         if look.kind == "ellipsoid" or (
             not straight and not (look.kind != "box" and np.abs(at.axes[:, 2]).max() > 1.0 - ALONG)
         ):
-            return self._surface(name, _solid(look), at)
+            return self.surface(name, _solid(look), at)
         if look.kind == "box":
             sizes = [0.0, 0.0, 0.0]
             for k, size in enumerate(look.sizes):
@@ -83,7 +83,7 @@ class Drawing:
         radius, length = map(number, look.sizes)
         return {"type": look.kind, "radius": radius, "length": length, "along": "xyz"[int(order[2])], **centre}
 
-    def _surface(self, name: str, surface: tuple[Array, Triangles], at: Frame) -> dict[str, Any]:
+    def surface(self, name: str, surface: tuple[Array, Triangles], at: Frame) -> dict[str, Any]:
         """A mesh that has to be written; its points are in the frame of the body."""
         vertices, triangles = surface
         plain = "".join(each if each.isalnum() or each in "-_" else "_" for each in name)
@@ -95,7 +95,11 @@ class Drawing:
         self.made[file] = (vertices @ at.axes.T + at.origin, triangles)
         return {"type": "mesh", "file": file}
 
-    def _mesh(self, look: Look, at: Frame) -> dict[str, Any]:
+    def vertices(self, look: Look) -> Array:
+        """(n, 3) [m] vertices of a mesh in its file, scaled. Raises NotFoundError."""
+        return np.asarray(self._parsed(look)[1][0] * look.scale)
+
+    def _parsed(self, look: Look) -> tuple[Path, tuple[Array, Triangles]]:
         path = self.found(look.file)
         if path not in self.parsed:
             try:
@@ -104,13 +108,17 @@ class Drawing:
                 raise NotFoundError(f"`{look.file}`: {problem}") from None
             except ModelError as problem:
                 raise NotFoundError(f"`{look.file}`: {problem.faults[0].message}") from None
+        return path, self.parsed[path]
+
+    def _mesh(self, look: Look, at: Frame) -> dict[str, Any]:
+        path, _ = self._parsed(look)
         x, y, z = look.scale
         if not (x == y == z and x > 0.0):
             if not x or not y or not z:
                 raise NotFoundError(f"`{look.file}`: a scale of zero")
             vertices, triangles = self.parsed[path]
             triangles = triangles if x * y * z > 0.0 else triangles[:, ::-1]
-            return self._surface(Path(look.file).stem, (vertices * look.scale, triangles), at)
+            return self.surface(Path(look.file).stem, (vertices * look.scale, triangles), at)
         out: dict[str, Any] = {"type": "mesh", "file": _relative(path, self.target)}
         out |= {"unit": x} if x != 1.0 else {}
         out |= {"position": triple(at.origin)} if np.any(at.origin) else {}

@@ -19,6 +19,7 @@ from nivel.exchange.bodies import (
     offset,
     possible,
 )
+from nivel.exchange.contacts import contacts_of
 from nivel.exchange.joint_forces import actuated, coupling_of, forces_of, starts_of
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
@@ -68,6 +69,8 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
             force = {"type": "force", "body": names.name("body", group.first), "position": triple(at.origin)}
             forces[names.new(f"{link}_gravcomp", "force")] = force | {"vector": [number(each) for each in vector]}
     markers = _markers(mechanism, groups, names)
+    solids, contacts = contacts_of(mechanism, groups, names, drawing)
+    markers, forces = markers | solids, forces | contacts
     changed = names.changed(("body", "marker", "joint", "input"))
     if changed:
         mechanism.notes.change("names that nivel does not take were changed", "; ".join(changed))
@@ -86,7 +89,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     if _is_tree(mechanism, groups) and _nearly_parallel(mechanism):
         data["assembly"] = {"parallel": 0.0}
         mechanism.notes.change("axes that are parallel to six digits only stay as they are: `assembly: {parallel: 0}`")
-    settings: dict[str, Any] = {} if mechanism.step is None else {"step": mechanism.step}
+    settings: dict[str, Any] = {} if mechanism.step is None or contacts else {"step": mechanism.step}
     if any(LIGHT in each for each in mechanism.notes.changed):
         settings["coordinates"] = "relative"
     data |= {"simulation": settings} if settings else {}

@@ -66,7 +66,7 @@ class Look:
     axes. surface : vertices and triangles.
     """
 
-    kind: Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "surface"]
+    kind: Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "surface", "plane"]
     place: Frame
     sizes: tuple[float, ...] = ()
     file: str = ""
@@ -135,12 +135,32 @@ class Actuator:
     control: tuple[float, float] | None = None
 
 
+@dataclass(frozen=True)
+class Solid:
+    """A solid of a link, or of WORLD, that touches others. look : its kind and place; a `plane` has its normal along z."""
+
+    name: str
+    link: str
+    look: Look
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Two solids by name that touch. stiffness [N/m] : of a point; damping [s/m] : factor of the force by the speed of approach."""
+
+    first: str
+    second: str
+    friction: float
+    stiffness: float
+    damping: float
+
+
 @dataclass
 class Mechanism:
     """links by name, and what connects them. gravity : (3,) [m/s²].
 
     sites : further frames, (name, link, frame in the link). lifts : constant forces, (link, point in the link, force in global axes).
-    step : of its simulation [s].
+    step : of its simulation [s]. solids, touches : what touches, by name, and pairs of it.
     """
 
     name: str
@@ -153,6 +173,8 @@ class Mechanism:
     sites: list[tuple[str, str, Frame]] = field(default_factory=list)
     lifts: list[tuple[str, Array, Array]] = field(default_factory=list)
     step: float | None = None
+    solids: dict[str, Solid] = field(default_factory=dict)
+    touches: list[Touch] = field(default_factory=list)
 
     def roots(self) -> list[str]:
         """Links that are the second of no connection."""

@@ -15,6 +15,7 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Actuator, Connection, Frame, Inertial, Link, Look, Mechanism
+from nivel.exchange.mjcf_contacts import read_contacts
 from nivel.exchange.mjcf_equalities import read_equalities
 from nivel.exchange.urdf import digits
 from nivel.extras import needed, require
@@ -28,6 +29,7 @@ JOINT_TRANSMISSIONS: Final = (0, 1)  # mjtTrn: on a joint, on a joint in the par
 DEEPEST: Final = 10  # files that include files
 SHOWN_GROUPS: Final = 3  # geoms of the groups 0, 1 and 2 are drawn, as by MuJoCo's viewer
 OFF: Final = {
+    "contacts": "mjDSBL_CONTACT",
     "limits": "mjDSBL_LIMIT",
     "friction": "mjDSBL_FRICTIONLOSS",
     "springs": "mjDSBL_SPRING",
@@ -37,16 +39,17 @@ OFF: Final = {
 }
 
 
-def read_mjcf(path: Path, document: Document, base: str | None) -> Mechanism:
-    """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says. Raises ModelError."""
+def read_mjcf(path: Path, document: Document, base: str | None, contacts: str = "all") -> Mechanism:
+    """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says.
+    contacts : `all`, `floor` or `none`. Raises ModelError."""
     require("models in MJCF need", "mujoco")
     _check_source(document, path, {path.resolve()})
     document.raise_faults()
     name = document.root.get("model") or path.stem
-    return apart(mechanism_here, path, document.file, name, base, failed=f"{document.file} cannot be read")
+    return apart(mechanism_here, path, document.file, name, base, contacts, failed=f"{document.file} cannot be read")
 
 
-def mechanism_here(path: Path, file: str, name: str, base: str | None) -> Mechanism:
+def mechanism_here(path: Path, file: str, name: str, base: str | None, contacts: str) -> Mechanism:
     """The same in this process, which a damaged file may end."""
     mj = needed("mujoco", "models in MJCF need")
     said: list[warnings.WarningMessage] = []
@@ -69,8 +72,11 @@ def mechanism_here(path: Path, file: str, name: str, base: str | None) -> Mechan
     mj.mj_resetData(model, data)
     data.qpos[:] = model.qpos0
     mj.mj_kinematics(model, data)
-    _Reader(mj, model, data, mechanism, off).read(base)
-    _leave(model, mechanism)
+    reader = _Reader(mj, model, data, mechanism, off)
+    reader.read(base)
+    if "contacts" not in off and contacts != "none":
+        read_contacts(mj, model, mechanism, reader.body, reader.solid, contacts)
+    _leave(model, mechanism, without=contacts == "none" and "contacts" not in off)
     return mechanism
 
 
@@ -247,9 +253,18 @@ class _Reader:
         return joint
 
     def _look(self, g: int, name: str) -> Look | None:
-        m = self.m
-        if m.geom_group[g] >= SHOWN_GROUPS:
+        if self.m.geom_group[g] >= SHOWN_GROUPS:
             return None
+        look = self.solid(g)
+        if look is None or look.kind == "plane":
+            kind = self.mj.mjtGeom(int(self.m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
+            self.mechanism.notes.leave(f"looks: geoms of type {kind}", name)
+            return None
+        return look
+
+    def solid(self, g: int) -> Look | None:
+        """The solid of a geom in its body; None of types that have none."""
+        m = self.m
         size, material = m.geom_size[g], int(m.geom_matid[g])
         colour = (
             m.mat_rgba[material] if material >= 0 and np.all(m.geom_rgba[g] == (0.5, 0.5, 0.5, 1.0)) else m.geom_rgba[g]
@@ -272,8 +287,8 @@ class _Reader:
                 vertices = m.mesh_vert[m.mesh_vertadr[k] : m.mesh_vertadr[k] + m.mesh_vertnum[k]].astype(float)
                 faces = m.mesh_face[m.mesh_faceadr[k] : m.mesh_faceadr[k] + m.mesh_facenum[k]]
                 return Look("surface", surface=(vertices, faces.astype(np.uint32)), **common)
-            case kind:
-                self.mechanism.notes.leave(f"looks: geoms of type {kind.removeprefix('mjGEOM_').lower()}", name)
+            case "mjGEOM_PLANE":
+                return Look("plane", **common)
         return None
 
     def _site(self, s: int) -> None:
@@ -312,7 +327,7 @@ class _Reader:
         self.mechanism.actuators.append(made)
 
 
-def _leave(m: Any, mechanism: Mechanism) -> None:
+def _leave(m: Any, mechanism: Mechanism, *, without: bool) -> None:
     """Note what no part of the reader has asked for."""
     notes = mechanism.notes
     for count, what in (
@@ -321,12 +336,10 @@ def _leave(m: Any, mechanism: Mechanism) -> None:
         (m.nsensor, "sensors"),
         (m.nkey, "keyframes"),
         (m.nplugin, "plugins"),
-        (m.nexclude, "excluded contacts"),
-        (m.npair, "pairs of contact"),
     ):
         if count:
-            notes.leave(f"{what} ({count})", acts=what not in ("sensors", "keyframes", "excluded contacts"))
-    if np.any((m.geom_contype > 0) | (m.geom_conaffinity > 0)):
+            notes.leave(f"{what} ({count})", acts=what not in ("sensors", "keyframes"))
+    if without and np.any((m.geom_contype > 0) | (m.geom_conaffinity > 0)):
         notes.leave("contacts of geoms; a contact is a force of type `contact`", acts=True)
     if m.opt.density or m.opt.viscosity:
         notes.leave("forces of the fluid around the bodies (density, viscosity)", acts=True)

@@ -26,6 +26,7 @@ from nivel.machine.bodies.surface import surface_text
 from nivel.machine.machine_record import MachineRecord
 
 Base = Literal["fixed", "free"]
+Contacts = Literal["all", "floor", "none"]
 
 _XACRO: Final = re.compile(r"\$\{.*?\}|\$\((arg|find|eval) ")
 _OTHERS: Final = (
@@ -52,10 +53,11 @@ def read_model(
     base: Base | None = None,
     package_paths: Sequence[str | Path] = (),
     target: str | Path | None = None,
+    contacts: Contacts = "all",
     density: float | None = None,
 ) -> Translation:
     """The translation of a file of another program. target : the machine file that will be written; default beside the model. density :
-    of solids of a STEP file [kg/m³].
+    of solids of a STEP file [kg/m³]. contacts : of an MJCF file: all of the model, those with the ground, or none.
 
     Raises ModelError with everything that cannot be read, each with file and line.
     """
@@ -67,16 +69,21 @@ def read_model(
     if density is not None:
         raise ModelError(f"{file}: the masses are in the model; `density` belongs to STEP files")
     content = read_bytes(path)
-    mechanism = _mechanism(content, str(file), base)
+    mechanism = _mechanism(content, str(file), base, contacts)
     return machine_of(mechanism, path.name, drawing)
 
 
 def translated_machine(
-    file: str | Path, *, base: Base | None = None, package_paths: Sequence[str | Path] = ()
+    file: str | Path,
+    *,
+    base: Base | None = None,
+    package_paths: Sequence[str | Path] = (),
+    contacts: Contacts = "all",
 ) -> MachineRecord:
     """The machine that a file of another program describes; meshes are in it. Raises ModelError."""
-    translation = read_model(file, base=base, package_paths=package_paths)
-    for shape in _meshes(translation.data):
+    translation = read_model(file, base=base, package_paths=package_paths, contacts=contacts)
+    shapes = [each["shape"] for each in translation.data.get("markers", {}).values() if "shape" in each]
+    for shape in [*_meshes(translation.data), *(each for each in shapes if each["type"] == "mesh")]:
         made = translation.meshes.get(shape["file"])
         if made is not None:
             shape["surface"] = surface_text(*made)
@@ -90,7 +97,7 @@ def _meshes(data: dict[str, Any]) -> list[dict[str, Any]]:
     return [shape for shape in [*looks, *data.get("surroundings", [])] if shape["type"] == "mesh"]
 
 
-def _mechanism(content: bytes, file: str, base: Base | None) -> Mechanism:
+def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts) -> Mechanism:
     start = content[:100_000]
     for pattern, answer in _OTHERS:
         if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<") and pattern.search(start):
@@ -108,7 +115,7 @@ def _mechanism(content: bytes, file: str, base: Base | None) -> Mechanism:
         raise ModelError(Fault(file, macro.line, macro.column, macro.shown, message))
     match root.tag:
         case "mujoco":
-            return read_mjcf(Path(file), document, base)
+            return read_mjcf(Path(file), document, base, contacts)
         case "robot":
             return read_urdf(document, base)
         case "sdf":

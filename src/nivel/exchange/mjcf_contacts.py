@@ -1,0 +1,121 @@
+"""Contacts of MJCF: pairs of geoms that the masks, parents and exclusions of a compiled model let touch.
+
+MuJoCo's contact is soft in accelerations: (A + R) f = b ẋ + k d r - a₀ with the overlap r, where R = w (1 - d)/d and w is the sum of the
+inverse weights of both bodies. Under a steady load f it sinks to r = R f/(k d): a spring of the stiffness k d²/((1 - d) w), whose force
+changes with the speed by b d/w. `damping` of a contact is this by the load g/w.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.exchange.mechanism import Look, Mechanism, Solid, Touch
+
+GRAVITY: Final = 9.81
+TURNS: Final = "friction of contacts against spinning and rolling"
+
+
+def read_contacts(
+    mj: Any, m: Any, mechanism: Mechanism, body: Callable[[int], str], look_of: Callable[[int], Look | None], kept: str
+) -> None:
+    """Add the solids and the pairs that touch. kept : `all`, or `floor`: what touches the ground alone."""
+    names = _names(m, body)
+    solids: dict[int, Solid | None] = {}
+    skipped = 0
+    for first, second, given in _pairs(mj, m):
+        moving = all(m.body_weldid[m.geom_bodyid[g]] for g in (first, second))
+        if moving and kept == "floor":
+            skipped += 1
+            continue
+        for g in (first, second):
+            if g not in solids:
+                look = look_of(g)
+                solids[g] = None if look is None else Solid(names[g], body(int(m.geom_bodyid[g])), look)
+                if look is None:
+                    kind = mj.mjtGeom(int(m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
+                    mechanism.notes.leave(f"contacts of geoms of type {kind}", names[g], acts=True)
+        one, two = solids[first], solids[second]
+        if one is None or two is None or (one.look.kind == "plane" and two.look.kind == "plane"):
+            continue
+        mechanism.solids |= {one.name: one, two.name: two}
+        mechanism.touches.append(_touch(m, first, second, given, (one.name, two.name), mechanism))
+    if skipped:
+        mechanism.notes.leave(
+            f"contacts between bodies that move ({skipped} pairs); `--contacts all` has them", acts=True
+        )
+
+
+def _names(m: Any, body: Callable[[int], str]) -> list[str]:
+    return [m.geom(g).name or f"{body(int(m.geom_bodyid[g])) or 'world'}_geom_{g}" for g in range(m.ngeom)]
+
+
+def _pairs(mj: Any, m: Any) -> list[tuple[int, int, int | None]]:
+    """Geoms that may touch, and the number of the <pair> that gives their numbers."""
+    explicit = {tuple(sorted((int(m.pair_geom1[p]), int(m.pair_geom2[p])))): p for p in range(m.npair)}
+    out: list[tuple[int, int, int | None]] = [(first, second, p) for (first, second), p in explicit.items()]
+    excluded = {int(each) for each in m.exclude_signature}
+    parents = not m.opt.disableflags & int(mj.mjtDisableBit.mjDSBL_FILTERPARENT)
+    weld = [int(m.body_weldid[b]) for b in m.geom_bodyid]
+    above = [int(m.body_weldid[m.body_parentid[w]]) for w in weld]
+    touching = [g for g in range(m.ngeom) if m.geom_contype[g] or m.geom_conaffinity[g]]
+    for k, i in enumerate(touching):
+        for j in touching[k + 1 :]:
+            if (i, j) in explicit or weld[i] == weld[j]:
+                continue
+            if not (m.geom_contype[i] & m.geom_conaffinity[j] or m.geom_contype[j] & m.geom_conaffinity[i]):
+                continue
+            if parents and weld[i] and weld[j] and (weld[i] == above[j] or weld[j] == above[i]):
+                continue
+            low, high = sorted((int(m.geom_bodyid[i]), int(m.geom_bodyid[j])))
+            if (low << 16) + high in excluded:
+                continue
+            out.append((i, j, None))
+    return out
+
+
+def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mechanism: Mechanism) -> Touch:
+    if pair is not None:
+        friction, turning = m.pair_friction[pair], m.pair_friction[pair][2:]
+        ref, imp, condim = m.pair_solref[pair], m.pair_solimp[pair], int(m.pair_dim[pair])
+    elif m.geom_priority[i] != m.geom_priority[j]:
+        g = i if m.geom_priority[i] > m.geom_priority[j] else j
+        friction, turning = m.geom_friction[g], m.geom_friction[g][1:]
+        ref, imp, condim = m.geom_solref[g], m.geom_solimp[g], int(m.geom_condim[g])
+    else:
+        friction = np.maximum(m.geom_friction[i], m.geom_friction[j])
+        turning, condim = friction[1:], int(max(m.geom_condim[i], m.geom_condim[j]))
+        one, two = float(m.geom_solmix[i]), float(m.geom_solmix[j])
+        share = one / (one + two) if one + two > 0.0 else 0.5
+        ref, other = m.geom_solref[i], m.geom_solref[j]
+        mixed = ref[0] > 0.0 and other[0] > 0.0
+        ref = share * ref + (1.0 - share) * other if mixed else np.minimum(ref, other)
+        imp = share * m.geom_solimp[i] + (1.0 - share) * m.geom_solimp[j]
+    if condim > 3 and np.any(turning):
+        mechanism.notes.leave(TURNS, " and ".join(names), acts=True)
+    w = sum(float(m.body_invweight0[m.geom_bodyid[g]][0]) for g in (i, j))
+    stiffness, damping = _softness(ref, imp, w, float(m.opt.timestep))
+    return Touch(*names, float(friction[0]) if condim > 1 else 0.0, stiffness, damping)
+
+
+def _softness(ref: Any, imp: Any, w: float, step: float) -> tuple[float, float]:
+    """Stiffness [N/m] and damping [s/m] under the load g/w."""
+    least, most, width, middle, power = map(float, imp)
+    if ref[0] > 0.0:
+        time = max(float(ref[0]), 2.0 * step)
+        k, b = 1.0 / (most * time * float(ref[1])) ** 2, 2.0 / (most * time)
+    else:
+        k, b = -float(ref[0]) / most**2, -float(ref[1]) / most
+    d, r = least, 0.0
+    for _ in range(50):  # the overlap at which the impedance is that of the overlap
+        r = 0.5 * (r + (1.0 - d) * GRAVITY / (k * d * d))
+        x = min(r / width, 1.0) if width > 0.0 else 1.0
+        rise = (
+            x**power / middle ** (power - 1.0)
+            if x <= middle
+            else 1.0 - (1.0 - x) ** power / (1.0 - middle) ** (power - 1.0)
+        )
+        d = least + (most - least) * rise
+    return k * d * d / ((1.0 - d) * w), b * d / GRAVITY

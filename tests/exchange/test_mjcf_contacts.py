@@ -21,7 +21,8 @@ MODEL = """<mujoco model="table">
     <geom name="three" type="sphere" size=".03" pos="0 -.25 -.17" mass="0.5" condim="1"/>
     <body name="lid" pos="0 0 .1"><joint name="hinge" axis="0 1 0" damping="1" stiffness="50"/>
       <geom name="leaf" type="capsule" size=".02 .1" mass="0.5" euler="90 0 0"/>
-      <body name="knob" pos="0 0 .2"><joint name="turn" axis="0 0 1" damping="1"/><geom name="ball" type="sphere" size=".02" mass="0.1"/></body>
+      <body name="knob" pos="0 0 .2"><joint name="turn" axis="0 0 1" damping="1"/>
+        <geom name="ball" type="sphere" size=".02" mass="0.1"/></body>
     </body>
   </body>
 </worldbody>

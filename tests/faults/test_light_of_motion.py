@@ -101,6 +101,30 @@ def test_a_driver_that_moves_its_body_to_its_law_is_green_and_said():
     assert "block was moved by 0.5 m" in line.text
 
 
+def test_what_had_no_part_in_a_run_is_said():
+    """A block that 60 N do not move, an event that is never met, an input that nothing reads."""
+    sections = slide(60)
+    sections["inputs"] = {"lever": {"range": [-1, 1]}, "push": {"range": [0, 1]}}
+    sections["forces"]["drag"] = {"type": "motor", "coordinate": "rail", "effort": "push.value"}
+    sections["events"] = {"away": {"when": "rail.displacement - 0.1", "stop": True}}
+    result = machine({**sections, "simulation": {"duration": 0.5}}).simulate(verify=False)
+    said = {item.name: item for item in result.trust.items}
+    assert "away never came, so the run went on to its duration" in said["missed_events"].text
+    assert "nothing moved by more than" in said["still"].text
+    assert said["missed_events"].verdict == said["still"].verdict == "green"
+    assert [item.row for item in result.trust.items if item.name == "plausible"] == ["inputs.lever"]
+
+
+def test_what_comes_and_moves_is_not_said_to_be_missed():
+    sections = slide(200)
+    sections["events"] = {"away": {"when": "rail.displacement - 0.1", "stop": True}}
+    result = machine({**sections, "simulation": {"duration": 0.5}}).simulate(verify=False)
+    assert not {"missed_events", "still"} & {item.name for item in result.trust.items}
+    # 80 N hold at most; sliding, 160 N of weight by 0.4 leave a = (200 - 64) / 10 once in motion
+    assert result.events[0].name == "away"
+    assert result.time[-1] == pytest.approx(np.sqrt(0.2 / 13.6), rel=5e-2)
+
+
 class Numbers:
     """A result of one variable."""
 

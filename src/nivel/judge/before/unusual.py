@@ -33,6 +33,7 @@ from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
 from nivel.machine.forces.contact import Contact
 from nivel.machine.given import Shown, Usual
+from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
 from nivel.machine.uses.hydraulic_uses import makers, ports_of
@@ -58,6 +59,18 @@ def remarks(machine: MachineRecord) -> Iterator[Finding]:
     yield from _narrow(machine)
     yield from resting_remarks(machine)
     yield from circuit_remarks(machine.hydraulics)
+    yield from _unread(machine)
+
+
+def _unread(machine: MachineRecord) -> Iterator[Finding]:
+    """Inputs that nothing reads."""
+    read = {path for each in machine.functions for path in each.function.signals} if machine.inputs else set()
+    read |= {path for block in machine.control for part in block.parts for path in signals_of(part.function)}
+    for given in machine.inputs:
+        path = f"{given.name}.value"
+        if path not in read:
+            message = f"nothing reads `{path}`, so this input has no effect; write it where it acts, or leave it out"
+            yield Finding(f"inputs.{given.name}", message)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Model of a run: what its translation left out, numbers that are unusual, and a start that is not what was given."""
+"""Model of a run: what its translation left out, what had no part in it, unusual numbers, and a start that is not what was given."""
 
 from __future__ import annotations
 
@@ -36,6 +36,57 @@ def say_loss(loss: Loss) -> Item:
     """The part, and what ends the line."""
     advice = "where it is written as elements of the machine, or has no part in this motion, take it out of `left_out`"
     return Item("losses", "amber", f"Left out of the model: {loss.part}; {advice}", row=loss.part)
+
+
+AT_REST = 1e-6  # of the machine's size, or of a radian: bodies that stay nearer to their start do not move
+
+
+@dataclass(frozen=True)
+class Still:
+    """A run in which nothing moves: how far any body was from its start [m] and [rad] at most."""
+
+    distance: float
+    angle: float
+
+
+def look_for_rest(run: Run) -> Still | None:
+    """The largest motion of any body, where it is none."""
+    result, size = run.result, run.scales.size
+    if len(result.time) < 2 or not {"position", "orientation"} <= result.variables.keys() or not run.machine.bodies:
+        return None
+    place, theta = result.array("position"), result.array("orientation")
+    distance = float(np.max(np.linalg.norm(place - place[0], axis=-1), initial=0.0))
+    sine = np.minimum(np.linalg.norm(theta - theta[0], axis=-1), np.linalg.norm(theta + theta[0], axis=-1))
+    angle = 2.0 * float(np.max(sine, initial=0.0))  # of a small turn, |θ - θ₀| is half of it
+    return Still(distance, angle) if distance <= AT_REST * size and angle <= AT_REST else None
+
+
+def say_rest(found: Still) -> Item:
+    """That nothing moved. It may be what was asked for."""
+    text = (
+        f"Still: nothing moved by more than {number(found.distance)} m or turned by more than {number(found.angle)} rad"
+    )
+    return Item("still", "green", f"{text} (said, always green)")
+
+
+@dataclass(frozen=True)
+class Missed:
+    """An event that never came, and whether it would have ended the run."""
+
+    name: str
+    stops: bool
+
+
+def look_for_missed(run: Run) -> list[Missed]:
+    """All events of the machine that the run has not met, where it reached an end."""
+    came = {event.name for event in run.finished.events}
+    return [Missed(event.name, event.stop) for event in run.machine.events if event.name not in came]
+
+
+def say_missed(found: Missed) -> Item:
+    """That it never came. It may be what was hoped for."""
+    text = f"Missed events: {found.name} never came{', so the run went on to its duration' if found.stops else ''} (said, always green)"
+    return Item("missed_events", "green", text, row=found.name)
 
 
 SHOWN = 8  # numbers of which each has a line
@@ -265,6 +316,8 @@ OF = (Run, Linearisation)
 
 CHECKS = (
     Check("losses", (Run, Equilibria, Positions), look_at_losses, say_loss, 915, (), "Left out of the model"),
+    Check("missed_events", Run, look_for_missed, say_missed, 916, (FRAMES,), "Missed events"),
+    Check("still", Run, look_for_rest, say_rest, 917, (FRAMES,), "Still"),
     Check(
         "plausible",
         (Run, Equilibria, Positions),

@@ -3,6 +3,7 @@
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,8 +12,21 @@ import nivel
 from nivel.api import Machine
 from nivel.elements.circuits import COMPONENTS
 from nivel.elements.circuits.actuators import Cushion
+from nivel.elements.circuits.composed import CHECK_OPENS_AT, CHECK_RANGE
+from nivel.elements.circuits.edges import Edge
 from nivel.elements.circuits.fluids import Fluid, Gas
-from nivel.elements.circuits.pistons import PistonFriction
+from nivel.elements.circuits.pistons import (
+    COULOMB,
+    SEAL,
+    STATIC,
+    STRIBECK,
+    STROKE,
+    TRANSITION,
+    VISCOUS,
+    PistonFriction,
+    friction_force,
+)
+from nivel.elements.circuits.spool_valves import conductances
 from nivel.files import parse_machine
 
 ROOT = Path(__file__).parent.parent
@@ -69,3 +83,44 @@ def test_the_boom_of_the_crane_bends_by_one_word(tmp_path):
     pressures = [float(np.mean(each.array("hydraulics.lift.pressure_A"))) for each in (stiff, bent)]
     assert pressures[1] == pytest.approx(pressures[0], rel=0.03)
     assert np.all(bent.array("modal_coordinate")[:, 0] != 0.0)
+
+
+def formula_of(row: str, begin: str, end: str, **names: float) -> float:
+    """The value of a formula as it stands on the page, from `begin` up to `end` in the row of a component."""
+    (line,) = re.findall(rf"^\| {re.escape(row)} \|.*$", PAGE, re.MULTILINE)
+    text = begin + line.partition(begin)[2].partition(end)[0]
+    text = text.partition(" = ")[2] or text
+    text = (
+        text.replace("²", "**2").replace("√(", "sqrt(").replace("ρ₀", "rho").replace("ρ_l", "rho_l").replace("Δp", "dp")
+    )
+    text = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text)
+    text = text.replace("sqrt*(", "sqrt(").replace("exp*(", "exp(").replace("tanh*(", "tanh(")
+    known = {each: getattr(np, each) for each in ("sqrt", "exp", "tanh")}
+    return float(eval(text, {"__builtins__": {}}, {**known, **names}))
+
+
+def test_the_friction_of_cylinders_is_the_formula_of_the_page():
+    numbers = np.zeros(STROKE + 1)
+    numbers[[COULOMB, SEAL, STATIC, STRIBECK, TRANSITION, VISCOUS]] = 120.0, 3e-4, 1.4, 0.03, 0.006, 900.0
+    names = {"F_c": 120.0, "b": 3e-4, "s": 1.4, "v_s": 0.03, "v_t": 0.006, "d": 900.0}
+    for v in (-0.2, -0.004, 0.0, 0.01, 0.7):
+        for difference in (-2e7, 0.0, 4e4, 1e6):
+            page = formula_of("`friction` of a cylinder", "(F_c + b", ": F_c", v=v, dp=difference, **names)
+            assert friction_force(numbers, v, difference) == pytest.approx(page, rel=1e-12, abs=1e-9)
+
+
+def test_the_edge_of_an_area_is_the_formula_of_the_page():
+    fluid = Fluid(name="oil", density=850.0, air=0.01)
+    density = formula_of("edge of a spool valve", "ρ₀ = (1", " with", rho_l=850.0, air=0.01)
+    assert fluid.mixed_density == pytest.approx(density, rel=1e-12)
+    edge = Edge(area={"of": "position", "points": [0, 1], "values": [0, 3e-5]})
+    valve = SimpleNamespace(curves_of=lambda edge: [edge.area], transition=5e4)
+    _, (curve,) = conductances(valve, edge, density)
+    page = formula_of("edge of a spool valve", "K = C A", ",", C=0.65, A=3e-5, rho=density)
+    assert curve.values[-1] == pytest.approx(page, rel=1e-12)
+
+
+def test_check_valves_of_brake_valves_are_those_of_the_page():
+    (line,) = re.findall(r"^\| brake valve \|.*$", PAGE, re.MULTILINE)
+    (found,) = re.findall(r"S\(\(p_VA - p_A - ([\de.]+)\)/([\de.]+)\)", line)
+    assert tuple(map(float, found)) == (CHECK_OPENS_AT, CHECK_RANGE)

@@ -8,7 +8,7 @@ from nivel.kernels.record.hook import apply_forces, finish_forces, measure_activ
 from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.saddle import factorise_rows, multipliers
 from nivel.motion import newton_euler as ne
-from nivel.motion.newton_euler_correction import correct
+from nivel.motion.newton_euler import correct
 from part import part
 
 

@@ -13,7 +13,7 @@ from nivel.kernels.solve.saddle import factorise_rows, multipliers
 from nivel.kernels.tree.articulated import accelerate, factorise_tree, own_inertia, whiten_efforts, whiten_tree_rows
 from nivel.kernels.tree.tree import move_tree
 from nivel.motion import relative
-from nivel.motion.relative_correction import correct
+from nivel.motion.relative import correct
 from nivel.motion.tree_motion import write_positions
 from part import part
 

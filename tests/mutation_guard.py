@@ -97,7 +97,7 @@ COVER = {
     )),
     "integrate/radau/": verification("radau", "implicit_tolerance", "implicit_friction"),
     "integrate/rosenbrock/": (*verification("ros2"), *HYDRAULICS),
-    "integrate/stabilise/": verification("geometric", "formulations", "motion"),
+    "integrate/stabilise.py": verification("geometric", "formulations", "motion"),
     "integrate/variable_order/": ("integrate/test_multistep_polynomials.py", *verification("bdf", "tolerance", "implicit_tolerance")),
     "kernels/": STATES,
     "kernels/algebra/": (

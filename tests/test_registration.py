@@ -16,7 +16,7 @@ from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.stabilise import STABILISATIONS
 from nivel.judge.after.report import every_check
 from nivel.judge.during.failure import FAILURES
 from nivel.judge.during.stop import Status

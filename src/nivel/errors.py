@@ -9,8 +9,9 @@ Anything else that escapes is a defect of nivel.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from typing import Final
 
 LONGEST: Final = 2000  # characters of a line; names may be of any length
@@ -86,3 +87,12 @@ class SolveError(NivelError):
         self.advice = advice
         self.result = result
         super().__init__(f"{message}\n{advice}" if advice else message)
+
+
+@contextmanager
+def located(place: str) -> Iterator[None]:
+    """Faults without a place that come up inside get this one."""
+    try:
+        yield
+    except ModelError as error:
+        raise ModelError([replace(fault, path=fault.path or place) for fault in error.faults]) from error

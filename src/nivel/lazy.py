@@ -208,6 +208,7 @@ if TYPE_CHECKING:
     import nivel.system.signals.c_instance
     import nivel.system.signals.fmu_instance
     import nivel.system.signals.own_process
+    import nivel.system.states.flexible_tree
     import nivel.system.states.relative
     import nivel.system.states.tree_nodes
     import nivel.view.capture

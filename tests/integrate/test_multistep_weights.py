@@ -5,9 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from nivel.integrate.multistep.adams_weights import BASHFORTH, MOULTON
-from nivel.integrate.multistep.diagonal import GAMMA, MATRIX, NODES
+from nivel.integrate.multistep.adams import BASHFORTH, MOULTON
 from nivel.integrate.multistep.gear import BACKWARD, EXTRAPOLATED, RATE_WEIGHT
+from nivel.integrate.multistep.newton import GAMMA, MATRIX, NODES
 
 
 def product(p, q):

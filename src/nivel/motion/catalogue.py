@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from importlib import import_module
+from typing import Any
 
 
 @dataclass(frozen=True)
 class PathFacts:
     """Where the equations of motion in some coordinates are.
 
-    module : its `evaluate` and `normalise_state`; correction : its `correct`, the direct correction; arrangement : a module of
-    `nivel.system.states` that turns an assembled machine in absolute coordinates into the numbers and the state of this path. residual :
+    module : its `evaluate` and `normalise_state`; correction : its `correct`, the direct correction; arrangement : `module:function` of
+    `nivel.system.states`, which turns an assembled machine in absolute coordinates into the numbers and the state of this path. residual :
     module of its residual for implicit methods, empty where there is none. dependent : module of its `depend`, what follows from
     independent coordinates, for those that solve for accelerations.
     """
@@ -20,6 +22,12 @@ class PathFacts:
     arrangement: str
     residual: str = ""
     dependent: str = ""
+
+    @property
+    def arrange(self) -> Any:
+        """The function that turns an assembled machine into the numbers and the state of this path."""
+        module, name = self.arrangement.split(":")
+        return getattr(import_module(module), name)
 
 
 @dataclass(frozen=True)
@@ -33,82 +41,38 @@ class FormulationFacts:
     iterated: bool = False
 
 
-_ABSOLUTE = PathFacts(
-    "nivel.motion.newton_euler",
-    "nivel.motion.newton_euler_correction",
-    "nivel.system.states.absolute",
-    "nivel.motion.newton_euler_residual",
-)
-_PARAMETERS = PathFacts(
-    "nivel.motion.lagrange",
-    "nivel.motion.lagrange_correction",
-    "nivel.system.states.parameters",
-    "nivel.motion.lagrange_residual",
-)
-_INDEPENDENT = PathFacts(
-    "nivel.motion.independent",
-    "nivel.motion.independent",
-    "nivel.system.states.independent",
-    "nivel.motion.newton_euler_residual",
-    "nivel.motion.dependent",
-)
-_PARAMETERS_INDEPENDENT = PathFacts(
-    "nivel.motion.lagrange_independent",
-    "nivel.motion.lagrange_independent",
-    "nivel.system.states.parameters_independent",
-)
-_ANGLES, _VECTOR = (
-    PathFacts(
-        "nivel.motion.lagrange_three",
-        "nivel.motion.lagrange_three_correction",
-        f"nivel.system.states.{kind}",
-        "nivel.motion.lagrange_three_residual",
-    )
-    for kind in ("euler_angles", "rotation_vector")
-)
+def _path(module: str, arrange: str, residual: str = "", *, dependent: bool = False) -> PathFacts:
+    module = f"nivel.motion.{module}"
+    arrangement = f"nivel.system.states.{arrange}"
+    return PathFacts(module, module, arrangement, residual and f"nivel.motion.{residual}", module if dependent else "")
 
-# of machines with flexible bodies
-FLOATING = PathFacts(
-    "nivel.motion.floating_frame",
-    "nivel.motion.floating_frame_correction",
-    "nivel.system.states.floating",
-    "nivel.motion.floating_frame_residual",
-)
-FLEXIBLE_TREE = PathFacts(
-    "nivel.motion.flexible_tree",
-    "nivel.motion.flexible_tree_correction",
-    "nivel.system.states.flexible_tree",
-    "nivel.motion.relative_residual",
-)
-_FLOATING_INDEPENDENT = PathFacts(
-    "nivel.motion.floating_independent",
-    "nivel.motion.floating_independent",
-    "nivel.system.states.floating_independent",
-    "nivel.motion.floating_frame_residual",
-    "nivel.motion.floating_dependent",
-)
 
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
-    ("absolute", "newton-euler", "euler-parameters"): _ABSOLUTE,
-    ("absolute", "lagrange", "euler-parameters"): _PARAMETERS,
-    ("absolute", "lagrange", "euler-angles"): _ANGLES,
-    ("absolute", "lagrange", "rotation-vector"): _VECTOR,
-    ("relative", "newton-euler", "euler-parameters"): PathFacts(
-        "nivel.motion.relative",
-        "nivel.motion.relative_correction",
-        "nivel.system.states.relative",
-        "nivel.motion.relative_residual",
+    ("absolute", "newton-euler", "euler-parameters"): _path("newton_euler", "absolute:arrange", "newton_euler"),
+    ("absolute", "lagrange", "euler-parameters"): _path("lagrange", "parameters:arrange", "lagrange_residual"),
+    ("absolute", "lagrange", "euler-angles"): _path(
+        "lagrange_three", "three_coordinates:arrange_euler_angles", "lagrange_three"
     ),
-    ("independent", "newton-euler", "euler-parameters"): _INDEPENDENT,
-    ("independent", "lagrange", "euler-parameters"): _PARAMETERS_INDEPENDENT,
+    ("absolute", "lagrange", "rotation-vector"): _path(
+        "lagrange_three", "three_coordinates:arrange_rotation_vectors", "lagrange_three"
+    ),
+    ("relative", "newton-euler", "euler-parameters"): _path("relative", "relative:arrange", "relative"),
+    ("independent", "newton-euler", "euler-parameters"): _path(
+        "independent", "absolute:arrange_independent", "newton_euler", dependent=True
+    ),
+    ("independent", "lagrange", "euler-parameters"): _path("lagrange_independent", "parameters:arrange_independent"),
 }
 
 # the same for machines with flexible bodies
+FLOATING = _path("floating_frame", "floating:arrange", "floating_frame")
+FLEXIBLE_TREE = _path("flexible_tree", "flexible_tree:arrange", "relative")
 FLEXIBLE: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): FLOATING,
     ("relative", "newton-euler", "euler-parameters"): FLEXIBLE_TREE,
-    ("independent", "newton-euler", "euler-parameters"): _FLOATING_INDEPENDENT,
+    ("independent", "newton-euler", "euler-parameters"): _path(
+        "floating_independent", "floating:arrange_independent", "floating_frame", dependent=True
+    ),
 }
 
 FORMULATIONS: dict[str, FormulationFacts] = {
@@ -119,12 +83,9 @@ FORMULATIONS: dict[str, FormulationFacts] = {
 }
 
 
-# accelerations by the residual, where the mass matrix has no blocks of single bodies; corrections with its matrix, where beams carry bodies
-# that slide along them
-IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION = (
-    "nivel.motion.implicit_accelerations",
-    "nivel.motion.implicit_accelerations_correction",
-)
+# accelerations by the residual, where the mass matrix has no blocks of single bodies, and corrections with its matrix, where beams carry
+# bodies that slide along them
+IMPLICIT_ACCELERATIONS = "nivel.motion.implicit_accelerations"
 
 
 def path_of(
@@ -147,4 +108,6 @@ def path_of(
         return path
     if not path.residual or formulation != "newton-euler":
         return None
-    return replace(path, module=IMPLICIT_ACCELERATIONS, correction=IMPLICIT_CORRECTION if sliding else path.correction)
+    return replace(
+        path, module=IMPLICIT_ACCELERATIONS, correction=IMPLICIT_ACCELERATIONS if sliding else path.correction
+    )

@@ -18,8 +18,7 @@ from nivel.kernels.tree.flexible_whitening import (
     whiten_flexible_efforts,
     whiten_flexible_tree_rows,
 )
-from nivel.kernels.tree.tree_markers import read_markers
-from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
+from nivel.motion.tree_motion import WIDTH, correct_tree, evaluate_tree, normalise, read_markers
 from nivel.native.entry import entry
 from nivel.native.function import stage
 
@@ -54,7 +53,7 @@ def factorise_flexible(machine):
 
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
-    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree.tree_outputs_flexible` adds for frames."""
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree.tree_outputs` adds for frames."""
     return evaluate_tree(
         machine,
         t,
@@ -73,3 +72,9 @@ def normalise_state(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing."""
     normalise(machine, y)
     return OK
+
+
+@entry(CORRECT)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints."""
+    return correct_tree(machine, t, y, read_flexible_tree, factorise_flexible, accelerate_flexible)

@@ -10,8 +10,9 @@ from nivel.kernels.bodies.floating_dynamics import factorise_frames, gather
 from nivel.kernels.bodies.floating_frame import accelerate_frames
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import apply_forces, finish_forces
+from nivel.kernels.record.hook import apply_forces, family, finish_forces
 from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.embedding import depend_on
 from nivel.kernels.solve.partition import divide
 from nivel.motion.floating_frame import evaluate as evaluate_newton_euler
 from nivel.motion.floating_frame import read_flexible_state, write_rates
@@ -77,3 +78,9 @@ def normalise_state(machine, t, y):
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly
 correct = normalise_state
+
+
+@family
+def depend(machine, job, t):
+    """What depends on the independent coordinates, see `nivel.kernels.solve.embedding.depend_on`."""
+    return depend_on(machine, t, normalise_state, read_flexible_state)

@@ -17,9 +17,9 @@ from nivel.kernels.algebra.rotation import rates_of_parameters
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import OK, SINGULAR
-from nivel.kernels.record.hook import apply_forces, finish_forces
+from nivel.kernels.record.hook import apply_forces, family, finish_forces
 from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.solve.embedding import embed, generalised_forces
+from nivel.kernels.solve.embedding import depend_on, embed, generalised_forces
 from nivel.kernels.solve.partition import divide, solve_dependent, solve_multipliers
 from nivel.kernels.solve.saddle import PIVOTED
 from nivel.motion.direct import STEEP
@@ -194,3 +194,9 @@ def normalise_state(machine, t, y):
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly
 correct = normalise_state
+
+
+@family
+def depend(machine, job, t):
+    """What depends on the independent coordinates, see `nivel.kernels.solve.embedding.depend_on`."""
+    return depend_on(machine, t, normalise_state, read_state)

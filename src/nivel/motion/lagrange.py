@@ -15,6 +15,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, finish_forces
 from nivel.kernels.record.record import CORRECT, EVALUATE, NONE, record_at
 from nivel.kernels.solve.saddle import factorise_rows, multipliers
+from nivel.motion.direct import POSITIONS, correct_levels
 from nivel.motion.newton_euler import read_markers
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage
@@ -292,3 +293,21 @@ def evaluate(machine, t, y, ydot):
 def normalise_state(machine, t, y):
     """No correction: the normalisation rows drift like all others."""
     return OK
+
+
+@stage
+def apply_change(machine, y, what):
+    """Apply the change found to (R, θ) or to (Ṙ, θ̇); it is least in the metric M + μ θ θᵀ."""
+    record = record_at(machine)
+    nb = record.bodies.mass.shape[0]
+    first = 0 if what == POSITIONS else 7 * nb
+    for b in range(nb):
+        unwhiten(machine, b)
+        for i in range(7):
+            y[first + 7 * b + i] += record.saddle.z[b, i]
+
+
+@entry(CORRECT)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints, see `nivel.motion.direct.correct_levels`."""
+    return correct_levels(machine, t, y, WIDTH, read_state, factorise, apply_change)

@@ -12,9 +12,11 @@ from nivel.kernels.bodies.constraint import constraint_rows
 from nivel.kernels.bodies.marker import move_markers, place_markers
 from nivel.kernels.bodies.rigid import load_weight, place_body
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import apply_forces, finish_forces, measure_active
+from nivel.kernels.record.hook import apply_forces, family, finish_forces, measure_active
 from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.residual.residual import find_wrenches, write_rows
 from nivel.kernels.solve.saddle import factorise_rows, multipliers
+from nivel.motion.direct import POSITIONS, correct_levels
 from nivel.native.entry import entry
 from nivel.native.function import shared, stage
 
@@ -218,4 +220,53 @@ def evaluate(machine, t, y, ydot):
 def normalise_state(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
     normalise(machine, y)
+    return OK
+
+
+@stage
+def read_normalised(machine, t, y):
+    """The state, with Euler parameters of unit length. Returns a status."""
+    normalise(machine, y)
+    return read_state(machine, t, y)
+
+
+@stage
+def apply_change(machine, y, what):
+    """Apply the change found to (R, θ) or (Ṙ, ω̄)."""
+    record = record_at(machine)
+    nb = record.bodies.mass.shape[0]
+    for b in range(nb):
+        unwhiten(record.bodies, record.saddle, b)
+        change_body(record, y, b, 7 * nb, what == POSITIONS)
+
+
+@entry(CORRECT)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints, see `nivel.motion.direct.correct_levels`."""
+    return correct_levels(machine, t, y, WIDTH, read_normalised, factorise, apply_change)
+
+
+@family
+def residual(machine, job, t):
+    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
+    record = record_at(machine)
+    bodies, own = record.bodies, record.residual
+    count = bodies.mass.shape[0]
+    status = read_state(machine, t, own.y)
+    if status != OK:
+        return status
+    for b in range(count):
+        A, x, v = bodies.A[b], own.acceleration[b], own.vdot[6 * b : 6 * b + 6]
+        for i in range(3):
+            x[i] = A[i, 0] * v[3] + A[i, 1] * v[4] + A[i, 2] * v[5]
+            x[3 + i] = v[i]
+    status = find_wrenches(machine, t)
+    if status != OK:
+        return status
+    for b in range(count):
+        A, F = bodies.A[b], own.wrench[b]
+        for i in range(3):
+            own.value[6 * b + i] = F[3 + i]
+            own.value[6 * b + 3 + i] = A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
+    write_rows(machine, 6 * count)
     return OK

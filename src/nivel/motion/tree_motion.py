@@ -6,11 +6,39 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
+from nivel.kernels.bodies.constraint import constraint_rows
+from nivel.kernels.bodies.marker import move_marker, place_point, turn_axes
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import finish_forces
+from nivel.kernels.record.hook import finish_forces, measure_active
 from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.saddle import multipliers
+from nivel.motion.direct import (
+    LOST,
+    MOST_CORRECTIONS,
+    NOTHING,
+    VELOCITIES,
+    find_correction,
+    is_near,
+    name_lost,
+    open_level,
+)
 from nivel.native.function import shared, stage
+
+
+@stage
+def read_markers(machine, t):
+    """The markers in use, the rows that are left and the coordinates that something needs. Returns a status."""
+    record = record_at(machine)
+    bodies, markers = record.bodies, record.markers
+    for n in range(record.tree.marker.shape[0]):
+        k = record.tree.marker[n]
+        place_point(bodies, markers, k)
+        if record.tree.turning[n] != 0:
+            turn_axes(bodies, markers, k)
+        move_marker(bodies, markers, k)
+    constraint_rows(bodies, markers, record.constraints)
+    return measure_active(machine, t)
+
 
 WIDTH = 1
 
@@ -76,3 +104,44 @@ def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate
     for n in range(tree.node.shape[0]):
         write_positions(machine, y, y, ydot, n, np.int64(tree.place[n, 1]))
     return status
+
+
+@shared
+def correct_tree(machine, t, y, read, factorise, accelerate):
+    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137), least in the mass metric.
+
+    read, factorise, accelerate : the recursion of a tree, compiled into this one. Returns a status.
+    """
+    record = record_at(machine)
+    tree, change = record.tree, record.tree.change
+    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
+    normalise(machine, y)
+    if record.saddle.row.shape[0] == 0:
+        return OK
+    factorised = False
+    for attempt in range(MOST_CORRECTIONS + 1):
+        status = read(machine, t, y)
+        if status != OK:
+            return status
+        what = open_level(machine, attempt)
+        if what == NOTHING:
+            return OK
+        if what == LOST:
+            return name_lost(machine)
+        if not factorised:
+            status = factorise(machine)
+            if status != OK:
+                return status
+        factorised = is_near(machine)
+        find_correction(machine, what, WIDTH)
+        accelerate(machine, change)
+        if what == VELOCITIES:
+            for k in range(columns):
+                y[positions + k] += change[k]
+            return OK
+        for n in range(tree.node.shape[0]):
+            write_positions(machine, y, change, tree.moved, n, np.int64(tree.node[n, 4]))
+        for k in range(positions):
+            y[k] += tree.moved[k]
+        normalise(machine, y)
+    return OK

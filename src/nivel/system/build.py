@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from nivel.elements.forces import FORCES
+from nivel.errors import located
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
 from nivel.kernels.elements import friction
@@ -40,10 +41,7 @@ from nivel.kernels.record.record import (
 )
 from nivel.kernels.residual import point_inertia as points
 from nivel.kernels.signals import sensor
-from nivel.kernels.signals.control import apply as compute
-from nivel.kernels.signals.input import apply
-from nivel.kernels.signals.input import apply as read_inputs
-from nivel.kernels.signals.sampling import sample
+from nivel.kernels.signals.functions import compute, read_inputs, sample
 from nivel.kernels.signals.watch import MARK
 from nivel.kernels.solve.saddle import SETTLED
 from nivel.machine.laws.table import Table
@@ -63,7 +61,6 @@ from nivel.system.joints.driver_rows import add_drivers
 from nivel.system.joints.interfaces import refuse_unknown_interfaces
 from nivel.system.joints.rows import RowTable, add_couplings, add_joint, coordinate_units
 from nivel.system.layout import first_columns, frame_layout
-from nivel.system.located import located
 from nivel.system.saddle import friction_parts, friction_tables, moved_masses, saddle_tables
 from nivel.system.signals.control import add_control
 from nivel.system.signals.sensors import sensor_columns
@@ -80,7 +77,7 @@ def add_inputs(builder: SystemBuilder) -> None:
             course = each.course
             function = builder.function(course if isinstance(course, Table) else float(course))
             output = builder.outputs.add((f"{each.name}.value", each.units or "1", f"input {each.name}"))
-            builder.elements.add(apply, [output, function])
+            builder.elements.add(read_inputs, [output, function])
             builder.inputs[each.name] = (OUTPUT, output, 0)
             builder.input_functions.append(function)
 

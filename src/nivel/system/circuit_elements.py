@@ -17,8 +17,8 @@ from nivel.elements.circuits.restrictions import restrict_gas
 from nivel.elements.circuits.tanks import Tank
 from nivel.elements.circuits.volumes import GIVEN, SIGNAL, find_pressures
 from nivel.elements.states import Coupled, StateFact
+from nivel.errors import located
 from nivel.machine.uses.hydraulic_uses import makers
-from nivel.system.located import located
 
 if TYPE_CHECKING:
     from nivel.elements.circuits.component import Component

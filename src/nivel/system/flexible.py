@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, located
 from nivel.flexible.body.body import Interface, ReducedBody
 from nivel.flexible.body.body_file import read_body
 from nivel.flexible.body.invariants import Invariants
@@ -20,7 +20,6 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.gradient_nodes import GradientNode
-from nivel.system.located import located
 from nivel.system.tables import Array, index_array
 
 # of what ω_a ω_b does in each component of a symmetric tensor: those off the diagonal count twice

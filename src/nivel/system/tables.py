@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.states import StateFact
-from nivel.kernels.bodies.combined import COMBINED
 from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
+from nivel.kernels.bodies.measure import COMBINED
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
 

@@ -308,6 +308,6 @@ def test_what_stays_refused_says_why():
 
 def test_dependent_coordinates_are_compiled_for_methods_that_ask_for_them_alone():
     assert not equipped(machines.slider_crank(), "radau")[0].motion.system.record.hooks.address[DEPENDENT]
-    module = import_module("nivel.motion.dependent")
+    module = import_module("nivel.motion.independent")
     address = equipped(machines.slider_crank())[0].motion.system.record.hooks.address[DEPENDENT]
     assert int(address) == module.depend.address

@@ -28,7 +28,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.positions import follow_positions
 from nivel.integrate.loop.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
 from nivel.integrate.loop.sink import Header, Sink
-from nivel.integrate.stabilise import direct
+from nivel.integrate.stabilise import STABILISATIONS
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Positions
 from nivel.judge.before.analyses import OF_KINEMATICS, free_motions
@@ -141,7 +141,7 @@ def follow(
 ) -> tuple[RunOutcome, Run]:
     """Give every position to the sink (already begun). Returns how it ended, and the history."""
     system = prepared.motion.system
-    system.record.control.stabilise[:] = direct.coefficients(settings.step, None, None)
+    system.record.control.stabilise[:] = STABILISATIONS["direct"].coefficients(settings.step, None, None)
     run = start_history(prepared, settings, FACTS)
     kernels, history = prepared.motion.kernels, Handle(run)
     correct = import_module(prepared.path.correction).correct

@@ -17,19 +17,17 @@ from nivel.elements.forces import FORCES
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
-from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.c_function import output as c_output
-from nivel.kernels.signals.control import apply as compute
 from nivel.kernels.signals.fmu import output as fmu_output
-from nivel.kernels.signals.input import apply as read_inputs
+from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
+from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
@@ -52,24 +50,22 @@ MEASURE, FRICTION = "nivel.kernels.bodies.measure", "nivel.kernels.elements.fric
 SENSOR, WATCH, SAMPLING = (
     "nivel.kernels.signals.sensor",
     "nivel.kernels.signals.watch",
-    "nivel.kernels.signals.sampling",
+    "nivel.kernels.signals.functions:sample",
 )
 HEIGHT_WAY = "nivel.kernels.forces.height_way"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
 OF_BEAMS = "nivel.kernels.residual.beam_tangent"
 POINTS = "nivel.kernels.residual.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
-OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.slider_nodes"
+OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.tree_nodes"
 PASSING = "nivel.kernels.residual.element_crossing"
 # modules, besides those of residuals and forces, that exact derivatives may need on dual numbers
 WITH_DERIVATIVES = (MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS)
 # the loads of redundant joints in frames, known only when a machine is assembled
 SHARED_LOADS = "nivel.motion.shared_loads"
 # what completes the frames of runs in relative coordinates
-COMPLETIONS = (
-    "nivel.kernels.tree.tree_outputs",
-    "nivel.kernels.tree.tree_outputs_implicit",
-    "nivel.kernels.tree.tree_outputs_flexible",
+COMPLETIONS = tuple(
+    f"nivel.kernels.tree.tree_outputs:{name}" for name in ("complete", "complete_implicit", "complete_flexible")
 )
 
 
@@ -123,8 +119,10 @@ def _bar() -> Iterator[Listener]:
 def in_words(name: str) -> str:
     """What an entry is, for people: the end of its module's name."""
     module, _, path = name.partition(":")
-    of_duals = {"twin": ", exact derivatives", "whole": ", gradients"}.get(path.rpartition(".")[2], "")
-    return module.rpartition(".")[2].replace("_", " ") + of_duals
+    name, _, duals = path.partition(".")
+    part = {"correct": " correction", "residual": " residual", "depend": " dependent"}.get(name, "")
+    of_duals = {"twin": ", exact derivatives", "whole": ", gradients"}.get(duals, "")
+    return module.rpartition(".")[2].replace("_", " ") + part + of_duals
 
 
 def assembly_entries(machine: MachineRecord) -> list[Entry]:
@@ -146,7 +144,7 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         twins += _with_twins(path.residual, [], []) if methods.solves_residual else []
         twins.append(entry_of(RESIDUAL))
     if integrator.needs == "accelerations" and path.dependent:
-        modules.append(path.dependent)
+        modules.append(f"{path.dependent}:depend")
     slopes = [SLOPES.get(family) for family in families_of(machine)] if integrator.needs == "circuits" else []
     own = _motions(machine) if methods.coordinates == "relative" else []
     twins += [motion.twin for motion in own if twins]
@@ -171,7 +169,7 @@ def run_entries(plan: Plan) -> list[Entry]:
     path = methods.path
     if methods.machine.is_flexible:
         modules.append(FLOATING.module)  # singular positions are searched for in absolute coordinates
-    after_steps = f"{path.correction}:correct" if plan.stabilisation.CORRECTS else f"{path.module}:normalise_state"
+    after_steps = f"{path.correction}:correct" if plan.stabilisation.corrects else f"{path.module}:normalise_state"
     return [*preparation_entries(methods), methods.integrator.step, *_entries(modules), entry_of(after_steps)]
 
 
@@ -215,7 +213,6 @@ def all_entries() -> list[Entry]:
         HEIGHT_WAY,
         SAMPLING,
         IMPLICIT_ACCELERATIONS,
-        IMPLICIT_CORRECTION,
         *COMPLETIONS,
     ]
     modules += [
@@ -240,7 +237,7 @@ def all_entries() -> list[Entry]:
             *BEAMS,
             read_inputs,
             compute,
-            state_rate,
+            rate_states,
             c_output,
             fmu_output,
             run_expression,
@@ -255,26 +252,31 @@ def all_entries() -> list[Entry]:
 
 
 def _entries(modules: Iterable[str]) -> list[Entry]:
-    """The entries of modules, on real numbers."""
+    """The entries of modules, or single ones as `module:name`, on real numbers."""
     out = []
     for module in dict.fromkeys(modules):
-        parts = vars(import_module(module)).values()
-        entries = [
-            part.code if isinstance(part, Family) else part for part in parts if isinstance(part, Family | Entry)
-        ]
-        out += [entry for entry in entries if entry.name.startswith(f"{module}:")]
+        parts = [part.code if isinstance(part, Family) else part for part in _parts(module)]
+        out += [entry for entry in parts if entry.name.startswith(f"{module.partition(':')[0]}:")]
     return out
 
 
+def _parts(place: str) -> list[Family | Entry]:
+    """Those of a module, or the one of `module:name`."""
+    module, _, name = place.partition(":")
+    found = vars(import_module(module))
+    parts = [found[name]] if name else found.values()
+    return [part for part in parts if isinstance(part, Family | Entry)]
+
+
 def _twins(module: str) -> list[Entry]:
-    """The families of a module on dual numbers."""
-    parts = vars(import_module(module)).values()
-    return [part.twin for part in parts if isinstance(part, Family) and part.module == module]
+    """The families of a module, or a single one, on dual numbers."""
+    families = [part for part in _parts(module) if isinstance(part, Family)]
+    return [family.twin for family in families if family.module == module.partition(":")[0]]
 
 
 def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], *, held: bool = True) -> list[Entry]:
     """A residual, and on dual numbers it and what a run uses: modules, families. held : elements of beams are found by hand."""
-    needed = [residual, *(module for module in WITH_DERIVATIVES if module in used)]
+    needed = [f"{residual}:residual", *(module for module in WITH_DERIVATIVES if module in used)]
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
     of_forces = [(hold if held and family is ELASTIC else family).twin for family in families]
@@ -287,7 +289,7 @@ def _families(machine: MachineRecord) -> list[Family]:
     families |= dict.fromkeys(families_of(machine))
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
-    families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
+    families |= dict.fromkeys([compute, rate_states] if machine.control else [rate_states] if machine.states else [])
     families |= dict.fromkeys(_unit_law(block.facts) for block in machine.control if isinstance(block, UnitBlock))
     return [*families, run_expression]
 

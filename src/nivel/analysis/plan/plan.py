@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from types import ModuleType
 
 from nivel.analysis.plan.choice import (
     FOR_STIFF,
@@ -22,7 +21,7 @@ from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.before.refusals import (
     conserved_drivers,
     flexible_lagrange,
@@ -133,8 +132,8 @@ class Plan:
     asked: MachineRecord | None = None
 
     @property
-    def stabilisation(self) -> ModuleType:
-        """The module of `nivel.integrate.stabilise`."""
+    def stabilisation(self) -> Stabilisation:
+        """How constraints are kept, see `nivel.integrate.stabilise`."""
         return STABILISATIONS[self.settings.stabilisation]
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,7 @@ from nivel.judge.before.refusals import (
 )
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
+from nivel.lazy import nivel
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
@@ -247,13 +248,13 @@ def _leave_out_repeated(system: System, absolute: MotionEquations, assembled: Ar
 def arranged(absolute: System, y: Array, rest: Rest | None, rank: int, methods: Methods) -> tuple[System, Array]:
     """The system and its state y, given in absolute coordinates, in those of the path; with the modes bent by the loads of the equilibrium
     `rest` from which the run starts."""
-    arrangement: Any = import_module(methods.path.arrangement)
+    arrange = methods.path.arrange
     machine = methods.machine
-    system, start = arrangement.arrange(machine, absolute, y, rank, methods.cut)
+    system, start = arrange(machine, absolute, y, rank, methods.cut)
     if rest is None:
         return system, start
     if machine.is_flexible and methods.coordinates == "relative":
-        system, start = arrangement.arrange_deformed(machine, absolute, rest.q, rank, methods.cut)
+        system, start = nivel.system.states.flexible_tree.arrange_deformed(machine, absolute, rest.q, rank, methods.cut)
     elif machine.is_flexible:
         # the bodies are there already
         start[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]

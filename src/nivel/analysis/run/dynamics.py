@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
 from re import sub
-from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -50,7 +49,7 @@ from nivel.integrate.loop.run import (
     Run,
 )
 from nivel.integrate.loop.sink import Sink
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.before.circuits import circuit_remarks
 from nivel.judge.during.failure import Status, Stop, failure
 from nivel.judge.during.fastest import fastest_beyond, held_step
@@ -209,9 +208,9 @@ def start_loop(prepared: Prepared, settings: RunSettings, *, at_switches: bool =
     stabilisation = STABILISATIONS[settings.stabilisation]
     _feed_back(prepared.motion.system, settings, stabilisation)
     kernels, facts = prepared.motion.kernels, prepared.integrator
-    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
+    correct = import_module(prepared.path.correction).correct if stabilisation.corrects else kernels.normalise_state
     run = start_history(prepared, settings, facts, _kept_ends(prepared, settings), at_switches)
-    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
+    run.counter[CONSERVE] = int(stabilisation.conserves)
     step = facts.step
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
 
@@ -242,13 +241,13 @@ def _kept_ends(prepared: Prepared, settings: RunSettings) -> int:
     return LONGEST + 1
 
 
-def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+def _feed_back(system: System, settings: RunSettings, stabilisation: Stabilisation) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     control, own = system.record.control, settings.asked.baumgarte
     control.stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
     rows = np.tile(control.stabilise[:2], (len(system.rows), 1))
     if settings.penalty is not None:
-        rows = feedback(system, settings.penalty, settings.step, stabilisation.CORRECTS)
+        rows = feedback(system, settings.penalty, settings.step, stabilisation.corrects)
     elif settings.stabilisation == "baumgarte" and own is not None:
         for row, each in of_rows(system, own.rows, "simulation.baumgarte").items():
             rows[row] = stabilisation.coefficients(settings.step, each.alpha, each.beta)[:2]

@@ -46,7 +46,7 @@ from nivel.integrate.loop.run import (
     VALUE_ROWS,
     Run,
 )
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.stabilise import STABILISATIONS
 from nivel.judge.after.checks.friction import STILL
 from nivel.judge.before.refusals import WHOLE
 from nivel.judge.during.lockup import can_be_asked
@@ -54,14 +54,14 @@ from nivel.kernels.elements import friction as columns
 from nivel.kernels.forces import ground_contact, height_way
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.record import WATCH, Sampled
-from nivel.kernels.signals.sampling import sample
+from nivel.kernels.signals.functions import sample
 from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
 from nivel.system.forces.height_fields import rows_over_heights
 from nivel.system.signals.control import ONCE
-from nivel.system.signals.ticks import ratio_of
+from nivel.system.signals.user_states import ratio_of
 from nivel.system.system import Array, System
 
 BUFFER_BYTES = 1_000_000
@@ -187,7 +187,7 @@ def _open_limit(prepared: Prepared, settings: RunSettings) -> float:
     """The share of the scales of the constraints by which positions may be open until it is asked whether the machine jams."""
     if not can_be_asked(prepared):
         return TORN
-    return VISIBLE if STABILISATIONS[settings.stabilisation].CORRECTS else CONTRADICTORY
+    return VISIBLE if STABILISATIONS[settings.stabilisation].corrects else CONTRADICTORY
 
 
 def _counters(settings: RunSettings, facts: IntegratorFacts) -> NDArray[np.int64]:

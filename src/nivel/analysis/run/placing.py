@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -150,9 +149,9 @@ class Placing:
         """The state in the coordinates of the run. y : in absolute ones."""
         prepared, methods = self._prepared, self._methods
         absolute = self._motion.system
-        arrangement: Any = import_module(methods.path.arrangement)
+        arrange = methods.path.arrange
         rank = absolute.machine_rows - len(prepared.redundancy.redundant_rows)
-        _, out = arrangement.arrange(methods.machine, absolute, y, rank, methods.cut)
+        _, out = arrange(methods.machine, absolute, y, rank, methods.cut)
         out[len(out) - len(states) :] = states
         tree = prepared.motion.system.record.tree
         for (coordinate, place), (sign, offset) in zip(tree.counted.tolist(), tree.turn.tolist(), strict=True):

@@ -11,7 +11,7 @@ import numpy as np
 from nivel.integrate.loop.run import EVALUATIONS, TIME, UNCONSERVED, run_at
 from nivel.kernels.bodies.rigid import turn_to_body_axes
 from nivel.kernels.core.status import OK
-from nivel.kernels.output.energy import energies
+from nivel.kernels.output.observe import energies
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf

@@ -29,7 +29,7 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.loop.step_control import fastest_turn
 from nivel.kernels.bodies.rigid import turn_to_body_axes
-from nivel.kernels.output.energy import energies
+from nivel.kernels.output.observe import energies
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
 

@@ -14,10 +14,10 @@ import numpy as np
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import NEWTON, ORDER, REACHED, STEP, STEP_SIGNATURE, run_at
 from nivel.integrate.loop.workspace import KNOWN, NUMBERS, ROWS, STATES
-from nivel.integrate.multistep.adams_weights import predict, rates_before
+from nivel.integrate.multistep.adams import predict, rates_before
 from nivel.integrate.multistep.corrector import solve
-from nivel.integrate.multistep.diagonal import begin_implicit
 from nivel.integrate.multistep.multistep import remember
+from nivel.integrate.multistep.newton import begin_implicit
 from nivel.native.entry import entry
 from nivel.native.function import leaf
 

@@ -12,8 +12,6 @@ and Y₂ is taken as it is: Y₁ has passed through the stop, and an extrapolati
 
 The guard is the same. How far the pressures of Y₁ and Y₂ differ follows from masses and strokes by their slopes before and behind the step;
 where that is more than a part of LARGEST, both are evaluated.
-
-Machines with flexible bodies: `nivel.integrate.rosenbrock.flexible_circuit_euler`.
 """
 
 from __future__ import annotations
@@ -39,9 +37,10 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.circuit_shift import advance_circuit, factorise_circuit, soften
-from nivel.motion.compliance import apply_compliance, project, respond
+from nivel.motion.compliance import apply_compliance, project, project_flexible, respond, respond_flexible
+from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.native.entry import entry
-from nivel.native.function import leaf, shared, stage
+from nivel.native.function import leaf, part, shared, stage
 
 # Numbers of the factors of the whole step and of its halves; more rows of run.stages: k without circuits, the rate at the begin.
 OF_WHOLE, OF_HALVES = 0, 1
@@ -200,6 +199,44 @@ def circuit_euler(evaluate, machine, history):
     return step_in_parts(evaluate, machine, history, attempt_rigid, BEGIN)
 
 
+# The same for machines with flexible bodies, whose modes are stiff too.
+#
+# J is that of `nivel.motion.circuit_shift` with the modes of `nivel.motion.modal_shift`, whose factors are those of the state at which each
+# part begins.
+
+
+@part
+def prepare_flexible(machine, number, s):
+    """Factors `number` for s, and those of the tree. Returns a status."""
+    status = factorise_shifted_modes(machine, s)
+    if status == OK:
+        status = apply_compliance(machine, project_flexible, respond_flexible)
+    if status != OK:
+        return status
+    soften(record_at(machine).circuit.tangent)
+    return factorise_circuit(machine, number, s)
+
+
+@stage
+def leave_modes(machine, y, f, s, other):
+    """k of the modes and joints without circuits. Returns a status."""
+    for i in range(f.shape[0]):
+        other[i] = f[i]
+    return solve_shifted_modes(machine, y, other, s)
+
+
+@stage
+def attempt_flexible(evaluate, machine, history):
+    """`attempt_over_circuits` of flexible bodies."""
+    return attempt_over_circuits(evaluate, machine, history, prepare_flexible, factorise_shifted_modes, leave_modes)
+
+
+@entry(STEP_SIGNATURE)
+def flexible_circuit_euler(evaluate, machine, history):
+    """One step."""
+    return step_in_parts(evaluate, machine, history, attempt_flexible, BEGIN)
+
+
 FACTS = (
     IntegratorFacts(
         "extrapolated-euler",
@@ -209,6 +246,16 @@ FACTS = (
         kind="implicit",
         needs="circuits",
         machines="circuits",
+        guarded=True,
+    ),
+    IntegratorFacts(
+        "extrapolated-euler",
+        flexible_circuit_euler,
+        order=2,
+        stages=BEGIN + 1,
+        kind="implicit",
+        needs="circuits",
+        machines="flexible circuits",
         guarded=True,
     ),
 )

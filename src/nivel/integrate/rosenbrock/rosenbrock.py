@@ -25,6 +25,7 @@ from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.residual.shifted_along import prepare_shifted, return_to, solve_shifted
 from nivel.kernels.residual.shifted_slopes import ROWS as OF_SLOPES
 from nivel.kernels.residual.shifted_slopes import settle_solution
+from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.native.entry import entry
 from nivel.native.function import leaf
 
@@ -77,4 +78,50 @@ def ros2(evaluate, machine, history):
     return status
 
 
-FACTS = (IntegratorFacts("ros2", ros2, order=2, stages=ROWS, kind="implicit", needs="directions"),)
+# ROS2 for machines whose only stiffness is that of modes, in relative coordinates.
+#
+# Its J is that of `nivel.motion.modal_shift`, taken in the state of each stage: J of the second is J of the first and O(h), which in
+#
+#     y₁ = y + h f + ½ h² f' f + ½ γ h² (J₁ - J₂) f + O(h³)
+#
+# costs no order, and saves keeping the factors while the second stage is evaluated.
+
+
+@entry(STEP_SIGNATURE)
+def modal_ros2(evaluate, machine, history):
+    """One step."""
+    run = run_at(history)
+    h, y, first, second = run.clock[STEP], run.y, run.stages[FIRST], run.stages[SECOND]
+    share = GAMMA * h
+    status = factorise_shifted_modes(machine, share)
+    if status != OK:
+        return status
+    for i in range(y.shape[0]):
+        first[i] = run.rate[i]
+    status = solve_shifted_modes(machine, y, first, share)
+    if status != OK:
+        return status
+    for i in range(y.shape[0]):
+        run.trial[i] = y[i] + h * first[i]
+    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, second)
+    run.counter[EVALUATIONS] += 1
+    if status == OK:
+        status = factorise_shifted_modes(machine, share)
+    run.counter[FACTORISATIONS] += 2
+    if status != OK:
+        return status
+    for i in range(y.shape[0]):
+        second[i] -= 2.0 * first[i]
+    status = solve_shifted_modes(machine, y, second, share)
+    for i in range(y.shape[0]):
+        y[i] += 0.5 * h * (3.0 * first[i] + second[i])
+    return status
+
+
+# all but the modes is advanced explicitly
+
+
+FACTS = (
+    IntegratorFacts("ros2", ros2, order=2, stages=ROWS, kind="implicit", needs="directions"),
+    IntegratorFacts("ros2", modal_ros2, order=2, stages=ROWS, machines="modes"),
+)

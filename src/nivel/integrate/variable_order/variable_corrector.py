@@ -2,9 +2,8 @@
 
 The corrected polynomial P + e c has to satisfy the equations of motion at the new time, h f(t, P(0) + e) = P'(0) + c_1 e. Either e is
 evaluated again and again from f (functional iteration, for motions that are not stiff), or Newton's method is used:
-(1 - (h/c_1) ∂f/∂y) Δe = (h f - P'(0) - c_1 e)/c_1, with a matrix that serves for many steps. It is that of
-`nivel.integrate.variable_order.difference_matrix` or of `nivel.integrate.variable_order.exact_matrix`; for each a corrector of its own is
-compiled.
+(1 - (h/c_1) ∂f/∂y) Δe = (h f - P'(0) - c_1 e)/c_1, with a matrix that serves for many steps. It is one of
+`nivel.integrate.variable_order.newton_matrices`; for each a corrector of its own is compiled.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
 from nivel.integrate.loop.step_control import size
-from nivel.integrate.variable_order.variable_workspace import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
+from nivel.integrate.variable_order.nordsieck import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK

@@ -34,9 +34,7 @@ from nivel.integrate.loop.step_control import (
     too_small,
 )
 from nivel.integrate.variable_order.multistep_polynomials import ADAMS, correction, monic
-from nivel.integrate.variable_order.nordsieck import accept, add_polynomial, fill_dense, predict
-from nivel.integrate.variable_order.variable_corrector import FORGET
-from nivel.integrate.variable_order.variable_workspace import (
+from nivel.integrate.variable_order.nordsieck import (
     CHANGE,
     CONTRACTION,
     CORRECTION,
@@ -53,7 +51,12 @@ from nivel.integrate.variable_order.variable_workspace import (
     XI,
     C,
     Z,
+    accept,
+    add_polynomial,
+    fill_dense,
+    predict,
 )
+from nivel.integrate.variable_order.variable_corrector import FORGET
 from nivel.kernels.core.status import OK
 from nivel.native.function import leaf
 

@@ -106,8 +106,7 @@ def row_pivots(prepared: Prepared, methods: Methods, duration: float) -> RowPivo
     absolute, rank = prepared.absolute, prepared.redundancy.rank
     system, y, kernels = _unranked(absolute.system), prepared.assembly.y.copy(), absolute.kernels
     if methods.machine.is_flexible:
-        arrangement: Any = import_module(FLOATING.arrangement)
-        system, y = arrangement.arrange(methods.machine, system, y, rank, methods.cut)
+        system, y = FLOATING.arrange(methods.machine, system, y, rank, methods.cut)
         kernels = import_module(FLOATING.module)
     elif rank < system.machine_rows:
         left = _left_out(prepared, MotionEquations(system, kernels), duration)

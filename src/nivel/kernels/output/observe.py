@@ -7,9 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.output.energy import energies
+from nivel.kernels.bodies.floating_dynamics import flexible_kinetic_energy
+from nivel.kernels.bodies.rigid import kinetic_energy, potential_energy
+from nivel.kernels.bodies.shared_mass import shared_kinetic_energy
 from nivel.kernels.record.hook import ACCEPTED, SHOWN, call_hook
 from nivel.kernels.record.record import COMPLETE, MEASURE, NONE, OBSERVE, SENSE, record_at
+from nivel.kernels.residual.point_inertia import point_kinetic_energy
 from nivel.kernels.solve.least_multipliers import spread_multipliers
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage
@@ -134,6 +137,25 @@ def _write_constraints(machine, frame):
         frame[violation + row] = constraints.C[row]
         frame[rate_violation + row] = constraints.Cdot[row]
         frame[multiplier + row] = constraints.lam[row]
+
+
+@stage
+def energies(machine):
+    """(kinetic, potential) [J]; ω̄ of the bodies has to be known."""
+    record = record_at(machine)
+    bodies, flexible = record.bodies, record.flexible
+    kinetic, potential = 0.0, record.control.stored[0]
+    for b in range(bodies.mass.shape[0]):
+        kinetic += kinetic_energy(bodies, b)
+        potential += potential_energy(bodies, b)
+    for f in range(flexible.body.shape[0]):
+        # in place of what it would be if it were rigid
+        kinetic += flexible_kinetic_energy(bodies, flexible, f) - kinetic_energy(bodies, flexible.body[f])
+    for k in range(record.shared.pair.shape[0]):
+        kinetic += shared_kinetic_energy(bodies, record.markers, record.shared, k)
+    for e in range(record.points.marker.shape[0]):
+        kinetic += point_kinetic_energy(record.markers, record.points, e)
+    return kinetic, potential
 
 
 @stage

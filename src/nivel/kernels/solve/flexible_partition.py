@@ -1,6 +1,6 @@
 """Coordinate partitioning and embedding with flexible bodies: velocities are (Ṙ, ω̄) of all bodies, then ṗ of all modes.
 
-Modal velocities have small units (`nivel.system.states.floating_independent`), so that pivots of C_q are found among those of bodies: modes
+Modal velocities have small units (`nivel.system.states.floating`), so that pivots of C_q are found among those of bodies: modes
 are independent wherever the machine without them determines its dependent velocities.
 """
 

@@ -1,8 +1,8 @@
 """The nodes of a tree for the residual: joints here, others by the hooks that only some machines have.
 
 Every node does three things: it moves its child, accelerates it, and hands its wrench on, with one row of the residual a velocity of its
-own. Nodes of kinds MODAL and OUTWARD, between the frames of flexible bodies, do it in `nivel.kernels.tree.modal_nodes`, sliders on beams in
-`nivel.kernels.tree.slider_nodes`; which of them a machine has, in which order, and what hangs on what, makes no difference to any of them.
+own. Nodes of kinds MODAL and OUTWARD, between the frames of flexible bodies, do it in `nivel.kernels.tree.modal_nodes`, sliders on beams by
+`pass_sliders`; which of them a machine has, in which order, and what hangs on what, makes no difference to any of them.
 """
 
 from __future__ import annotations
@@ -10,10 +10,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_hook
+from nivel.kernels.record.hook import call_hook, family
 from nivel.kernels.record.record import ACCELERATE, HAND, MODES, MOVE, OUTWARD, SLIDERS, record_at
 from nivel.kernels.tree.articulated import carry_motion, hand_wrench
 from nivel.kernels.tree.joints import is_joint
+from nivel.kernels.tree.slider import carry_slider, hand_slider, move_slider
 from nivel.kernels.tree.tree import move_child
 from nivel.native.function import stage
 
@@ -94,3 +95,25 @@ def hand_inwards(machine, t):
         write_efforts(tree, own, n)
         if node[1] != ground:
             hand_wrench(own.wrench[node[0]], tree.arm[node[0]], own.wrench[node[1]])
+
+
+# Nodes that slide along beams for the residual in relative coordinates: a slider gets its acceleration from the nodes beside it, and
+# these its wrench; see `nivel.kernels.tree.slider`.
+
+
+@family
+def pass_sliders(machine, job, t):
+    """MOVE, ACCELERATE or HAND for a node that slides along a beam. Returns a status."""
+    record = record_at(machine)
+    tree, own = record.tree, record.residual
+    count = tree.node.shape[0]
+    what, n = job // count, job % count
+    if what == MOVE:
+        return move_slider(machine, n, own.y)
+    if what == ACCELERATE:
+        carry_slider(machine, n, own.acceleration)
+        add_own_acceleration(tree, own, n)
+    else:
+        write_efforts(tree, own, n)
+        hand_slider(machine, n, own.wrench)
+    return OK

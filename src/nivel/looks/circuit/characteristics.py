@@ -25,8 +25,18 @@ from nivel.elements.circuits.restrictions import CRITICAL_RATIO
 from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve, conductances
 from nivel.elements.circuits.ways import CENTRED, EDGES
-from nivel.looks.circuit.composed_characteristics import OF_COMPOSED
-from nivel.looks.circuit.curves import BAR, LITRE_PER_MINUTE, POINTS, Array, Chart, Curve, constant, root, step
+from nivel.looks.circuit.composed_characteristics import (
+    BAR,
+    LITRE_PER_MINUTE,
+    OF_COMPOSED,
+    POINTS,
+    Array,
+    Chart,
+    Curve,
+    constant,
+    root,
+    step,
+)
 
 SUPPLY: Final = 7e5  # Pa absolute, before valves of gas
 STATED: Final = 10e5  # Pa over an edge whose catalogue states no difference of pressure

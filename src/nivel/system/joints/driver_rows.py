@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.errors import located
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
 from nivel.kernels.bodies.driven_turn import TURN_X, TURN_Y, TURN_Z
 from nivel.machine.joints.driver import Driver
@@ -13,7 +14,6 @@ from nivel.system.joints.composition import AXES
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.rows import RowTable, units_of
 from nivel.system.laws.integrated import integrated
-from nivel.system.located import located
 from nivel.system.tables import Target
 
 # of the three coordinates of a turn, in the order of the axes

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, located
 from nivel.flexible.body.body import Interface
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame
@@ -16,7 +16,6 @@ from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.interface_uses import markers_of
 from nivel.system.flexible import reduced_body
-from nivel.system.located import located
 from nivel.system.tables import Array
 
 # [m] two interfaces nearer than this, as placed, are one place of a joint

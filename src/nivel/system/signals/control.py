@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from nivel.elements.states import StateFact
-from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.errors import located
 from nivel.kernels.record.function import OUTPUT, STATE
 from nivel.kernels.record.record import NONE
-from nivel.kernels.signals.control import apply as compute
+from nivel.kernels.signals.functions import compute, rate_states
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.control.part import VALUE
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.system.builder import SystemBuilder
-from nivel.system.located import located
 
 ONCE = 1e300  # [s] period of what is sampled once
 
@@ -55,9 +54,9 @@ def add_control(builder: SystemBuilder) -> None:
             builder.elements.add(compute, [builder.control[each.path][1], _noted(builder, each)])
     for each in parts:
         if each.part.role == "state":
-            builder.elements.add(state_rate, [builder.control[each.path][1], _noted(builder, each), 0])
+            builder.elements.add(rate_states, [builder.control[each.path][1], _noted(builder, each), 0])
         elif each.part.role in ("sample", "memory") and not each.part.holds and not _reads_forces(builder, each):
-            builder.elements.add(state_rate, [builder.control[each.path][1], _noted(builder, each), 1])
+            builder.elements.add(rate_states, [builder.control[each.path][1], _noted(builder, each), 1])
 
 
 def add_samples(builder: SystemBuilder, table: SampleTable) -> None:

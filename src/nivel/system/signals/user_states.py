@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from math import gcd
+
 import numpy as np
 
 from nivel.elements.states import StateFact
-from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.errors import located
 from nivel.kernels.record.record import NONE, Sampled
+from nivel.kernels.signals.functions import rate_states
 from nivel.machine.signals.state import State
 from nivel.system.builder import SystemBuilder
-from nivel.system.located import located
 from nivel.system.signals.control import ONCE, SampleTable, add_samples
-from nivel.system.signals.ticks import ticks
 from nivel.system.tables import index_array
 
 
@@ -24,7 +26,7 @@ def add_states(builder: SystemBuilder) -> None:
             with located(f"states.{state.name}.{key}"):
                 function = builder.function(getattr(state, key), sampled=state.rate is None)
             if state.rate is not None or state.every is not None:
-                builder.elements.add(state_rate, [own, function, int(state.rate is None)])
+                builder.elements.add(rate_states, [own, function, int(state.rate is None)])
 
 
 def _fact(state: State) -> StateFact:
@@ -36,6 +38,33 @@ def _fact(state: State) -> StateFact:
         scale=state.size,
         sampled=state.update is not None,
     )
+
+
+# Denominators up to here are tried: nanoseconds, and thirds, sevenths, nineteenths of microseconds.
+MOST = 10**9
+# A ratio this close to an interval is that interval: some units in its last place.
+SAME = 1e-15
+
+
+def ratio_of(interval: float) -> Fraction:
+    """The simplest ratio of whole numbers that is `interval` [s], except for its round-off.
+
+    With it n · numerator / denominator is rounded once: 3 samples of 0.3 s are 0.9 s, where 3 * 0.3 is a unit in the last place less.
+    An interval that is no such ratio stays what it is.
+    """
+    ratio = Fraction(interval).limit_denominator(MOST)
+    return ratio if abs(ratio - Fraction(interval)) <= SAME * abs(interval) else Fraction(interval)
+
+
+def ticks(offset: float, interval: float) -> tuple[float, float, float]:
+    """First, step and rate with (first + n step) / rate = offset + n interval [s], all whole where both times are such ratios."""
+    begin, step = ratio_of(offset), ratio_of(interval)
+    rate = begin.denominator * step.denominator
+    first, each = begin * rate, step * rate
+    if max(first, each, rate) > 2**53:
+        return offset, interval, 1.0
+    common = gcd(first.numerator, each.numerator, rate)
+    return float(first / common), float(each / common), float(rate / common)
 
 
 def sampled_states(builder: SystemBuilder) -> Sampled:

@@ -18,6 +18,7 @@ from nivel.machine.bodies.shape import Mesh
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.elimination import plan
+from nivel.system.elimination.partition import RELUCTANCE, partition, velocities_named
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
 from nivel.system.joints.interfaces import marker_place
 from nivel.system.layout import first_columns, with_modal_coordinates
@@ -240,3 +241,21 @@ def _map(rigid: System, modes: int) -> StateMap:
     units = [*old.units[:positions], *["kg^0.5 m"] * modes, *old.units[positions:end]]
     units += [*["kg^0.5 m/s"] * modes, *old.units[end:]]
     return StateMap(index_array(plain, 2), index_array(turns, 2), tuple(units))
+
+
+def arrange_independent(
+    machine: MachineRecord, absolute: System, y: Array, rank: int, settings: SimulationSettings
+) -> tuple[System, Array]:
+    """The machine with modes and the arrays of a partition, which has modal velocities among the independent ones where it can.
+
+    Raises ModelError naming every marker of a flexible body that is at no interface of it.
+    """
+    system, start = arrange(machine, absolute, y, rank, settings)
+    record = system.record
+    # modes of unit modal mass move their body by about p/√m; they too are independent where they can
+    mass = np.repeat(
+        record.bodies.mass[record.flexible.body], np.diff(record.flexible.mode.astype(int), axis=1).ravel()
+    )
+    modal, wanted = RELUCTANCE * system.size * np.sqrt(mass), velocities_named(settings.independent, system.bodies)
+    arrays = partition(system.body_count, len(system.rows), rank, system.size, modal, wanted)
+    return replace(system, record=record._replace(partition=arrays)), start

@@ -15,7 +15,7 @@ from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Hooks, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
-from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
+from nivel.kernels.tree import tree_outputs
 from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
@@ -36,12 +36,12 @@ from nivel.system.states.tree_nodes import (
     placed,
     positions_in,
     tree_joint,
+    turns,
     units_of,
     velocities_in,
     velocity_names,
     width_of,
 )
-from nivel.system.states.turns import turns
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 
@@ -158,8 +158,8 @@ def in_tree(
 def _completion(machine: MachineRecord, *, sliding: bool) -> Family:
     """What completes frames: for accelerations found by the residual, or by a recursion over rigid or flexible bodies."""
     if machine.shares_mass or sliding:
-        return tree_outputs_implicit.complete
-    return tree_outputs_flexible.complete if machine.is_flexible else tree_outputs.complete
+        return tree_outputs.complete_implicit
+    return tree_outputs.complete_flexible if machine.is_flexible else tree_outputs.complete
 
 
 def has_sliders(machine: MachineRecord, settings: SimulationSettings) -> bool:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
-from nivel.kernels.bodies.coordinate import ALONG
+from nivel.kernels.bodies.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE
 from nivel.kernels.record import record as kernels
 from nivel.kernels.record.hook import Family
-from nivel.kernels.record.record import NONE, Record
+from nivel.kernels.record.record import NONE, U1, U2, Coordinates, Record
 from nivel.kernels.tree.joints import BY_ADDRESS
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
@@ -20,7 +20,8 @@ from nivel.system.joints.joints import JOINTS
 from nivel.system.joints.kind import TreeJoint
 from nivel.system.joints.kinds.in_trees import FREE_BODY
 from nivel.system.states.joint_start import Node
-from nivel.system.system import System
+from nivel.system.system import Array, System
+from nivel.system.tables import index_array
 
 BETWEEN_FRAMES: Final = {"outward": kernels.OUTWARD, "modal": kernels.MODAL}  # of a flexible body
 
@@ -114,3 +115,44 @@ def _along(old: Record, slider: int) -> int:
     """The coordinate that is the place of a marker along its beam."""
     what = old.coordinates.what
     return int(np.flatnonzero((what[:, 0] == ALONG) & (what[:, 1] == slider))[0])
+
+
+# what an angle is for a joint that carries its first body
+BACKWARDS: Final = {CROSS_FIRST: CROSS_SECOND, CROSS_SECOND: CROSS_FIRST}
+
+
+@dataclass(frozen=True)
+class Turns:
+    """`counted` angles (coordinate, position in y), each being sign q + offset, as rows of `number`; `followed` are all others."""
+
+    counted: U2
+    number: Array
+    followed: U1
+
+
+def turns(coordinates: Coordinates, nodes: Sequence[Node], q: Array) -> Turns:
+    """How the angles of `coordinates`, whose `reference` is that at the start, follow from joint coordinates, q at the start.
+
+    Angles that every evaluation measures, and places along beams, are followed as in all coordinates.
+    """
+    carried = {frozenset((node.near, node.far)): node for node in nodes}
+    counted, numbers, followed = [], [], []
+    active = set(coordinates.active.tolist())
+    for k, (kind, first, second, _) in enumerate(coordinates.what.tolist()):
+        if kind > LAST_ANGLE:
+            followed += [k] if kind == ALONG else []
+            continue
+        node = carried.get(frozenset((first, second)))
+        place = None if node is None or k in active else _place(kind, node, first == node.near)
+        if node is None or place is None:
+            followed.append(k)
+            continue
+        sign, position = 1.0 if first == node.near else -1.0, node.position + place
+        counted.append((k, position))
+        numbers.append((sign, coordinates.reference[k] - sign * q[position]))
+    return Turns(index_array(counted, 2), np.array(numbers, dtype=float).reshape(-1, 2), index_array(followed, 1))
+
+
+def _place(kind: int, node: Node, forwards: bool) -> int | None:
+    """Where among the positions of the node's joint an angle of this kind stands; a joint that is `forwards` carries its second body."""
+    return tree_joint(node.kind).angles.get(kind if forwards else BACKWARDS.get(kind, kind))

@@ -1122,8 +1122,8 @@ def import_model(
     """The machine that a model of another program describes: a URDF, SDF or MJCF file (MJCF with the extra `robots`).
 
     base : whether the first link is fixed to the ground; default fixed for URDF, else as the model says. package_paths : folders in which
-    meshes at ``package://`` are searched for. contacts : of an MJCF model: all, those with what stands still (`floor`), or none. What is not
-    translated is listed by `nivel import`.
+    meshes at ``package://`` are searched for. contacts : of an MJCF model: all, those with what stands still (`floor`), or none. What
+    is not translated is listed by `nivel import`.
     Raises ModelError with every fault of the model, each with its line.
     """
     record = nivel.exchange.translated_machine(

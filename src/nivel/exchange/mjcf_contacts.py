@@ -15,6 +15,7 @@ import numpy as np
 from nivel.exchange.mechanism import Look, Mechanism, Solid, Touch
 
 GRAVITY: Final = 9.81
+CLIP: Final = 1e-4  # impedances are kept by so much from 0 and 1, as in MuJoCo
 TURNS: Final = "friction of contacts against spinning and rolling"
 
 
@@ -67,6 +68,8 @@ def _pairs(mj: Any, m: Any) -> list[tuple[int, int, int | None]]:
                 continue
             if not (m.geom_contype[i] & m.geom_conaffinity[j] or m.geom_contype[j] & m.geom_conaffinity[i]):
                 continue
+            if not m.body_invweight0[m.geom_bodyid[i]][0] + m.body_invweight0[m.geom_bodyid[j]][0] > 0.0:
+                continue  # neither moves
             if parents and weld[i] and weld[j] and (weld[i] == above[j] or weld[j] == above[i]):
                 continue
             low, high = sorted((int(m.geom_bodyid[i]), int(m.geom_bodyid[j])))
@@ -102,7 +105,8 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
 
 def _softness(ref: Any, imp: Any, w: float, step: float) -> tuple[float, float]:
     """Stiffness [N/m] and damping [s/m] under the load g/w."""
-    least, most, width, middle, power = map(float, imp)
+    least, most, middle = (min(max(float(imp[k]), CLIP), 1.0 - CLIP) for k in (0, 1, 3))
+    width, power = float(imp[2]), max(float(imp[4]), 1.0)
     if ref[0] > 0.0:
         time = max(float(ref[0]), 2.0 * step)
         k, b = 1.0 / (most * time * float(ref[1])) ** 2, 2.0 / (most * time)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.assembly.redundancy import dependent_rows
+from nivel.analysis.assembly.equations import equations
+from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths
 from preparing import prepare
 from running import run
 
@@ -77,3 +78,12 @@ def test_multipliers_without_effect_are_told_from_those_of_little_effect(rows, c
     assert np.abs(N.T @ J).max() < 1e-9
     assert np.abs(N.T @ N - np.eye(N.shape[1])).max() < 1e-12
     assert np.linalg.matrix_rank(np.delete(J, dependent, axis=0), tol=1e-8) == rank - 1
+
+
+@pytest.mark.parametrize("name", ["slider_crank", "four_bar", "bennett"])
+def test_lengths_of_rows_are_those_of_the_whole_jacobian(name):
+    motion = equations(getattr(machines, name)())
+    system = motion.system
+    motion.evaluate(0.0, system.start)
+    J = motion.jacobian().reshape(system.machine_rows, system.body_count, 6) * np.repeat([system.size, 1.0], 3)
+    np.testing.assert_allclose(row_lengths(motion), np.sqrt((J**2).sum(axis=(1, 2))), rtol=1e-13)

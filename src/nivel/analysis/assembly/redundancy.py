@@ -133,7 +133,15 @@ def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> 
 
 def row_lengths(motion: MotionEquations) -> Array:
     """(rows,) lengths of the rows of C_q, lengths in units of the machine's length."""
-    return np.linalg.norm(_in_lengths(motion), axis=1)
+    row, body, block = motion.jacobian_blocks()
+    system = motion.system
+    # blocks of one row and body add up before their length is taken
+    key, place = np.unique(row * system.body_count + body, return_inverse=True)
+    summed = np.zeros((len(key), 6))
+    np.add.at(summed, place, block)
+    summed[:, :3] *= system.size
+    squares = np.bincount(key // system.body_count, weights=(summed**2).sum(axis=1), minlength=system.machine_rows)
+    return np.sqrt(squares)
 
 
 def _in_lengths(motion: MotionEquations) -> Array:

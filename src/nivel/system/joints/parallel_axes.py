@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joint_frames import Placed, joint_frames
 from nivel.system.joints.joints import composition_of
@@ -85,11 +86,11 @@ def _near(directions: list[Array], z: Array, most: float) -> list[int]:
 
 def apart(a: Array, b: Array) -> float:
     """The angle between two lines along unit vectors [rad]."""
-    return float(np.arctan2(np.linalg.norm(np.cross(a, b)), abs(a @ b)))
+    return float(np.arctan2(np.linalg.norm(cross(a, b)), abs(a @ b)))
 
 
 def _turn(a: Array, b: Array) -> Array:
     """The smallest rotation (3, 3) that takes the unit vector a to b, which is near: 1 + ṽ + ṽ²/(1 + a·b), v = a × b."""
-    x, y, z = np.cross(a, b)
+    x, y, z = cross(a, b)
     v = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + v + v @ v / (1.0 + a @ b)

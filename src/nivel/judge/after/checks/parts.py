@@ -169,10 +169,15 @@ def _joined(names: list[str], joined: Iterable[set[str]]) -> list[list[str]]:
     """The names in groups: those of a set in one."""
     group = {name: {name} for name in names}
     for each in joined:
-        whole = set().union(*(group[name] for name in each))
-        group.update(dict.fromkeys(whole, whole))
-    firsts = {id(whole): whole for whole in group.values()}
-    return [[name for name in names if name in whole] for whole in firsts.values()]
+        whole = max((group[name] for name in each), key=len, default=set())
+        for part in [group[name] for name in each]:
+            if part is not whole:  # the smaller one moves, so that long chains take linear time
+                whole |= part
+                group.update(dict.fromkeys(part, whole))
+    groups: dict[int, list[str]] = {}
+    for name in names:
+        groups.setdefault(id(group[name]), []).append(name)
+    return [*groups.values()]
 
 
 def _bodies_of(machine: MachineRecord, name: str, words: Mapping[str, set[str]]) -> set[str]:
@@ -187,7 +192,7 @@ def _bodies_of(machine: MachineRecord, name: str, words: Mapping[str, set[str]])
         elif word in words and word not in seen:
             seen.add(word)
             left |= words[word]
-    return bodies & set(machine.body_named)
+    return {body for body in bodies if body in machine.body_named}
 
 
 def _words(element: Any) -> set[str]:

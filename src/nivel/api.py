@@ -11,18 +11,6 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
-from nivel.analysis.compare.compare_grid import compile_grid, lay_out
-from nivel.analysis.plan.compilation import (
-    assembly_entries,
-    build,
-    kinematics_entries,
-    linear_entries,
-    preparation_entries,
-    run_entries,
-    statics_entries,
-)
-from nivel.analysis.plan.plan import Plan, methods_of, plan_run
-from nivel.analysis.plan.settings import waiting_time
 from nivel.analysis.progress.log import Listener
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
@@ -72,6 +60,7 @@ if TYPE_CHECKING:
     from nivel.analysis.optimise.evaluations import Exact
     from nivel.analysis.optimise.identify import Identified
     from nivel.analysis.optimise.optimise import Optimum
+    from nivel.analysis.plan.plan import Plan
     from nivel.analysis.run.many import Simulations
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
@@ -154,7 +143,9 @@ class Machine(Model):
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
-        build(preparation_entries(plan.methods), listener)
+        nivel.analysis.plan.compilation.build(
+            nivel.analysis.plan.compilation.preparation_entries(plan.methods), listener
+        )
         with self._faults_in_file():
             ropes = [finding.fault for finding in nivel.system.forces.stretched_ropes.stretched_ropes(self.record)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
@@ -167,7 +158,7 @@ class Machine(Model):
         self, about: str = "ground", bodies: Sequence[str] | str = (), *, listener: Listener | None = None
     ) -> MassProperties:
         """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
-        build(assembly_entries(self.record), listener)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
             return nivel.analysis.assembly.mass.mass_properties(
                 self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies)
@@ -176,7 +167,7 @@ class Machine(Model):
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
-        build(assembly_entries(self.record), listener)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
             return nivel.analysis.interactive.posing.Posing(self.record)
 
@@ -218,11 +209,13 @@ class Machine(Model):
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = _given(settings)
-        limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
+        limit = (
+            None if verify_limit is None else nivel.analysis.plan.settings.waiting_time("verify_limit", verify_limit)
+        )
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         self._refuse_target(out, force)
-        compile_seconds = build(_entries_of(plan, chosen.record), listener)
+        compile_seconds = nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
         paths = (sensitivities,) if isinstance(sensitivities, str) else sensitivities
         with chosen._faults_in_file():
@@ -303,7 +296,7 @@ class Machine(Model):
         Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
         """
         plan = self._plan({}, stepwise=True)
-        build(run_entries(plan), listener)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.run_entries(plan), listener)
         with self._faults_in_file():
             return nivel.c_library.writer.write_c_library(
                 plan, Path(folder), (select,) if isinstance(select, str) else select, platform
@@ -337,7 +330,7 @@ class Machine(Model):
         self._refuse_target(path, force)
         given = nivel.analysis.gradients.parameters.parameters_of(self, paths, "an FMU") if paths else ()
         plan = self._plan({}, stepwise=True)
-        build(run_entries(plan), listener)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.run_entries(plan), listener)
         with self._faults_in_file():
             nominal = nivel.c_library.exported.export(plan, "an FMU", chosen)
             # with other values it keeps its method, which may follow from them
@@ -392,7 +385,7 @@ class Machine(Model):
         given = _given(settings)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
-        build(_entries_of(plan, chosen.record), listener)
+        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
         with chosen._faults_in_file():
             return nivel.analysis.gradients.gradient.gradient(
@@ -425,7 +418,7 @@ class Machine(Model):
         given = _given(settings)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside}, stepwise=True)
-        build(_entries_of(plan, chosen.record), listener)
+        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         if n is None:
             if values:
                 raise ModelError(Fault.at("values", "lists of values make several copies: say how many, n=3"))
@@ -495,10 +488,14 @@ class Machine(Model):
         given = _given(settings)
         chosen, rows = self.with_settings(given), nivel.analysis.sweep.variants.rows_of(values)
         plan = chosen.with_values(rows[0])._plan({*given, *self.origin.settings_outside})
-        build(_entries_of(plan, chosen.record), listener)
+        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         names = (save,) if isinstance(save, str) else tuple(save)
         return nivel.analysis.sweep.batch.run_batch(
-            chosen, rows, names, threads=threads or nivel.native.workers.processors(), listener=listener or Listener()
+            chosen,
+            rows,
+            names,
+            threads=threads or nivel.native.workers.processors(),
+            listener=listener or Listener(),
         )
 
     @checked_arguments
@@ -663,7 +660,7 @@ class Machine(Model):
         given = _given(settings)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
-        build(_entries_of(plan, chosen.record), listener)
+        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         return chosen
 
     @checked_arguments
@@ -692,9 +689,11 @@ class Machine(Model):
         )
         neutral, chosen = nivel.analysis.statics.free_coordinates.for_statics(self.record, asked)
         with self._faults_in_file():
-            methods = methods_of(neutral, "newton-euler", chosen)
+            methods = nivel.analysis.plan.plan.methods_of(neutral, "newton-euler", chosen)
         self._refuse_target(out, force)
-        compile_seconds = build(statics_entries(methods), listener)
+        compile_seconds = nivel.analysis.plan.compilation.build(
+            nivel.analysis.plan.compilation.statics_entries(methods), listener
+        )
         # what follows takes longer to import
         with self._faults_in_file():
             return nivel.analysis.statics.run.statics(
@@ -727,12 +726,16 @@ class Machine(Model):
         asked = nivel.machine.settings.kinematics.kinematics_settings(self.record, settings)
         with self._faults_in_file():
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_KINEMATICS))
-            build(assembly_entries(self.record), listener)
+            nivel.analysis.plan.compilation.build(
+                nivel.analysis.plan.compilation.assembly_entries(self.record), listener
+            )
             machine, asked = nivel.analysis.kinematics.drive.driven(self.record, asked)
             plain, chosen = nivel.analysis.plan.equations_only.neutral(machine, asked.coordinates)
-            methods = methods_of(plain, "newton-euler", chosen)
+            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         self._refuse_target(out, force)
-        compile_seconds = build(kinematics_entries(methods), listener)
+        compile_seconds = nivel.analysis.plan.compilation.build(
+            nivel.analysis.plan.compilation.kinematics_entries(methods), listener
+        )
         # what follows takes longer to import
         with self._faults_in_file():
             return nivel.analysis.kinematics.run.kinematics(
@@ -762,7 +765,7 @@ class Machine(Model):
         settings = nivel.machine.settings.kinematics.kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
         )
-        build(assembly_entries(self.record), listener)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
             name = settings.drive
             start, unit, size = nivel.analysis.kinematics.drive.present_value(self.record, name)
@@ -786,7 +789,7 @@ class Machine(Model):
         name = nivel.machine.settings.kinematics.kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0}
         ).drive
-        build(assembly_entries(self.record), listener)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
             return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
@@ -832,8 +835,8 @@ class Machine(Model):
             plain, _ = nivel.analysis.plan.equations_only.neutral(
                 nivel.analysis.inverse.run.without_actuators(record, wanted), "absolute"
             )
-            methods = methods_of(plain, "newton-euler", "absolute")
-        build(linear_entries(methods), listener)
+            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", "absolute")
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.linear_entries(methods), listener)
         if motion is None:
             followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
         else:
@@ -857,8 +860,8 @@ class Machine(Model):
             refuse(nivel.judge.before.analyses.not_smooth(self.record))
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_SAMPLES))
             plain, chosen = nivel.analysis.plan.equations_only.neutral(self.record, coordinates or "auto")
-            methods = methods_of(plain, "newton-euler", chosen)
-        build(linear_entries(methods), listener)
+            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
+        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.linear_entries(methods), listener)
         with self._faults_in_file():
             return nivel.analysis.inverse.mechanics.Mechanics(
                 plain, nivel.analysis.run.prepared_state.at_start(methods)
@@ -956,15 +959,17 @@ class Machine(Model):
                 asked.coordinates,
                 nivel.machine.settings.linearise.EQUILIBRIUM if at_rest else "as-given",
             )
-            methods = methods_of(plain, "newton-euler", chosen)
-        entries = linear_entries(methods)
+            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
+        entries = nivel.analysis.plan.compilation.linear_entries(methods)
         if at_rest:
-            entries += statics_entries(nivel.analysis.statics.start.methods_at_rest(plain))
+            entries += nivel.analysis.plan.compilation.statics_entries(
+                nivel.analysis.statics.start.methods_at_rest(plain)
+            )
         run = None
         if asked.time > 0.0:
             run = self.with_settings({"duration": asked.time})._plan(())
-            entries += run_entries(run)
-        build(entries, listener)
+            entries += nivel.analysis.plan.compilation.run_entries(run)
+        nivel.analysis.plan.compilation.build(entries, listener)
         # what follows takes longer to import
         with self._faults_in_file():
             inputs = replace(inputs, machine=plain)
@@ -994,8 +999,8 @@ class Machine(Model):
         axes = Axes(**{key: value for key, value in asked.items() if key in Axes.model_fields})
         given = {key: value for key, value in asked.items() if key in COMMON}
         chosen = self.with_settings(given)
-        grid = lay_out(chosen.record, axes, given)
-        compile_grid(chosen.record, grid, listener)
+        grid = nivel.analysis.compare.compare_grid.lay_out(chosen.record, axes, given)
+        nivel.analysis.compare.compare_grid.compile_grid(chosen.record, grid, listener)
         # what follows takes longer to import
         with chosen._faults_in_file():
             return nivel.analysis.compare.compare.compare(
@@ -1009,7 +1014,7 @@ class Machine(Model):
         beams that they slide along.
         """
         with self._faults_in_file():
-            return plan_run(self.record, given, stepwise=stepwise)
+            return nivel.analysis.plan.plan.plan_run(self.record, given, stepwise=stepwise)
 
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
@@ -1082,7 +1087,7 @@ def code_of(machine: Machine, analysis: str, listener: Listener | None) -> None:
     """Compile what runs of variants of this machine need; other analyses do it themselves. Raises ModelError."""
     if analysis == "run":
         plan = machine._plan(machine.origin.settings_outside)
-        build(_entries_of(plan, machine.record), listener)
+        nivel.analysis.plan.compilation.build(_entries_of(plan, machine.record), listener)
 
 
 def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -1092,9 +1097,9 @@ def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
 
 def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:
     """The machine code that a run needs, from the start that it has."""
-    entries = [*run_entries(plan)]
+    entries = [*nivel.analysis.plan.compilation.run_entries(plan)]
     if plan.settings.asked.start == "equilibrium":
-        entries += statics_entries(nivel.analysis.statics.start.methods_at_rest(record))
+        entries += nivel.analysis.plan.compilation.statics_entries(nivel.analysis.statics.start.methods_at_rest(record))
     return entries
 
 

@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     import nivel
     import nivel.analysis.assembly.mass
     import nivel.analysis.compare.compare
+    import nivel.analysis.compare.compare_grid
     import nivel.analysis.gradients.gradient
     import nivel.analysis.gradients.parameters
     import nivel.analysis.gradients.sensitivities
@@ -102,6 +103,7 @@ if TYPE_CHECKING:
     import nivel.analysis.optimise.table
     import nivel.analysis.plan.compilation
     import nivel.analysis.plan.equations_only
+    import nivel.analysis.plan.plan
     import nivel.analysis.plan.settings
     import nivel.analysis.preparation.attributes
     import nivel.analysis.progress.journal
@@ -152,6 +154,7 @@ if TYPE_CHECKING:
     import nivel.judge.after.report
     import nivel.judge.before.analyses
     import nivel.judge.before.check
+    import nivel.judge.before.circuits
     import nivel.judge.before.refusals
     import nivel.kernels.output.observe
     import nivel.live.budget

@@ -50,7 +50,6 @@ from nivel.integrate.loop.run import (
 )
 from nivel.integrate.loop.sink import Sink
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
-from nivel.judge.before.circuits import circuit_remarks
 from nivel.judge.during.failure import Status, Stop, failure
 from nivel.judge.during.fastest import fastest_beyond, held_step
 from nivel.judge.during.growth import GROWN, UNBOUND, Crawl, to_and_fro
@@ -71,6 +70,7 @@ from nivel.kernels.core.status import (
     STEP_TOO_SMALL,
 )
 from nivel.kernels.output.observe import observe
+from nivel.lazy import nivel
 from nivel.native.entry import Entry
 from nivel.results.frames.summary import Occurrence
 from nivel.system.system import Array, System
@@ -362,7 +362,8 @@ def failure_of(
     message, advice = failure(stop)
     if status == NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
         said = [
-            str(remark.fault).removeprefix("hydraulics.") for remark in circuit_remarks(prepared.machine.hydraulics)
+            str(remark.fault).removeprefix("hydraulics.")
+            for remark in nivel.judge.before.circuits.circuit_remarks(prepared.machine.hydraulics)
         ]
         advice = ". ".join(said) if said else advice
     if status in SHRUNK and stop.chosen_by and (joints := branching_joints(prepared, time, run.previous)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -27,6 +27,9 @@ from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve
 from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
 from nivel.judge.finding import Finding
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.quantity import PlainVolume
+from nivel.machine.uses.hydraulic_uses import makers, ports_of
 
 Said = Iterator[Finding]
 LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns
@@ -251,3 +254,51 @@ def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
                     f"the pump stands {each.margin / BAR:.4g} bar above LS, and the compensator would hold {margin / BAR:.4g} bar of "
                     f"it: it is always open; write for example `margin: {0.4 * each.margin / BAR:.3g} bar`",
                 )
+
+
+def volume_remarks(machine: MachineRecord) -> Said:
+    """Displacements per angle, and volumes that nothing fills."""
+    yield from _of_volumes(machine)
+    yield from _unfillable(machine)
+
+
+def _of_volumes(machine: MachineRecord) -> Said:
+    """Displacements of pumps and motors that were given as volumes: per radian they are 2π times those per turn."""
+    for component in machine.hydraulics:
+        volume = getattr(component, "displacement", None)
+        if isinstance(component, RotaryMachine) and isinstance(volume, PlainVolume):
+            size, per_turn = f"{volume * 1e6:.6g} cm^3", f"{volume * 2e6 * math.pi:.4g} cm^3/rev"
+            message = (
+                f"`displacement` is a volume per angle: `{size}` counts as {size}/rad, which is {per_turn}; catalogues state it per turn: "
+                f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
+            )
+            yield Finding(f"hydraulics.{component.name}.displacement", message)
+
+
+def _unfillable(machine: MachineRecord) -> Said:
+    """Chambers and volumes of liquid into which nothing can flow, and whose pressure is not given."""
+    gases = {fluid.name for fluid in machine.fluids if fluid.type == "ideal-gas"}
+    only_gas = len(gases) == len(machine.fluids) == 1
+    filled = _filled(machine.hydraulics)
+    for node, maker in makers(machine.hydraulics).items():
+        if node in filled or not isinstance(maker, Volume | Actuator) or _is_filled_by_hand(maker, node):
+            continue
+        if only_gas if maker.fluid is None else maker.fluid in gases:
+            continue  # a spring
+        which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
+        advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
+        message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
+        yield Finding(f"hydraulics.{maker.name}", message)
+
+
+def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:
+    """Whether the pressure that it is to keep is given."""
+    start = maker.start if isinstance(maker, Volume) else getattr(maker, f"start_{node.rpartition('.')[2]}")
+    return start is not None
+
+
+def _filled(components: Iterable[Component]) -> set[str]:
+    """Nodes into which fluid can flow: through a component, or from a second chamber that is part of the same volume."""
+    inlets = [ports_of(each)[port] for each in components for port in each.inlets if port in ports_of(each)]
+    parts = Counter(node for each in components if isinstance(each, Actuator) for node in ports_of(each).values())
+    return {*inlets, *(node for node, count in parts.items() if count > 1)}

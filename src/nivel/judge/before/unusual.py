@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.circuits.chambers import Actuator
-from nivel.elements.circuits.component import Component
-from nivel.elements.circuits.rotary import RotaryMachine
-from nivel.elements.circuits.tanks import Volume
-from nivel.judge.before.circuits import circuit_remarks
 from nivel.judge.finding import Finding
+from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_of, mass_properties
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
@@ -35,8 +30,7 @@ from nivel.machine.forces.contact import Contact
 from nivel.machine.given import Shown, Usual
 from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.quantity import ANY, PlainVolume, read_quantity
-from nivel.machine.uses.hydraulic_uses import makers, ports_of
+from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.uses.references import SECTIONS
 
 # Of its hull a body fills no less than this share where the hull may touch in its place.
@@ -52,13 +46,14 @@ def remarks(machine: MachineRecord) -> Iterator[Finding]:
     for section in SECTIONS:
         for element in getattr(machine, section):
             yield from _of_fields(element, f"{section}.{element.name}")
-    yield from _of_volumes(machine)
-    yield from _unfillable(machine)
+    if machine.hydraulics:
+        yield from nivel.judge.before.circuits.volume_remarks(machine)
     yield from _hollow(machine)
     yield from _immense(machine)
     yield from _narrow(machine)
     yield from resting_remarks(machine)
-    yield from circuit_remarks(machine.hydraulics)
+    if machine.hydraulics:
+        yield from nivel.judge.before.circuits.circuit_remarks(machine.hydraulics)
     yield from _unread(machine)
 
 
@@ -109,19 +104,6 @@ def _of_value(value: Any, usual: Usual, place: str, key: str) -> Iterator[Findin
     if share > 1.0:
         message = f"`{key}` is {in_words(worst, usual)}; for example `{key}: {usual.example}`"
         yield Finding(place, message, share)
-
-
-def _of_volumes(machine: MachineRecord) -> Iterator[Finding]:
-    """Displacements of pumps and motors that were given as volumes: per radian they are 2π times those per turn."""
-    for component in machine.hydraulics:
-        volume = getattr(component, "displacement", None)
-        if isinstance(component, RotaryMachine) and isinstance(volume, PlainVolume):
-            size, per_turn = f"{volume * 1e6:.6g} cm^3", f"{volume * 2e6 * math.pi:.4g} cm^3/rev"
-            message = (
-                f"`displacement` is a volume per angle: `{size}` counts as {size}/rad, which is {per_turn}; catalogues state it per turn: "
-                f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
-            )
-            yield Finding(f"hydraulics.{component.name}.displacement", message)
 
 
 def _hollow(machine: MachineRecord) -> Iterator[Finding]:
@@ -181,35 +163,6 @@ def _narrow(machine: MachineRecord) -> Iterator[Finding]:
             f"`{force.body}`, which touches one side at a time there, and jumps between them; write smoother heights, or a smaller radius"
         )
         yield Finding(f"forces.{force.name}.heights", message)
-
-
-def _unfillable(machine: MachineRecord) -> Iterator[Finding]:
-    """Chambers and volumes of liquid into which nothing can flow, and whose pressure is not given."""
-    gases = {fluid.name for fluid in machine.fluids if fluid.type == "ideal-gas"}
-    only_gas = len(gases) == len(machine.fluids) == 1
-    filled = _filled(machine.hydraulics)
-    for node, maker in makers(machine.hydraulics).items():
-        if node in filled or not isinstance(maker, Volume | Actuator) or _is_filled_by_hand(maker, node):
-            continue
-        if only_gas if maker.fluid is None else maker.fluid in gases:
-            continue  # a spring
-        which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
-        advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
-        message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
-        yield Finding(f"hydraulics.{maker.name}", message)
-
-
-def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:
-    """Whether the pressure that it is to keep is given."""
-    start = maker.start if isinstance(maker, Volume) else getattr(maker, f"start_{node.rpartition('.')[2]}")
-    return start is not None
-
-
-def _filled(components: Iterable[Component]) -> set[str]:
-    """Nodes into which fluid can flow: through a component, or from a second chamber that is part of the same volume."""
-    inlets = [ports_of(each)[port] for each in components for port in each.inlets if port in ports_of(each)]
-    parts = Counter(node for each in components if isinstance(each, Actuator) for node in ports_of(each).values())
-    return {*inlets, *(node for node, count in parts.items() if count > 1)}
 
 
 # Of its size a body touches within this share.

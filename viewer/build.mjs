@@ -6,19 +6,22 @@ import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 const out = "../src/nivel/view/page";
 const notice = (name) => `${name}\n\n${readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim()}\n`;
 
-await build({
-  entryPoints: { viewer: "src/main.ts" },
-  bundle: true,
-  minify: true,
-  format: "iife",
-  target: "es2022",
-  charset: "utf8",
-  legalComments: "none",
-  loader: { ".css": "css" },
-  banner: { js: "/* three.js and uPlot: MIT licence, see NOTICE */" },
-  outdir: out,
-  logLevel: "info",
-});
+const bundle = (entryPoints, banner) =>
+  build({
+    entryPoints,
+    bundle: true,
+    minify: true,
+    format: "iife",
+    target: "es2022",
+    charset: "utf8",
+    legalComments: "none",
+    loader: { ".css": "css" },
+    banner: { js: banner },
+    outdir: out,
+    logLevel: "info",
+  });
+await bundle({ viewer: "src/main.ts" }, "/* three.js and uPlot: MIT licence, see NOTICE */");
+await bundle({ program: "src/local/program.ts" }, "");
 writeFileSync(`${out}/NOTICE`, ["three", "uplot"].map(notice).join("\n---\n\n"));
 
 // what the bundle was made from: tests compare

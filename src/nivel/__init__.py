@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from nivel.errors import ModelError as ModelError
     from nivel.errors import NivelError as NivelError
     from nivel.errors import SolveError as SolveError
+    from nivel.live.opening import export_page as export_page
     from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
     from nivel.machine.beams.beam import Beam as Beam
     from nivel.machine.bodies.body import Body as Body
@@ -78,6 +79,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Machine": "nivel.api",
+    "export_page": "nivel.live.opening",
     "import_model": "nivel.api",
     "load": "nivel.api",
     "open_result": "nivel.api",

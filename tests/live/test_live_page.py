@@ -12,9 +12,10 @@ from browsing import served, until, watched
 from nivel.demos.catalogue import demo_file
 from nivel.integrate.loop.paced import DONE
 from nivel.live.opening import session_of
+from nivel.live.picture import gauges
 from nivel.live.recording import Recording
 from nivel.live.replay import replay
-from nivel.live.source import LiveSource, gauges
+from nivel.live.source import LiveSource
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import pytest
 
 from nivel import Input, Sensor
 from nivel.errors import ModelError
-from nivel.live.source import control, gauge
+from nivel.live.picture import control, gauge
 from nivel.words.wording import label_of
 
 PRESSURE = {"name": "lift-cylinder", "value": "time", "units": "bar"}

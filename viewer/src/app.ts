@@ -76,6 +76,7 @@ export class App {
   constructor(
     opened: Opened,
     private readonly connection: Connection | null,
+    alone = false,
   ) {
     const { content, arrays } = opened;
     const [stage, ...others] = content.stages;
@@ -143,7 +144,7 @@ export class App {
       this.trails = new Trails(this.actor, content.traced, content.gauges.length);
       this.world.scene.add(this.trails.root);
       this.actor.show("signs", false);
-      const live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+      const live = new Live(content.controls, content.gauges, (message) => connection.send(message), alone);
       const hand = new Hand(this.world, this.actor, (message) => {
         if (message.on && !live.operator.driving) live.take(true);
         connection.send(message);
@@ -227,6 +228,13 @@ export class App {
     if (message.type === "note") this.note(message.text);
     if (message.type === "status") this.live?.update(message);
     if (message.type === "moved") this.coordinates?.update(message.values, this.stage.coordinates, message.problem);
+  }
+
+  /** Save the frames of a machine that lives in the page. */
+  saveTable(text: Uint8Array): void {
+    const link = el("a", { href: URL.createObjectURL(new Blob([text as BlobPart], { type: "text/csv" })), download: `${this.stage.name}.csv` });
+    link.click();
+    URL.revokeObjectURL(link.href);
   }
 
   say(text: string): void {

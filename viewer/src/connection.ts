@@ -1,6 +1,6 @@
 // The connection to the server that the page came from. Frames are acknowledged once they are on the screen, so that the server
 // never has more than one on its way.
-import { COLUMN, FRAME, PACKAGE, SAMPLES, type FromPage, type FromServer } from "./generated/records";
+import { COLUMN, FRAME, PACKAGE, SAMPLES, TABLE, type FromPage, type FromServer } from "./generated/records";
 
 const PATIENCE = [500, 1000, 2000, 4000]; // ms before the next attempt
 
@@ -16,11 +16,22 @@ export interface Samples {
   values: Float64Array;
 }
 
+/** What messages go over: a websocket, or the worker of a page whose machine is inside. */
+export interface Link {
+  readonly readyState: number;
+  onopen: (() => void) | null;
+  onmessage: ((event: MessageEvent) => void) | null;
+  onclose: (() => void) | null;
+  send(text: string): void;
+}
+
 export interface Listener {
   onPackage(bytes: Uint8Array): void;
   onFrame(frame: Frame): void;
   onSamples(samples: Samples): void;
   onMessage(message: FromServer): void;
+  /** A table to be saved. */
+  onTable(text: Uint8Array): void;
   /** The program answers again, but shows something else than before. */
   onOther(): void;
   /** failures : attempts in a row that were in vain. */
@@ -28,14 +39,14 @@ export interface Listener {
 }
 
 export class Connection {
-  private socket: WebSocket | null = null;
+  private socket: Link | null = null;
   private requests = new Map<number, (column: Float32Array | string) => void>();
   private lastRequest = 0;
   private failures = 0;
   private known: Uint8Array | null = null; // the package, once it came
 
   constructor(
-    private readonly address: string,
+    private readonly connect: () => Link,
     private readonly listener: Listener,
   ) {
     this.open();
@@ -59,8 +70,7 @@ export class Connection {
   }
 
   private open(): void {
-    const socket = new WebSocket(this.address);
-    socket.binaryType = "arraybuffer";
+    const socket = this.connect();
     socket.onopen = () => {
       this.failures = 0;
       this.listener.onState(true, 0);
@@ -92,6 +102,8 @@ export class Connection {
       this.listener.onFrame({ number: view.getUint32(4, true), time: view.getFloat64(8, true), values });
     } else if (kind === SAMPLES) {
       this.listener.onSamples({ width: view.getUint32(4, true), values: new Float64Array(data, 8) });
+    } else if (kind === TABLE) {
+      this.listener.onTable(new Uint8Array(data, 4));
     } else if (kind === COLUMN) {
       this.answer(view.getUint32(4, true), new Float32Array(data, 12));
     }

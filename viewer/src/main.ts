@@ -1,6 +1,7 @@
 // Where the page begins: its data are in it, or come from the server that it came from.
 import { App } from "./app";
-import { Connection } from "./connection";
+import { Connection, type Link } from "./connection";
+import { hasMachine, startMachine } from "./local/link";
 import { inflate, openPackage } from "./package";
 import type { View } from "./stage/views";
 import "./style.css";
@@ -51,14 +52,22 @@ function present(app: App): void {
   };
 }
 
-function connect(): void {
-  let app: App | null = null;
+/** The server that the page came from. */
+function server(): Link {
   const token = new URLSearchParams(location.search).get("token");
   const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/stream${token ? `?token=${encodeURIComponent(token)}` : ""}`;
-  const connection = new Connection(address, {
+  const socket = new WebSocket(address);
+  socket.binaryType = "arraybuffer";
+  return socket as Link;
+}
+
+/** alone : the machine is in the page, and no server is asked for it. */
+function connect(link: () => Link, alone: boolean): void {
+  let app: App | null = null;
+  const connection = new Connection(link, {
     onPackage(bytes) {
       try {
-        app = new App(openPackage(bytes), connection);
+        app = new App(openPackage(bytes), connection, alone);
         present(app);
       } catch (error) {
         complain(inWords(error));
@@ -68,6 +77,7 @@ function connect(): void {
     onFrame: (frame) => app?.take(frame),
     onSamples: (samples) => app?.sample(samples),
     onMessage: (message) => app?.message(message),
+    onTable: (text) => app?.saveTable(text),
     onOther: () => location.reload(),
     onState: (connected, failures) => {
       if (!connected) app?.live?.lose();
@@ -77,9 +87,14 @@ function connect(): void {
 }
 
 async function start(): Promise<void> {
+  if (hasMachine()) {
+    const link = await startMachine(complain);
+    connect(() => link, true);
+    return;
+  }
   const embedded = document.getElementById("package");
   if (!embedded?.textContent?.trim()) {
-    connect();
+    connect(server, false);
     return;
   }
   try {

@@ -1,5 +1,5 @@
-"""`nivel export RESULT --csv [FILE]`, a result as a table; `nivel export MACHINE --c FOLDER` and `--fmu [FILE]`, a machine as a C library
-or as an FMU."""
+"""`nivel export RESULT --csv [FILE]`, a result as a table; `nivel export MACHINE --c FOLDER`, `--fmu [FILE]` and `--page [FILE]`, a machine
+as a C library, as an FMU, or as a web page in which it lives."""
 
 from __future__ import annotations
 
@@ -39,6 +39,15 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
     flag_value=BESIDE,
     metavar="[FILE]",
     help="Write an FMU of the machine SOURCE for co-simulation; default: NAME.fmu in the working directory.",
+)
+@click.option(
+    "--page",
+    "page",
+    is_flag=False,
+    flag_value=BESIDE,
+    metavar="[FILE]",
+    help="Write a web page in which the machine SOURCE lives, to be operated without Python or a server; default: NAME.html in the working "
+    "directory.",
 )
 @click.option("--fmi", type=click.Choice(["3", "2"]), help="Version of FMI; default 3.")
 @click.option(
@@ -119,6 +128,7 @@ def command(
     force: bool,
     folder: str | None,
     unit: str | None,
+    page: str | None,
     fmi: str | None,
     parameters: tuple[str, ...],
     platforms: tuple[str, ...],
@@ -138,15 +148,16 @@ def command(
     A C library simulates the machine with the fixed step of its simulation settings. `make` builds it and an example. Its outputs are
     sensors, joint coordinates with their rates, and inputs, or what --select names.
 
-    An FMU does the same in other simulation programs, by FMI 3.0 or 2.0.
+    An FMU does the same in other simulation programs, by FMI 3.0 or 2.0. A page is one file that any browser opens from disk: the machine
+    is operated there as by `nivel live`.
 
     An MJCF or URDF file has the rigid part of the machine. The list of what was left out is printed and stands in its comments.
     """
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
     tables = {".mat": mat, ".parquet": parquet, ".mf4": mdf, ".mcap": mcap}
-    if sum(each is not None for each in (target, folder, unit, mjcf, urdf, film, *tables.values())) > 1:
+    if sum(each is not None for each in (target, folder, unit, page, mjcf, urdf, film, *tables.values())) > 1:
         raise click.UsageError(
-            "one of --csv, --mat, --parquet, --mdf, --mcap, --gltf, --c, --fmu, --mjcf and --urdf is written at a time"
+            "one of --csv, --mat, --parquet, --mdf, --mcap, --gltf, --c, --fmu, --page, --mjcf and --urdf is written at a time"
         )
     if unit is None and (fmi or parameters):
         raise click.UsageError("--fmi and --parameter belong to --fmu")
@@ -158,12 +169,16 @@ def command(
         _write_c_library(source, folder, names, "".join(platforms), overrides)
     elif unit is not None:
         _write_fmu(source, unit, names, int(fmi or 3), parameters, platforms, force, overrides)
+    elif page is not None:
+        if names:
+            raise click.UsageError("--select belongs to --csv, --c and --fmu")
+        _write_page(source, page, force, overrides)
     elif mjcf is not None or urdf is not None:
         if names:
             raise click.UsageError("--select belongs to --csv, --c and --fmu")
         _write_model(source, mjcf, urdf, force, overrides)
     elif overrides:
-        raise click.UsageError("--set changes a machine; it belongs to --c, --fmu, --mjcf and --urdf")
+        raise click.UsageError("--set changes a machine; it belongs to --c, --fmu, --page, --mjcf and --urdf")
     elif film is not None:
         if names:
             raise click.UsageError("--select belongs to --csv, --c and --fmu")
@@ -205,6 +220,16 @@ def _write_fmu(
     click.echo(f"FMU: {written.path}, FMI {fmi}.0 co-simulation for {systems}, {counts}, {size:.0f} kB", err=True)
 
 
+def _write_page(machine: str, page: str, force: bool, overrides: dict[str, str]) -> None:
+    path = Path(Path(machine).with_suffix(".html").name) if page == BESIDE else Path(page)
+    loaded = nivel.api.load(machine, overrides)
+    with nivel.cli.progress.progress_listener(False) as listener:
+        written = nivel.live.opening.export_page(loaded, path, force=force, listener=listener)
+    size = written.path.stat().st_size / 1000
+    click.echo(f"page: {written.path}, {len(written.inputs)} inputs, {size:.0f} kB; any browser opens it", err=True)
+    click.echo("not verified: the errors of its steps were not examined; `nivel run` estimates them", err=True)
+
+
 def _write_model(machine: str, mjcf: str | None, urdf: str | None, force: bool, overrides: dict[str, str]) -> None:
     given, suffix = (mjcf, ".xml") if mjcf is not None else (urdf or BESIDE, ".urdf")
     path = Path(Path(machine).with_suffix(suffix).name) if given == BESIDE else Path(given)
@@ -242,8 +267,8 @@ def _write_table(result: str, target: str | None, names: list[str], force: bool)
 
     if target is None:
         raise click.UsageError(
-            "say in which form: --csv or --gltf [FILE] of a result; --c FOLDER, --fmu, --mjcf or --urdf [FILE] of a "
-            "machine"
+            "say in which form: --csv or --gltf [FILE] of a result; --c FOLDER, --fmu, --page, --mjcf or --urdf [FILE] "
+            "of a machine"
         )
     opened = nivel.results.Result.open(result)
     if target == "-":

@@ -32,9 +32,9 @@ from typing import Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
+from nivel.live.picture import gauges
 from nivel.live.preparation import SILENCE
 from nivel.live.session import Session
-from nivel.live.source import gauges
 from nivel.view.stream import Allowance
 
 HEAD: Final = struct.Struct("<4sHHIIq")

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.log import Listener
 from nivel.api import Machine
 from nivel.errors import ModelError
+from nivel.files.target import check_target
 from nivel.integrate.loop.paced import drive
 from nivel.live.journal import Journal, journal_of
+from nivel.live.page import LivePage, write_live_page
 from nivel.live.parts import ENTRIES
-from nivel.live.preparation import live_plan, pace_of
+from nivel.live.preparation import Pace, live_plan, pace_of
 from nivel.live.recording import about_run
 from nivel.live.session import Session
 from nivel.native import workers
+from nivel.settings import StepSettingsDict
+from nivel.words.arguments import checked_arguments
 
 
 @contextmanager
@@ -37,22 +43,50 @@ def session_of(
     force : an older journal is written over. Raises ModelError where it cannot be.
     """
     machine = machine.with_settings(settings)
-    pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
-    try:
-        plan, pace = live_plan(machine.record, settings, tick)
-        with ExitStack() as undone:
-            journal = None
-            if record is not None:
-                about = about_run(plan.machine, machine.origin.source, settings, pace)
-                journal = Journal(journal_of(record), about, force=force)
-                undone.callback(journal.discard)
-            build([*run_entries(plan), drive, *ENTRIES], listener)
-            workers.end_all()
-            session = Session(plan, pace, urgent=urgent, journal=journal)
-            undone.pop_all()
-    except ModelError as error:
-        raise ModelError(machine.origin.placed(error.faults)) from None
+    with _planned(machine, settings, tick) as (plan, pace), ExitStack() as undone:
+        journal = None
+        if record is not None:
+            about = about_run(plan.machine, machine.origin.source, settings, pace)
+            journal = Journal(journal_of(record), about, force=force)
+            undone.callback(journal.discard)
+        build([*run_entries(plan), drive, *ENTRIES], listener)
+        workers.end_all()
+        session = Session(plan, pace, urgent=urgent, journal=journal)
+        undone.pop_all()
     try:
         yield session
     finally:
         session.close()
+
+
+@checked_arguments
+def export_page(
+    machine: Machine,
+    path: str | os.PathLike[str],
+    *,
+    tick: float | None = None,
+    force: bool = False,
+    listener: Listener | None = None,
+    **settings: Unpack[StepSettingsDict],
+) -> LivePage:
+    """Write one HTML file in which the machine lives, to be operated as in `nivel live`, without Python, a server or a network.
+
+    tick : time between two readings of the inputs [s], a whole number of steps; by default 1 ms, or a longer step. force : replace an
+    existing file. settings : of the run, as in `Machine.start`.
+    Raises ModelError where the integrator chooses its steps, a Python law or foreign code takes part, or the file is there already.
+    """
+    target = Path(os.fspath(path))
+    check_target(target, "page", force=force, sources=[Path(machine.origin.file)] if machine.origin.file else [])
+    with _planned(machine := machine.with_settings(settings), settings, tick) as (plan, pace):
+        build([*run_entries(plan), drive], listener)
+        return write_live_page(plan, pace, target)
+
+
+@contextmanager
+def _planned(machine: Machine, settings: Mapping[str, Any], tick: float | None) -> Iterator[tuple[Plan, Pace]]:
+    """The live run of a machine, whose faults are placed in its file."""
+    pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
+    try:
+        yield live_plan(machine.record, settings, tick)
+    except ModelError as error:
+        raise ModelError(machine.origin.placed(error.faults)) from None

@@ -19,10 +19,11 @@ from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces.hand import Hand
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.loop import advance
-from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
-from nivel.integrate.loop.run import Run
+from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SHOWN, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
+from nivel.integrate.loop.run import TIME, Run
 from nivel.kernels.core.block import Handle
-from nivel.live.shared import Sizes
+from nivel.kernels.output.observe import observe
+from nivel.live.shared import Sizes, arrays_of, put_back, taken
 from nivel.machine.changes import changed
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
@@ -110,8 +111,8 @@ class LiveRun:
         """What the shared memory has room for."""
         return Sizes(len(self.plan.machine.inputs), self.prepared.motion.system.layout.width)
 
-    def begin(self, live: Live) -> Any:
-        """Fill what the loop is told, and return the loop: a function without arguments that returns a status."""
+    def session(self, live: Live) -> Handle:
+        """Fill what the loop is told; what the loop knows it by."""
         system = self.prepared.motion.system
         live.clock[TICK], live.clock[SPEED] = self.pace.tick, 1.0
         live.clock[BOUND], live.clock[WATCHDOG] = CAUGHT_UP, SILENCE
@@ -122,13 +123,30 @@ class LiveRun:
             live.target[k] = live.value[k] = each.rest_value
         # a hand that lets go stays where it is
         live.limit[HAND_PULL + 1 - HAND_INPUTS :, REST] = np.nan
-        loop, session = self.loop, Handle(live)
+        return Handle(live)
+
+    def begin(self, live: Live) -> Any:
+        """The loop: a function without arguments that returns a status."""
+        loop, session = self.loop, self.session(live)
         codes = [entry.address for entry in (advance, loop.evaluate, loop.correct, loop.step)]
 
         def go_on() -> int:
             return drive(*codes, loop.machine.address, loop.history.address, session.address)
 
         return go_on
+
+    def show(self, live: Live) -> None:
+        """Put a frame of the present state into the ring, and leave no trace of it in the run."""
+        arrays = arrays_of(self.records)
+        before = taken(arrays, 0)
+        run, motion = self.run, self.prepared.motion
+        at = float(run.clock[TIME])
+        motion.evaluate(at, run.y)
+        frame = live.frames[int(live.control[SHOWN]) % len(live.frames)]
+        frame[0] = at
+        observe(motion.handle.address, at, run.y, frame)
+        put_back(arrays, before)
+        live.control[SHOWN] += 1
 
     @property
     def records(self) -> list[Any]:

@@ -19,10 +19,12 @@ STARTING, RUNNING, PAUSED, ENDED, FAILED, GONE = 0, 1, 2, 3, 4, 5
 
 
 class Sizes(NamedTuple):
-    """Numbers of inputs of the machine and of columns of a frame."""
+    """Numbers of inputs of the machine and of columns of a frame, and rows of the rings."""
 
     inputs: int
     width: int
+    tape_rows: int = TAPE_ROWS
+    frame_rows: int = FRAME_ROWS
 
 
 def _shapes(sizes: Sizes) -> dict[str, tuple[Any, tuple[int, ...]]]:
@@ -34,8 +36,8 @@ def _shapes(sizes: Sizes) -> dict[str, tuple[Any, tuple[int, ...]]]:
         "limit": (np.float64, (n, 4)),
         "target": (np.float64, (n,)),
         "value": (np.float64, (n,)),
-        "tape": (np.float64, (TAPE_ROWS, n)),
-        "frames": (np.float64, (FRAME_ROWS, sizes.width)),
+        "tape": (np.float64, (sizes.tape_rows, n)),
+        "frames": (np.float64, (sizes.frame_rows, sizes.width)),
         "histogram": (np.int64, (2 * BINS,)),
         "address": (np.uint64, (4,)),
         "now": (np.int64, (2,)),

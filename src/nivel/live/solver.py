@@ -30,12 +30,11 @@ from nivel.integrate.loop.paced import (
     TICKS,
     Live,
 )
-from nivel.integrate.loop.run import ACCEPTED, MOVING, REJECTED, STOPPED, TIME
+from nivel.integrate.loop.run import ACCEPTED, MOVING, REJECTED, STOPPED
 from nivel.integrate.loop.run import STEP as STEP_CLOCK
 from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core import status as codes
-from nivel.kernels.output.observe import observe
 from nivel.lazy import nivel
 from nivel.live import shared
 from nivel.live.parts import ENTRIES, shares
@@ -221,13 +220,4 @@ class Solver:
         self._show()
 
     def _show(self) -> None:
-        """Put a frame of the present state into the ring, and leave no trace of it in the run."""
-        before = taken(self._arrays, 0)
-        run, motion, live = self._its.run, self._its.prepared.motion, self._live
-        at = float(run.clock[TIME])
-        motion.evaluate(at, run.y)
-        frame = live.frames[int(live.control[SHOWN]) % len(live.frames)]
-        frame[0] = at
-        observe(motion.handle.address, at, run.y, frame)
-        put_back(self._arrays, before)
-        live.control[SHOWN] += 1
+        self._its.show(self._live)

@@ -94,12 +94,25 @@ def _compile(job: dict[str, Any]) -> None:
     if any(processor for _, processor in job["targets"]):
         _all_targets()
     codes = [
-        (path, translate.optimised(module, translate.target_machine(*(processor or translate.host()))))
+        (path, translate.optimised(module, _target_machine(processor or translate.host())))
         for path, processor in job["targets"]
     ]
     seen.check(job["entry"], job["sources"])
     for path, code in codes:
         store.write(Path(path), code)
+
+
+def _target_machine(processor: tuple[str, ...]) -> Any:
+    """LLVM's target. A module of WebAssembly has a memory of its own, in which its code knows all places."""
+    from llvmlite import binding
+
+    from nivel.native.with_numba import translate
+
+    cpu, features, triple = (*processor, "")[:3]
+    if not triple.startswith("wasm"):
+        return translate.target_machine(*processor)
+    target = binding.Target.from_triple(triple)
+    return target.create_target_machine(cpu=cpu, features=features, opt=3, reloc="static", codemodel="default")
 
 
 @cache

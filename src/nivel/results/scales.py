@@ -116,7 +116,7 @@ def _diagonal(parts: Iterable[Array], round_off: float) -> float:
 def _free_path(result: Readable) -> float:
     """How far the loads would move the whole machine in the run if nothing balanced them [m]; 0 where its mass is not known."""
     mass = _mass(result)
-    force = _weight(result) + _largest_load(result, 0.0)
+    force = weight(result) + _largest_load(result, 0.0)
     return 0.5 * force / mass * span(result) ** 2 if mass > 0.0 else 0.0
 
 
@@ -139,14 +139,24 @@ def largest_speed(result: Readable) -> float:
     """
     if "velocity" not in result.variables:
         return 0.0
-    reach = np.array([_reach(body) or _gyration(body) for body in bodies(result)])
-    largest = 0.0
+    reach, largest = reaches(result), 0.0
     for frames in blocks(result):
         v = np.linalg.norm(result.array("velocity", frames), axis=-1)
         omega = np.linalg.norm(result.array("angular_velocity", frames), axis=-1)
         speed = v + omega * reach
         largest = max(largest, float(np.max(speed, initial=0.0, where=np.isfinite(speed))))
     return largest
+
+
+def reaches(result: Readable) -> Array:
+    """(bodies,) [m] how far a body reaches from its origin: to its farthest joint point or centre of mass, else its radius of gyration."""
+    return np.array([_reach(body) or _gyration(body) for body in bodies(result)])
+
+
+def weight(result: Readable) -> float:
+    """Of all bodies [N], as far as the scene knows their mass."""
+    gravity = _read(str(result.attributes.get("machine_record", "{}"))).get("gravity", (0.0, 0.0, 0.0))
+    return _mass(result) * float(np.linalg.norm(np.array(gravity, dtype=float)))
 
 
 def kinetic_energy_of_rest(result: Readable, slowest: float) -> float:
@@ -195,7 +205,7 @@ def _energy_of_rest(result: Readable, size: float, opening: float, at_rest: bool
     settings = json.loads(str(result.attributes.get("settings", "{}")))
     # loads of a machine that moves may be impacts, whose work is no measure of what it is solved for
     share = max(ENERGY_FLOOR, float(settings.get("tolerance", 0.0))) if at_rest else ENERGY_FLOOR
-    work = size * _weight(result) + _largest_load(result, size)
+    work = size * weight(result) + _largest_load(result, size)
     travelling = 0.5 * _mass(result) * (size / span(result)) ** 2
     # the solver closes joints to a share of a metre where all is one point
     closed = CLOSED * max(1.0, POINT_SIZE / size) if _extent_at_start(result) == 0.0 else CLOSED
@@ -254,12 +264,6 @@ def _arm(units: str, size: float) -> float:
 def _mass(result: Readable) -> float:
     """Of all bodies [kg], as far as the scene knows it."""
     return sum(float(body.get("mass", 0.0)) for body in bodies(result))
-
-
-def _weight(result: Readable) -> float:
-    """Of all bodies [N], as far as the scene knows their mass."""
-    gravity = _read(str(result.attributes.get("machine_record", "{}"))).get("gravity", (0.0, 0.0, 0.0))
-    return _mass(result) * float(np.linalg.norm(np.array(gravity, dtype=float)))
 
 
 def _largest(result: Readable, name: str, change: Callable[[Array], Array]) -> float:

@@ -26,13 +26,17 @@ UNPACK: Final = (
     "s.textContent=await new Response(new Blob([b]).stream().pipeThrough(new DecompressionStream('deflate'))).text();"
     "document.body.append(s)})()"
 )
+MACHINE_POLICY: Final = (
+    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; "
+    "worker-src blob:"
+)
 ALONE_POLICY: Final = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 NO_SCRIPT: Final = '<noscript><p class="complaint">The viewer needs JavaScript.</p></noscript>'
 
 
 @cache
 def built(name: str) -> str:
-    """A file that `npm run build` made: viewer.js, viewer.css or NOTICE."""
+    """A file that `npm run build` made: viewer.js, program.js, viewer.css or NOTICE."""
     return (FOLDER / name).read_text(encoding="utf-8")
 
 
@@ -49,18 +53,27 @@ def script_hash() -> str:
 
 def page_alone(package: bytes, title: str) -> str:
     """One HTML file with script and data inside, both compressed; it needs no network and nothing beside it."""
-    code = _compressed_script()
-    body = (
-        f'{NO_SCRIPT}<script type="text/plain" id="package">{compressed_text(package)}</script>'
-        f'<script type="text/plain" id="code">{code}</script><script>{UNPACK}</script>'
-    )
-    policy = f'<meta http-equiv="Content-Security-Policy" content="{ALONE_POLICY}">'
-    return _document(title, body, policy)
+    return _alone(title, ALONE_POLICY, package=compressed_text(package), code=_compressed("viewer.js"))
+
+
+def page_with_machine(title: str, package: bytes, machine: bytes, memory: bytes, kernels: bytes) -> str:
+    """The same of a live machine, which moves in it. machine : its records (`local.LocalMachine`). memory : at its start. kernels : its
+    machine code, a module of WebAssembly."""
+    data = {"package": package, "machine": machine, "memory": memory, "kernels": kernels}
+    texts = {name: compressed_text(content) for name, content in data.items()}
+    return _alone(title, MACHINE_POLICY, **texts, program=_compressed("program.js"), code=_compressed("viewer.js"))
+
+
+def _alone(title: str, policy: str, **texts: str) -> str:
+    """A page with compressed texts in it, the last of them its script."""
+    body = "".join(f'<script type="text/plain" id="{name}">{text}</script>' for name, text in texts.items())
+    head = f'<meta http-equiv="Content-Security-Policy" content="{policy}">'
+    return _document(title, f"{NO_SCRIPT}{body}<script>{UNPACK}</script>", head)
 
 
 @cache
-def _compressed_script() -> str:
-    return compressed_text(built("viewer.js").encode())
+def _compressed(name: str) -> str:
+    return compressed_text(built(name).encode())
 
 
 def _document(title: str, body: str, head: str) -> str:

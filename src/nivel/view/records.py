@@ -33,6 +33,7 @@ PROTOCOL: Final = 1  # version of all that stands here
 PACKAGE: Final = 1  # binary message: a package (package.py)
 FRAME: Final = 2  # binary message: number of the frame (32 bits), its time (64-bit float), then its floats (frames.py)
 SAMPLES: Final = 4  # binary message: floats of a sample (32 bits), then samples of 64-bit floats (frames.py)
+TABLE: Final = 5  # binary message: a table as text, of a page in which the machine lives
 COLUMN: Final = 3  # binary message: number of the request (32 bits), 4 bytes unused, then a column of 32-bit floats
 
 
@@ -611,7 +612,8 @@ class Take:
 
 @dataclass(frozen=True)
 class Command:
-    """From the page that operates: run, pause, step, reset, save, restore, or speed with its number."""
+    """From the page that operates: run, pause, step, reset, save, restore, or speed with its number. Where the machine is in the page,
+    table, too."""
 
     type: Literal["command"]
     word: str

@@ -1,4 +1,6 @@
-"""The records of `records.py` for the page: `python -m nivel.view.typescript FILE` writes them. A test checks that FILE is current."""
+"""The records of `records.py` and `local.py` for the page: `python -m nivel.view.typescript FILE` writes them.
+
+A test checks that FILE is current."""
 
 from __future__ import annotations
 
@@ -8,17 +10,17 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Final, Literal, Union, get_args, get_origin, get_type_hints
 
-from nivel.view import records
+from nivel.view import local, records
 
 PLAIN: Final = {str: "string", int: "number", float: "number", bool: "boolean", NoneType: "null"}
-NUMBERS: Final = ("PROTOCOL", "PACKAGE", "FRAME", "SAMPLES", "COLUMN")
+NUMBERS: Final = ("PROTOCOL", "PACKAGE", "FRAME", "SAMPLES", "COLUMN", "TABLE")
 
 
 def typescript() -> str:
     """All records as TypeScript interfaces, the numbers of the protocol as constants, and what either side may say as unions."""
-    lines = ["// Written by `python -m nivel.view.typescript` from records.py. Do not edit.", ""]
+    lines = ["// Written by `python -m nivel.view.typescript` from records.py and local.py. Do not edit.", ""]
     lines += [f"export const {name} = {getattr(records, name)};" for name in NUMBERS]
-    for record in vars(records).values():
+    for record in (*vars(records).values(), *vars(local).values()):
         if isinstance(record, type) and is_dataclass(record):
             lines += ["", *_interface(record)]
     for name, members in (("FromServer", records.FROM_SERVER), ("FromPage", records.FROM_PAGE)):

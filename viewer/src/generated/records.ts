@@ -1,10 +1,11 @@
-// Written by `python -m nivel.view.typescript` from records.py. Do not edit.
+// Written by `python -m nivel.view.typescript` from records.py and local.py. Do not edit.
 
 export const PROTOCOL = 1;
 export const PACKAGE = 1;
 export const FRAME = 2;
 export const SAMPLES = 4;
 export const COLUMN = 3;
+export const TABLE = 5;
 
 /** An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
 export interface Packed {
@@ -405,11 +406,114 @@ export interface Take {
   on: number;
 }
 
-/** From the page that operates: run, pause, step, reset, save, restore, or speed with its number. */
+/** From the page that operates: run, pause, step, reset, save, restore, or speed with its number. Where the machine is in the page, table, too. */
 export interface Command {
   type: "command";
   word: string;
   number: number;
+}
+
+/** What the loop is called with. Codes are numbers in `LocalMachine.codes`, the others places. drive, advance, evaluate, correct, step, observe : codes. machine, history, session : records. y, rate, clock, counter : arrays of the history, `count` numbers in y and rate; time, accepted : numbers in clock. failed : what the last failure names. */
+export interface LocalLoop {
+  drive: number;
+  advance: number;
+  evaluate: number;
+  correct: number;
+  step: number;
+  observe: number;
+  machine: number;
+  history: number;
+  session: number;
+  y: number;
+  rate: number;
+  count: number;
+  clock: number;
+  time: number;
+  accepted: number;
+  counter: number;
+  stopped: number;
+  failed: number;
+}
+
+/** What the loop shares with its operator: places of its arrays, and the numbers in `control`. rows, width : of the ring of frames. */
+export interface LocalSession {
+  control: number;
+  target: number;
+  value: number;
+  frames: number;
+  rows: number;
+  width: number;
+  ticks: number;
+  done: number;
+  shown: number;
+}
+
+/** An input that a page moves. rest : where it goes when nobody operates. */
+export interface LocalInput {
+  name: string;
+  rest: number;
+}
+
+/** A status that ends a run, and what is said of it, with {} for one of the names. */
+export interface LocalFailure {
+  status: number;
+  sentence: string;
+  names: string[];
+}
+
+/** Columns of what is drawn: first and last of positions, orientations and modal coordinates, and of the gauges. origin : from which positions are counted [m]. */
+export interface LocalPicture {
+  position: [number, number];
+  orientation: [number, number];
+  modal: [number, number];
+  origin: [number, number, number];
+  gauges: number[];
+  traced: number[];
+}
+
+/** A number that the light looks at in every frame: the sum of columns times factors, counted from the start, or where not `summed` the largest magnitude among them. It is compared with a scale: the largest of `floor`, of magnitudes of `against`, of those of `changes` counted from the start, and with `speed` above 0 that many times the largest speed. green, amber : shares of the scale below which it is green, and amber. text : what is said, with {} for the share. */
+export interface Watched {
+  text: string;
+  columns: number[];
+  factors: number[];
+  summed: boolean;
+  against: number[];
+  changes: number[];
+  floor: number;
+  speed: number;
+  green: number;
+  amber: number;
+}
+
+/** What the largest speed of a frame is found from: |v| + |omega| reach of each body. slow : a speed [m/s] times the time [s] since the start, below which a machine is at rest. */
+export interface Speeds {
+  velocity: number;
+  angular: number;
+  reach: number[];
+  slow: number;
+}
+
+/** A machine, its memory and machine code apart. bytes : of its memory. inner : (word, place whose address belongs there). outer : (word, code whose address belongs there). codes : names of functions of the module. tick : from input to input [s]. inputs : that the page moves; those of the hand follow. names : of all columns, with units. events : names, by number from 1 on. over, done, full : statuses of a loop that has done its ticks, whose run has ended, and which stopped early. */
+export interface LocalMachine {
+  name: string;
+  bytes: number;
+  inner: [number, number][];
+  outer: [number, number][];
+  codes: string[];
+  tick: number;
+  every: number;
+  loop: LocalLoop;
+  session: LocalSession;
+  inputs: LocalInput[];
+  bodies: number;
+  picture: LocalPicture;
+  names: string[];
+  failures: LocalFailure[];
+  events: string[];
+  spent: number;
+  done: number;
+  watched: Watched[];
+  speeds: Speeds;
 }
 
 export type FromServer = Note | Moved | Refused | Status;

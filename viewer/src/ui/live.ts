@@ -42,6 +42,7 @@ export class Live {
     private readonly controls: Control[],
     private readonly gauges: Gauge[],
     private readonly send: (message: FromPage) => void,
+    private readonly alone: boolean, // whether the machine is in the page, and no server is there to record it
   ) {
     this.operator = new Operator(controls, (values) => send({ type: "drive", values }), () => this.take(true));
     this.run = iconButton("play", "Run", () => this.toggle(), "space");
@@ -59,6 +60,7 @@ export class Live {
     const reset = iconButton("reset", "Back to the start", () => this.say("reset"));
     const save = el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state");
     const restore = el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore");
+    const table = el("button", { type: "button", class: "chip", title: "Save all frames of this motion as a table (CSV)", onclick: () => send({ type: "command", word: "table", number: 0 }) }, "Save table");
     this.commands = [this.run, step, reset, hand, save, restore, this.speed, this.seat];
     this.bar = el(
       "footer",
@@ -66,7 +68,7 @@ export class Live {
       el("div", { class: "transport" }, this.run, step, reset),
       el("div", { class: "clock" }, this.clock),
       el("span", { class: "of load" }, this.light, this.load),
-      el("div", { class: "pace" }, hand, save, restore, this.speed, this.seat),
+      el("div", { class: "pace" }, hand, save, restore, alone ? table : null, this.speed, this.seat),
     );
     this.hint = el("p", { class: "note" }, hintOf(controls));
     this.rows = controls.map((control, k) => this.row(control, k));
@@ -140,7 +142,7 @@ export class Live {
   private judge(status: Status): void {
     this.light.dataset.verdict = status.light;
     const so = `Energy, joints, circuits and computing time are ${status.light} so far.`;
-    this.light.title = [so, "Not verified: the errors of the steps are not examined; nivel replay estimates them.", ...status.reasons].join("\n");
+    this.light.title = [so, `Not verified: the errors of the steps are not examined${this.alone ? "" : "; nivel replay estimates them"}.`, ...status.reasons].join("\n");
     this.light.setAttribute("aria-label", `trust: ${status.light}, not verified`);
     const shown = status.text ? status.reasons.filter((each) => !each.includes(status.text)) : status.reasons;
     if (this.reasons.dataset.shown === shown.join("\n")) return;

@@ -1,4 +1,4 @@
-"""What touches in a contact: the shape of a body, or of a marker on one, and where it is in the body."""
+"""The touching parts of a contact: the shape of a body, or of a marker on one, and where it is in the body."""
 
 from __future__ import annotations
 

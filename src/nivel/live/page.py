@@ -1,0 +1,222 @@
+"""One HTML file in which a machine lives: its machine code for WebAssembly, its memory, its picture, and the page of `nivel live`."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from nivel.analysis.plan.compilation import run_entries
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.preparation.attributes import run_attributes
+from nivel.c_library.exported import FRAMES_KEPT, refusal
+from nivel.c_library.failures import failures_of
+from nivel.c_library.image import Image, UnknownAddressError
+from nivel.files.target import write_file
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.paced import DONE, SHOWN, TICKS, Live, drive
+from nivel.integrate.loop.run import ACCEPTED, STOPPED, TIME
+from nivel.integrate.loop.sink import Header
+from nivel.judge.after.checks.circuits import INTEGRALS, START
+from nivel.judge.after.checks.energy import BALANCE
+from nivel.judge.after.checks.joints import OPENING, RATES
+from nivel.kernels.core import status
+from nivel.kernels.core.block import Handle
+from nivel.kernels.output.observe import observe
+from nivel.live.picture import Picture
+from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, prepared_run
+from nivel.live.shared import Sizes, bytes_of, live_in
+from nivel.native import library, wasm
+from nivel.native.entry import Entry
+from nivel.native.workers import CompilationError
+from nivel.results.frames.contents import MemoryContents
+from nivel.results.frames.csv_table import columns
+from nivel.results.result import Result
+from nivel.results.scales import ENERGY_FLOOR, REST, machine_size, reaches, weight
+from nivel.system.layout import FrameLayout
+from nivel.view import local
+from nivel.view.page import page_with_machine
+
+TAPE_ROWS, FRAME_ROWS = 4, 64  # of the rings: a page reads frames after every turn, and keeps no tape
+
+
+class _Codes:
+    """Names of functions of the module, each once, and their numbers."""
+
+    def __init__(self) -> None:
+        self.names: list[str] = []
+
+    def number(self, entry: Entry | str) -> int:
+        """Of an entry or its symbol."""
+        symbol = entry if isinstance(entry, str) else entry.symbol
+        if symbol not in self.names:
+            self.names.append(symbol)
+        return self.names.index(symbol)
+
+
+class LivePage(NamedTuple):
+    """What was written. inputs : that the page moves. kernels : bytes of machine code. verified : no; the errors of its steps were not
+    examined."""
+
+    path: Path
+    inputs: tuple[str, ...]
+    kernels: int
+    verified: bool = False
+
+
+def write_live_page(plan: Plan, pace: Pace, path: Path) -> LivePage:
+    """Write the page of a live machine, which replaces an existing file. plan, pace : of `live_plan`.
+
+    Raises ModelError where a Python law or foreign code takes part, or the machine cannot be assembled.
+    """
+    run = _short(prepared_run(plan, pace))
+    layout, inputs = run.prepared.motion.system.layout, plan.machine.inputs[:-HAND_INPUTS]
+    sizes = Sizes(*run.sizes[:2], TAPE_ROWS, FRAME_ROWS)
+    live = live_in(bytearray(bytes_of(sizes)), sizes)
+    session = run.session(live)
+    run.show(live)
+    frame = live.frames[0].copy()
+    attributes = run_attributes(plan.machine, "", run.prepared, plan.settings)
+    picture = Picture(attributes, layout, frame, inputs, plan.machine.sensors)
+    entries = {each.symbol: each for each in (*run_entries(plan), drive, observe)}
+    image = _image(run, session, [*entries.values()])
+    codes = _Codes()
+    machine = local.LocalMachine(
+        name=plan.machine.name,
+        bytes=image.words.nbytes,
+        loop=_loop(run, session, image, codes),
+        inner=list(image.inner.items()),
+        outer=[(word, codes.number(symbol)) for word, symbol in image.outer.items()],
+        codes=codes.names,
+        tick=pace.tick,
+        every=pace.every,
+        session=_session(live, image),
+        inputs=[local.LocalInput(each.name, each.rest_value) for each in inputs],
+        bodies=len(plan.machine.bodies),
+        picture=_columns_of(picture),
+        failures=[
+            local.LocalFailure(int(one), text, [*names]) for one, text, names in failures_of(run.prepared.motion.system)
+        ],
+        events=[*run.prepared.motion.system.events],
+        spent=status.BUDGET_SPENT,
+        done=status.DONE,
+        **_light(Result(MemoryContents(Header(layout, attributes), frame[None], attributes)), layout),
+    )
+    try:
+        objects = library.object_codes_for([entries[name] for name in codes.names], wasm.TARGET)
+    except CompilationError as problem:
+        raise refusal(f"a page is made of machine code for browsers, and {problem}") from None
+    module = wasm.linked(wasm.needed([wasm.read_object(each) for each in objects.values()], wasm.library()))
+    text = json.dumps(asdict(machine), separators=(",", ":"), allow_nan=False).encode()
+    html = page_with_machine(plan.machine.name, picture.package, text, image.words.tobytes(), module)
+    return LivePage(write_file(path, "page", html), tuple(each.name for each in inputs), len(module))
+
+
+def _short(run: LiveRun) -> LiveRun:
+    """The run with room for no more frames than a step leaves."""
+    history = run.run
+    run.loop = run.loop._replace(history=Handle(history._replace(frames=history.frames[:FRAMES_KEPT].copy())))
+    return run
+
+
+def _image(run: LiveRun, session: Handle, entries: list[Entry]) -> Image:
+    twin = run.prepared.motion.twin
+    handles = [run.loop.machine, *([] if twin is None else [twin]), run.loop.history, session]
+    try:
+        return Image(handles, {each.address: each.symbol for each in entries})
+    except UnknownAddressError:
+        raise refusal("Python laws cannot go into a page; write them as expressions") from None
+
+
+def _loop(run: LiveRun, session: Handle, image: Image, codes: _Codes) -> local.LocalLoop:
+    """Where the loop finds what it is called with."""
+    loop, history = run.loop, run.run
+    places = {name: image.byte_of(getattr(history, name).ctypes.data) for name in ("y", "rate", "clock", "counter")}
+    entries = {"drive": drive, "advance": advance, "observe": observe}
+    entries |= {name: getattr(loop, name) for name in ("evaluate", "correct", "step")}
+    return local.LocalLoop(
+        **{name: codes.number(each) for name, each in entries.items()},
+        machine=image.byte_of(int(loop.machine.address)),
+        history=image.byte_of(int(loop.history.address)),
+        session=image.byte_of(int(session.address)),
+        **places,
+        count=len(history.y),
+        time=TIME,
+        accepted=ACCEPTED,
+        stopped=STOPPED,
+        failed=image.byte_of(loop.machine.record.control.failure.ctypes.data),
+    )
+
+
+def _session(live: Live, image: Image) -> local.LocalSession:
+    places = {name: image.byte_of(getattr(live, name).ctypes.data) for name in ("control", "target", "value", "frames")}
+    rows, width = live.frames.shape
+    return local.LocalSession(**places, rows=rows, width=width, ticks=TICKS, done=DONE, shown=SHOWN)
+
+
+def _columns_of(picture: Picture) -> local.LocalPicture:
+    """Which columns of a frame of the run make one of the page."""
+    places = (picture.places.position, picture.places.orientation, picture.places.modal)
+    position, orientation, modal = ((each.start, each.stop) for each in places)
+    x, y, z = picture.origin.tolist()
+    return local.LocalPicture(position, orientation, modal, (x, y, z), picture.columns, picture.traced)
+
+
+def _light(result: Result, layout: FrameLayout) -> dict[str, Any]:
+    """Names of all columns, and what the light looks at; `result` has the first frame."""
+    names = columns(result)
+    first = {each.name: each.columns.start for each in layout.variables}
+    span = {each.name: each.columns for each in layout.variables}
+    size = machine_size(result)[0]
+    watched = [*_watched(result, span, size)]
+    speeds = local.Speeds(
+        first.get("velocity", 0), first.get("angular_velocity", 0), reaches(result).tolist(), REST * size
+    )
+    return {"names": [f"{each} [{result.units(each)}]" for each in names], "watched": watched, "speeds": speeds}
+
+
+def _watched(result: Result, span: dict[str, slice], size: float) -> Iterator[local.Watched]:
+    """Energy, joints and circuits; the time is the page's own."""
+
+    def of(name: str) -> list[int]:
+        return [*range(span[name].start, span[name].stop)] if name in span else []
+
+    energies = [*of("kinetic_energy"), *of("external_work"), *of("dissipated_energy")]
+    yield local.Watched(
+        text=f"Energy: error {{}} of the largest energy ({BALANCE})",
+        columns=of("energy_error"),
+        factors=[1.0],
+        summed=False,
+        against=energies,
+        changes=of("potential_energy"),
+        floor=ENERGY_FLOOR * weight(result) * size,
+        speed=0.0,
+        green=BALANCE.green,
+        amber=BALANCE.amber,
+    )
+    units = [*json.loads(str(result.attributes.get("constraint_units", "{}"))).values()]
+    for name, threshold, said, speed in (
+        (
+            "constraint_violation",
+            OPENING,
+            f"Joints: open by {{}} of the machine's size, or of 1 as a cosine ({OPENING})",
+            0.0,
+        ),
+        ("constraint_rate_violation", RATES, f"Joint rates: off by {{}} of the largest speed ({RATES})", 1.0),
+    ):
+        if rows := of(name):
+            lengths = [unit == "m" for unit in units]
+            factors = [
+                (1.0 / size if length else 1.0) if not speed else (1.0 if length else size) for length in lengths
+            ]
+            floor = 0.0 if speed else 1.0
+            yield local.Watched(said, rows, factors, False, [], [], floor, speed, threshold.green, threshold.amber)
+    if f"{START}stored" in span:
+        supplied, delivered, lost = (of(f"state.{START}{name}")[0] for name in INTEGRALS)
+        stored = of(f"{START}stored")
+        terms, factors = [supplied, delivered, lost, *stored], [1.0, -1.0, -1.0, -1.0]
+        said = f"Hydraulics: error {{}} of the largest energy of the circuits ({BALANCE})"
+        against = [supplied, delivered, lost]
+        yield local.Watched(said, terms, factors, True, against, stored, 1e-9, 0.0, BALANCE.green, BALANCE.amber)

@@ -252,7 +252,9 @@ def test_wrong_options_end_with_code_two_and_say_what_would_be_right(folder, arg
 def test_everything_that_does_not_go_together_is_said_at_once_and_before_anything_is_compiled(folder):
     driven = PENDULUM + "drivers: {turn: {coordinate: hinge, value: 2*time}}\n"
     (folder / "pendulum.yaml").write_text(driven)
-    options = "--stabilisation geometric --formulation penalty --coordinates independent --tolerance 1e-8"
+    options = (
+        "--stabilisation geometric --formulation penalty --coordinates independent --integrator rk4 --tolerance 1e-8"
+    )
     done = nivel(folder, "run", "pendulum.yaml", *options.split(), "--set", "simulation.rotations=euler-angles")
     assert done.returncode == 2
     for part in (

@@ -24,11 +24,11 @@ from nivel.machine.bodies.solids import (
     share_of_hull,
     squared_gyration,
 )
+from nivel.machine.control.part import signals_read
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
 from nivel.machine.forces.contact import Contact
 from nivel.machine.given import Shown, Usual
-from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.uses.references import SECTIONS
@@ -60,7 +60,7 @@ def remarks(machine: MachineRecord) -> Iterator[Finding]:
 def _unread(machine: MachineRecord) -> Iterator[Finding]:
     """Inputs that nothing reads."""
     read = {path for each in machine.functions for path in each.function.signals} if machine.inputs else set()
-    read |= {path for block in machine.control for part in block.parts for path in signals_of(part.function)}
+    read |= {path for block in machine.control for part in block.parts for path in signals_read(part.function)}
     for given in machine.inputs:
         path = f"{given.name}.value"
         if path not in read:

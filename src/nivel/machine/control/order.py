@@ -6,11 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
-from nivel.machine.control.part import Part, PartFunction
-from nivel.machine.control.unit_output import UnitOutput
-from nivel.machine.laws.time_function import signals_of
-from nivel.machine.units.formula import Formula
-from nivel.machine.units.linear_function import LinearFunction
+from nivel.machine.control.part import Part, PartFunction, signals_read
 
 
 @dataclass(frozen=True)
@@ -38,17 +34,13 @@ class PartOf:
     @property
     def signals(self) -> tuple[str, ...]:
         """Paths that its function reads."""
-        return _signals_of(self.part.function)
+        return signals_read(self.part.function)
 
     @property
     def feedthrough(self) -> tuple[str, ...]:
         """Paths that it reads at the instant at which it is computed; a sample that reads itself reads its value before."""
-        paths = _signals_of(self.present)
+        paths = signals_read(self.present)
         return paths if self.part.role == "signal" else tuple(path for path in paths if path != self.path)
-
-
-def _signals_of(function: PartFunction) -> tuple[str, ...]:
-    return function.signals if isinstance(function, LinearFunction | Formula | UnitOutput) else signals_of(function)
 
 
 def parts_of(blocks: Sequence[Block]) -> list[PartOf]:

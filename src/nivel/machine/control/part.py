@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from nivel.machine.control.unit_output import UnitOutput
-from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.laws.time_function import TimeFunction, signals_of
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 
@@ -16,6 +16,11 @@ VALUE = "value"
 
 
 PartFunction = TimeFunction | LinearFunction | Formula | UnitOutput
+
+
+def signals_read(function: PartFunction) -> tuple[str, ...]:
+    """The paths of the signals that the function of a part depends on; `time` is none."""
+    return function.signals if isinstance(function, LinearFunction | Formula | UnitOutput) else signals_of(function)
 
 
 @dataclass(frozen=True)

@@ -126,7 +126,7 @@ def install():
         return address_of(noted(law))
 
     library.address_of_law = address_of_law
-    from nivel.kernels.core import block, lanes
+    from nivel.kernels.core import block, handle, lanes, number
 
     handles = WeakValueDictionary()
     make = block.Handle.__init__
@@ -142,7 +142,7 @@ def install():
     lanes.unit, lanes.slope = unit, slope
     # gradients of runs are compiled only
     lanes.is_whole = lambda address: False
-    lanes.number_of = lambda address, x: x.real
-    lanes.without_slopes = lambda x: x
+    number.number_of = lambda address, x: x.real
+    number.without_slopes = lambda x: x
     block.Handle.__init__ = kept
-    block.reader = lambda *_: record_at
+    handle.reader = lambda *_: record_at

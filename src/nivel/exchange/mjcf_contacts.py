@@ -14,8 +14,9 @@ import numpy as np
 
 from nivel.exchange.mechanism import Look, Mechanism, Solid, Touch
 
-GRAVITY: Final = 9.81
+GRAVITY: Final = 9.81  # m/s²: the load where the model has no weight
 CLIP: Final = 1e-4  # impedances are kept by so much from 0 and 1, as in MuJoCo
+MARGINS, DIRECTIONS = "margins of contacts", "friction of contacts by direction"
 TURNS: Final = "friction of contacts against spinning and rolling"
 
 
@@ -98,12 +99,18 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
         imp = share * m.geom_solimp[i] + (1.0 - share) * m.geom_solimp[j]
     if condim > 3 and np.any(turning):
         mechanism.notes.leave(TURNS, " and ".join(names), acts=True)
+    margins = (m.pair_margin[pair],) if pair is not None else (m.geom_margin[i], m.geom_margin[j])
+    if np.any(margins):
+        mechanism.notes.leave(MARGINS, " and ".join(names), acts=True)
+    if pair is not None and condim > 1 and friction[0] != friction[1]:
+        mechanism.notes.leave(DIRECTIONS, " and ".join(names), acts=True)
     w = sum(float(m.body_invweight0[m.geom_bodyid[g]][0]) for g in (i, j))
-    stiffness, damping = _softness(ref, imp, w, float(m.opt.timestep))
+    weight = float(np.linalg.norm(m.opt.gravity)) or GRAVITY
+    stiffness, damping = _softness(ref, imp, w, float(m.opt.timestep), weight)
     return Touch(*names, float(friction[0]) if condim > 1 else 0.0, stiffness, damping)
 
 
-def _softness(ref: Any, imp: Any, w: float, step: float) -> tuple[float, float]:
+def _softness(ref: Any, imp: Any, w: float, step: float, gravity: float) -> tuple[float, float]:
     """Stiffness [N/m] and damping [s/m] under the load g/w."""
     least, most, middle = (min(max(float(imp[k]), CLIP), 1.0 - CLIP) for k in (0, 1, 3))
     width, power = float(imp[2]), max(float(imp[4]), 1.0)
@@ -114,7 +121,7 @@ def _softness(ref: Any, imp: Any, w: float, step: float) -> tuple[float, float]:
         k, b = -float(ref[0]) / most**2, -float(ref[1]) / most
     d, r = least, 0.0
     for _ in range(50):  # the overlap at which the impedance is that of the overlap
-        r = 0.5 * (r + (1.0 - d) * GRAVITY / (k * d * d))
+        r = 0.5 * (r + (1.0 - d) * gravity / (k * d * d))
         x = min(r / width, 1.0) if width > 0.0 else 1.0
         rise = (
             x**power / middle ** (power - 1.0)
@@ -122,4 +129,4 @@ def _softness(ref: Any, imp: Any, w: float, step: float) -> tuple[float, float]:
             else 1.0 - (1.0 - x) ** power / (1.0 - middle) ** (power - 1.0)
         )
         d = least + (most - least) * rise
-    return k * d * d / ((1.0 - d) * w), b * d / GRAVITY
+    return k * d * d / ((1.0 - d) * w), b * d / gravity

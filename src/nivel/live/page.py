@@ -16,7 +16,7 @@ from nivel.c_library.failures import failures_of
 from nivel.c_library.image import Image, UnknownAddressError
 from nivel.files.target import write_file
 from nivel.integrate.loop.loop import advance
-from nivel.integrate.loop.paced import DONE, SHOWN, TICKS, Live, drive
+from nivel.integrate.loop.paced import SHOWN, TICKS, Live, drive
 from nivel.integrate.loop.run import ACCEPTED, STOPPED, TIME
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks.circuits import INTEGRALS, START
@@ -84,14 +84,12 @@ def write_live_page(plan: Plan, pace: Pace, path: Path) -> LivePage:
     image = _image(run, session, [*entries.values()])
     codes = _Codes()
     machine = local.LocalMachine(
-        name=plan.machine.name,
         bytes=image.words.nbytes,
         loop=_loop(run, session, image, codes),
         inner=list(image.inner.items()),
         outer=[(word, codes.number(symbol)) for word, symbol in image.outer.items()],
         codes=codes.names,
         tick=pace.tick,
-        every=pace.every,
         session=_session(live, image),
         inputs=[local.LocalInput(each.name, each.rest_value) for each in inputs],
         bodies=len(plan.machine.bodies),
@@ -153,7 +151,7 @@ def _loop(run: LiveRun, session: Handle, image: Image, codes: _Codes) -> local.L
 def _session(live: Live, image: Image) -> local.LocalSession:
     places = {name: image.byte_of(getattr(live, name).ctypes.data) for name in ("control", "target", "value", "frames")}
     rows, width = live.frames.shape
-    return local.LocalSession(**places, rows=rows, width=width, ticks=TICKS, done=DONE, shown=SHOWN)
+    return local.LocalSession(**places, rows=rows, width=width, ticks=TICKS, shown=SHOWN)
 
 
 def _columns_of(picture: Picture) -> local.LocalPicture:

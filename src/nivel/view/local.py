@@ -47,7 +47,6 @@ class LocalSession:
     rows: int
     width: int
     ticks: int
-    done: int
     shown: int
 
 
@@ -119,17 +118,14 @@ class LocalMachine:
     (word, code whose address belongs there). codes : names of functions of the module.
 
     tick : from input to input [s]. inputs : that the page moves; those of the hand follow. names : of all columns, with units.
-    events : names, by number from 1 on. over, done, full : statuses of a loop that has done its ticks, whose run has ended, and which
-    stopped early.
+    events : names, by number from 1 on. spent, done : statuses of a loop that has done its ticks, and whose run has ended.
     """
 
-    name: str
     bytes: int
     inner: list[tuple[int, int]]
     outer: list[tuple[int, int]]
     codes: list[str]
     tick: float
-    every: int
     loop: LocalLoop
     session: LocalSession
     inputs: list[LocalInput]

@@ -444,7 +444,6 @@ export interface LocalSession {
   rows: number;
   width: number;
   ticks: number;
-  done: number;
   shown: number;
 }
 
@@ -493,15 +492,13 @@ export interface Speeds {
   slow: number;
 }
 
-/** A machine, its memory and machine code apart. bytes : of its memory. inner : (word, place whose address belongs there). outer : (word, code whose address belongs there). codes : names of functions of the module. tick : from input to input [s]. inputs : that the page moves; those of the hand follow. names : of all columns, with units. events : names, by number from 1 on. over, done, full : statuses of a loop that has done its ticks, whose run has ended, and which stopped early. */
+/** A machine, its memory and machine code apart. bytes : of its memory. inner : (word, place whose address belongs there). outer : (word, code whose address belongs there). codes : names of functions of the module. tick : from input to input [s]. inputs : that the page moves; those of the hand follow. names : of all columns, with units. events : names, by number from 1 on. spent, done : statuses of a loop that has done its ticks, and whose run has ended. */
 export interface LocalMachine {
-  name: string;
   bytes: number;
   inner: [number, number][];
   outer: [number, number][];
   codes: string[];
   tick: number;
-  every: number;
   loop: LocalLoop;
   session: LocalSession;
   inputs: LocalInput[];

@@ -32,6 +32,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.compare import COMMON, Axes
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.settings.sweep import SweepSettings
+from nivel.machine.settings.values import POSITIONS
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
@@ -763,7 +764,7 @@ class Machine(Model):
         positions : so many each way, default 361. Raises ModelError where other motions are not driven.
         """
         settings = nivel.machine.settings.kinematics.kinematics_settings(
-            self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
+            self.record, {"drive": coordinate, "end": 0.0, "positions": positions or POSITIONS, "coordinates": coordinates}
         )
         nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
@@ -775,7 +776,7 @@ class Machine(Model):
             start,
             2.0 * pi if unit == "rad" else 2.0 * size,
             lambda begin, end: self.kinematics(
-                drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
+                drive=name, start=begin, end=end, positions=settings.positions, coordinates=coordinates, listener=listener
             ),
             lambda: self.configuration_curve(name),
         )

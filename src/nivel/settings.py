@@ -156,7 +156,7 @@ class KinematicsSettingsDict(TypedDict, total=False):
     start: Annotated[float | str | None, "--from VALUE", "First value of this coordinate, e.g. '10 deg'; default: its value in the assembled machine."]
     end: Annotated[float | str | None, "--to VALUE", "Last value of this coordinate; default: one turn more."]
     duration: Annotated[float | str | None, "--duration TIME", "Duration of the motion; default: that of the machine, 1 s with --drive."]
-    positions: Annotated[int | str | None, "--positions NUMBER", "Number of positions, both ends included; default: 361."]
+    positions: Annotated[int | str | None, "--positions NUMBER", "Number of positions, both ends included; default: 361, or as many more as show the motion between them."]
     coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
 
 
@@ -169,7 +169,7 @@ class InverseSettingsDict(TypedDict, total=False):
     limits: Annotated[Mapping[str, Any] | None, "--limit NAME=VALUE", "Greatest effort of an actuator; default: those of the motors."]
     weights: Annotated[Mapping[str, Any] | None, "--weight NAME=NUMBER", "Weight of an effort, if there are more actuators than needed; default: one over the limit, or 1."]
     hold: Annotated[Sequence[str] | str | None, "--hold DRIVERS", "Drivers that keep what they prescribe."]
-    positions: Annotated[int | str | None, "--positions NUMBER", "Number of positions of the drivers' motion or of a trajectory; default: 361."]
+    positions: Annotated[int | str | None, "--positions NUMBER", "Number of positions of the drivers' motion or of a trajectory; default: 361, or as many more as show the motion between them."]
 
 
 class LineariseSettingsDict(TypedDict, total=False):

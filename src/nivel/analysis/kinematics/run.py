@@ -40,6 +40,7 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.kinematics import KinematicsSettings
+from nivel.machine.settings.values import POSITIONS
 from nivel.results.curve import PROBED
 from nivel.results.memory import Memory
 from nivel.results.result import Result
@@ -51,6 +52,8 @@ from nivel.system.system import Array
 STUCK = 1e-4
 # positions between those that are asked for, at most
 MOST_BETWEEN = 2000
+# times as many positions where some do not show the motion between them; no more where there are so many
+FINER, MOST_POSITIONS = 4, 64 * 360 + 1
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
 FACTS = IntegratorFacts("", follow_positions, order=1, numbers=1)
@@ -95,11 +98,12 @@ def kinematics(
     refuse(free_motions(machine, prepared))
     steps = complete(methods.machine.simulation, methods.coordinates)
     chosen = _without_histories(prepared.motion.system.layout, sink)
-    attributes = _attributes(machine, source, prepared, settings)
-    chosen[0].begin(Header(chosen[1], attributes))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     listener.say("finding positions", settings.duration)
     with terminable():
+        if settings.positions is None:
+            settings, steps = resolved(prepared, settings, steps)
+        chosen[0].begin(Header(chosen[1], _attributes(machine, source, prepared, settings)))
         finished, run = follow(prepared, steps, chosen[0], listener, between(prepared, steps))
         finished.timing |= seconds
         return _close(sink, machine, prepared, finished, run)
@@ -134,6 +138,20 @@ def between(prepared: Prepared, settings: RunSettings) -> Probes:
     steps = max(1, int(settings.duration / step))
     follow(prepared, replace(settings, step=step, steps=steps, every=1, output_interval=step), taken, Listener())
     return Probes(prepared.motion, (), taken.frames)
+
+
+def resolved(
+    prepared: Prepared, settings: KinematicsSettings, steps: RunSettings
+) -> tuple[KinematicsSettings, RunSettings]:
+    """Settings with as many positions, four times as many each time, as show the motion between them, if `MOST_POSITIONS` do."""
+    count = POSITIONS
+    while True:
+        settings = settings.replace(positions=count)
+        steps = replace(steps, step=settings.step, steps=count - 1, output_interval=settings.step)
+        finished, _ = follow(prepared, steps, _Taken(), Listener(), between(prepared, steps))
+        if finished.outcome != "done" or not finished.between_frames or count >= MOST_POSITIONS:
+            return settings, steps
+        count = FINER * (count - 1) + 1
 
 
 def follow(

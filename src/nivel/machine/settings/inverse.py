@@ -7,8 +7,8 @@ from os import PathLike
 from typing import Any
 
 from nivel.machine.core.checked import Checked, Problem
-from nivel.machine.given import Field
-from nivel.machine.settings.values import Names, Positions
+from nivel.machine.given import Field, Maybe
+from nivel.machine.settings.values import FEWEST_POSITIONS, Names, Positions
 
 
 class InverseSettings(Checked):
@@ -43,8 +43,10 @@ class InverseSettings(Checked):
         absent="one over the limit, or 1",
     )
     hold: Names = Field(default=(), description="drivers that keep what they prescribe", option="--hold DRIVERS")
-    positions: Positions = Field(
-        default=361, description="number of positions of the drivers' motion or of a trajectory"
+    positions: Maybe[Positions] = Field(
+        default=None,
+        description="number of positions of the drivers' motion or of a trajectory",
+        absent=FEWEST_POSITIONS,
     )
 
     def problems(self) -> Iterator[Problem]:

@@ -9,7 +9,7 @@ from nivel.errors import Fault, ModelError
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Maybe
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.values import OfStatics, Positions, Way, settings_of
+from nivel.machine.settings.values import FEWEST_POSITIONS, POSITIONS, OfStatics, Positions, Way, settings_of
 from nivel.machine.units.quantity import Duration, expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, Kind, UnknownCoordinateError, resolve
@@ -35,13 +35,15 @@ class KinematicsSettings(Record):
     duration: Duration = Field(
         default=1.0, description="duration of the motion", absent="that of the machine, 1 s with --drive"
     )
-    positions: Positions = Field(default=361, description="number of positions, both ends included")
+    positions: Maybe[Positions] = Field(
+        default=None, description="number of positions, both ends included", absent=FEWEST_POSITIONS
+    )
     coordinates: OfStatics = Field(default="auto", description="coordinates of the equations")
 
     @property
     def step(self) -> float:
         """[s] from position to position."""
-        return self.duration / (self.positions - 1)
+        return self.duration / ((self.positions or POSITIONS) - 1)
 
     def as_dict(self) -> dict[str, object]:
         """For the result's `settings`."""

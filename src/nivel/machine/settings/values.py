@@ -83,6 +83,9 @@ def _listed(value: Any) -> Any:
 Time = Annotated[OneNumber, Quantity("time"), WrapValidator(_not_negative)]  # zero: the start alone
 Modes = Annotated[Given[int, int, int | str], Between("0", "1000")]
 Positions = Annotated[Given[int, int, int | str], Between("2", "10000000")]
+# of an analysis that was given no number, at first
+POSITIONS = 361
+FEWEST_POSITIONS = f"{POSITIONS}, or as many more as show the motion between them"
 OfStatics = Annotated[StaticCoordinates, BeforeValidator(_static)]
 Way = Annotated[OneNumber, Quantity(("angle", "length"))]  # of a joint coordinate
 Count = Annotated[Whole, BeforeValidator(_count)]

@@ -764,7 +764,8 @@ class Machine(Model):
         positions : so many each way, default 361. Raises ModelError where other motions are not driven.
         """
         settings = nivel.machine.settings.kinematics.kinematics_settings(
-            self.record, {"drive": coordinate, "end": 0.0, "positions": positions or POSITIONS, "coordinates": coordinates}
+            self.record,
+            {"drive": coordinate, "end": 0.0, "positions": positions or POSITIONS, "coordinates": coordinates},
         )
         nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
@@ -776,7 +777,12 @@ class Machine(Model):
             start,
             2.0 * pi if unit == "rad" else 2.0 * size,
             lambda begin, end: self.kinematics(
-                drive=name, start=begin, end=end, positions=settings.positions, coordinates=coordinates, listener=listener
+                drive=name,
+                start=begin,
+                end=end,
+                positions=settings.positions,
+                coordinates=coordinates,
+                listener=listener,
             ),
             lambda: self.configuration_curve(name),
         )

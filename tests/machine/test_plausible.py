@@ -3,9 +3,11 @@
 from pathlib import Path
 
 import pytest
+from everything import EVERYTHING
 
 import nivel
 from example_files import EXAMPLES
+from nivel import MachineRecord
 from nivel.judge.before.unusual import remarks
 
 DEMOS = Path(nivel.__file__).parent / "demos"
@@ -60,6 +62,11 @@ def test_a_slip_is_remarked_on_at_its_line(tmp_path, old, new, place, words):
     assert words in remark.message
     line = text.splitlines()[remark.line - 1]
     assert new in line if "." in place else line.startswith("  cylinder:")
+
+
+def test_every_usual_value_has_a_unit_that_is_read():
+    """Those of all keys of all kinds."""
+    assert len(list(remarks(MachineRecord(**EVERYTHING)))) > 0
 
 
 def test_what_is_usual_has_no_remark(tmp_path):

@@ -71,7 +71,7 @@ def _unread(machine: MachineRecord) -> Iterator[Finding]:
 @cache
 def unit_of(usual: Usual) -> float:
     """The unit of a range in SI units."""
-    return read_quantity(f"1 {usual.unit}", ANY, {})
+    return read_quantity(f"1*({usual.unit})", ANY, {})
 
 
 def excess(value: float, usual: Usual) -> float:

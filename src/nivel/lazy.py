@@ -1,4 +1,5 @@
-"""Late imports, the only place of them: modules that are imported when one of their names is first used, and functions of rooms above.
+"""What is made late: modules that are imported when one of their names is first used, the only place of such imports, functions of rooms
+above, and the methods of dataclasses.
 
 A function that needs a heavy or optional module, or one that few runs need, writes its name in full, `scipy.linalg.expm(A)`, with
 `from nivel.lazy import scipy` at the head of its file. The names below exist for type checkers; where the program runs, `Late` stands for
@@ -9,8 +10,11 @@ A lower room asks for a function of a room above by its subject; `nivel/__init__
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, field, fields, is_dataclass, replace  # noqa: F401
 from importlib import import_module
+from threading import RLock
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
@@ -36,6 +40,8 @@ class Late:
 
 
 if TYPE_CHECKING:
+    from dataclasses import dataclass
+
     import distributed
     import gymnasium.vector
     import imageio_ffmpeg
@@ -240,3 +246,51 @@ def provided(subject: str) -> Any:
     """The function or class of a subject, whose module is imported now."""
     module, _, name = PLACES[subject].partition(":")
     return getattr(import_module(module), name)
+
+
+class _Unmade:
+    """Stands for a method of a dataclass; where it is asked for, the class gets all of its own.
+
+    Those of the standard library are text that is compiled, up to a millisecond a class, and a run uses a third of the classes that it
+    imports.
+    """
+
+    __slots__ = ("make", "name")
+
+    def __init__(self, name: str, make: Callable[[], None]) -> None:
+        self.name, self.make = name, make
+
+    def __get__(self, record: Any, owner: type | None = None) -> Any:
+        self.make()
+        return getattr(owner if record is None else record, self.name)
+
+
+if not TYPE_CHECKING:
+    _MAKING = RLock()
+    _OF_ALL = ("__init__", "__repr__", "__dataclass_fields__", "__dataclass_params__", "__match_args__")
+    _FROZEN = ("__setattr__", "__delattr__")
+    _ORDER = ("__lt__", "__le__", "__gt__", "__ge__")
+
+    def dataclass(kind=None, /, **options):
+        """As `dataclasses.dataclass`, without `slots`: the class is completed when one of its methods is first asked for."""
+        if kind is None:
+            return lambda made: dataclass(made, **options)
+        compared, frozen = options.get("eq", True), options.get("frozen", False)
+        if compared and not frozen and "__hash__" not in vars(kind):
+            kind.__hash__ = None
+        names = {*_OF_ALL, *_FROZEN * frozen, *_ORDER * options.get("order", False), *("__eq__",) * compared}
+        stubs = {}
+
+        def make():
+            with _MAKING:
+                for name, stub in stubs.items():
+                    if vars(kind).get(name) is stub:
+                        type.__delattr__(kind, name)
+                if stubs:
+                    stubs.clear()
+                    dataclasses.dataclass(kind, **options)
+
+        for name in names.union(("__hash__",) * (compared and frozen)).difference(vars(kind)):
+            stubs[name] = _Unmade(name, make)
+            setattr(kind, name, stubs[name])
+        return kind

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,7 +14,7 @@ from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
-from nivel.lazy import nivel, xarray
+from nivel.lazy import dataclass, nivel, replace, xarray
 from nivel.machine.study.parameter import Between
 from nivel.results.frames.tabulated import write_netcdf
 from nivel.words.arguments import checked_arguments

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -25,6 +24,7 @@ from nivel.integrate.loop.run import ALL_STEPS, END, EVERY
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.function import CONSTANT
+from nivel.lazy import dataclass
 from nivel.machine.laws.time_function import Table
 from nivel.machine.signals.input import Input
 from nivel.native.entry import Entry

@@ -7,7 +7,6 @@ import platform
 import re
 import shutil
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,6 +17,7 @@ from nivel.c_library.exported import Exported, export, refusal
 from nivel.c_library.image import LINE
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.files.target import reason_of, write_file
+from nivel.lazy import dataclass
 from nivel.native import library
 from nivel.native.entry import Entry
 from nivel.native.processor import LEVELS

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +22,7 @@ from nivel.cli.options import (
 )
 from nivel.cli.progress import progress_listener
 from nivel.errors import ModelError, SolveError
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, nivel
 
 if TYPE_CHECKING:
     from nivel.analysis.progress.log import Listener

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +13,7 @@ from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_ch
 from nivel.cli.progress import progress_listener
 from nivel.cli.run import assembly_lines
 from nivel.errors import Fault, ModelError
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, nivel
 from nivel.settings import KinematicsSettingsDict
 
 if TYPE_CHECKING:

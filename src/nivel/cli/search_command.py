@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +20,7 @@ from nivel.cli.options import (
 )
 from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on, set_option
 from nivel.errors import ModelError, SolveError
-from nivel.lazy import nivel, rich
+from nivel.lazy import dataclass, nivel, rich
 
 if TYPE_CHECKING:
     from nivel.studies import Study

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
 from nivel.errors import Fault
 from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, Link, Mechanism
+from nivel.lazy import dataclass, field
 from nivel.machine.bodies.inertia import impossible, point_mass_inertia
 from nivel.machine.core.orientation import Orientation, rotation_matrix
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -18,6 +17,7 @@ from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
 from nivel.files.rotors import rotors_of
+from nivel.lazy import dataclass, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame

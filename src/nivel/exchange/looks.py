@@ -6,7 +6,6 @@ A mesh is read from folders that are allowed only: that of the model, packages b
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 from urllib.parse import unquote
@@ -18,6 +17,7 @@ from nivel.exchange.mechanism import Array, Frame, Link, Look
 from nivel.exchange.translation import Notes, number, triple, turn
 from nivel.files.mesh_file import KINDS, NotReadError, parse
 from nivel.files.sources import read_bytes
+from nivel.lazy import dataclass, field
 from nivel.machine.bodies.surface import Triangles
 
 ALONG: Final = 1e-9  # by which an axis may miss that of the body

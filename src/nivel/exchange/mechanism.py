@@ -8,13 +8,13 @@ of a link.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.exchange.translation import Notes
+from nivel.lazy import dataclass, field
 
 Array = NDArray[np.float64]
 Triple = tuple[float, float, float]

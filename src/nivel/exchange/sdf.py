@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
@@ -11,7 +10,7 @@ from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, 
 from nivel.exchange.translation import Notes
 from nivel.exchange.urdf import digits
 from nivel.files.xml_source import Document, Element
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, field, nivel
 
 KINDS: Final = {
     "revolute": "revolute",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
@@ -15,6 +14,7 @@ from nivel.errors import Fault, ModelError
 from nivel.files.mesh_file import stl_content
 from nivel.files.outline import FORMAT
 from nivel.files.writer import write_data
+from nivel.lazy import dataclass, field
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.record import GROUND, NAME
 

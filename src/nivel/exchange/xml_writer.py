@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
 from nivel.files.mesh_file import stl_content
+from nivel.lazy import dataclass
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.colour import digits_of
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Mesh, Shape, Sphere, Tube

@@ -6,7 +6,6 @@ import csv
 import io
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Final
 
@@ -18,6 +17,7 @@ from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
+from nivel.lazy import dataclass
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.quantity import ANY, read_quantity, shown
 from nivel.machine.units.tree import TIME, ExpressionError

@@ -8,13 +8,13 @@ import stat
 import zipfile
 import zlib
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files.target import reason_of
 from nivel.files.xml_source import Document, Element
+from nivel.lazy import dataclass, field
 from nivel.words.wording import unknown_word
 
 MOST_FILES: Final = 10_000

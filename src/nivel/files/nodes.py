@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 import yaml
 from yaml import events
+
+from nivel.lazy import dataclass, field
 
 DEEPEST: Final = 60
 MOST: Final = 200_000  # values of a file

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Tree
+from nivel.lazy import dataclass
 from nivel.machine.core.record import Record, field_words, unknown_word
 from nivel.machine.example_line import element_line
 from nivel.machine.machine_record import MachineRecord

@@ -16,7 +16,6 @@ Where P mirrors, F turns one axis around (or all three), since the mere image R 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
@@ -24,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nivel.files.substitution import Linear, NotRepresentableError, same, substituted
+from nivel.lazy import dataclass, field
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -14,6 +13,7 @@ from nivel.files.overrides import prefix_of
 from nivel.files.scope import read_scope
 from nivel.files.sources import Sources, read_text
 from nivel.files.tree import Path, Tree, read_tree
+from nivel.lazy import dataclass, field, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.references import SECTIONS

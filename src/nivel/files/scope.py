@@ -7,7 +7,6 @@ placed and get their prefix (assembly.py), and join those of the file that uses 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -29,6 +28,7 @@ from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
 from nivel.files.sticking_heaps import divide_heaps
 from nivel.files.tree import Path, Tree, read_tree
+from nivel.lazy import dataclass, replace
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions

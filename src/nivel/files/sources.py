@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path as FilePath
 from stat import S_ISDIR, S_ISREG
@@ -11,6 +10,7 @@ from typing import Final, TypeVar
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Path, Tree
+from nivel.lazy import dataclass, field, replace
 from nivel.machine.units.quantity import shown
 
 _BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (

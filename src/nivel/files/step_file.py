@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import Any, Final
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.extras import needed, require
 from nivel.files.apart import apart
+from nivel.lazy import dataclass
 from nivel.machine.bodies.surface import Triangles
 
 Array = NDArray[np.float64]

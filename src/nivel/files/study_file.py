@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
-from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -18,6 +17,7 @@ from nivel.files.outline import other_format
 from nivel.files.overrides import override
 from nivel.files.sources import Sources, beside, read_text
 from nivel.files.tree import Path, Tree, read_tree
+from nivel.lazy import dataclass
 from nivel.machine.core.checked import without_problems
 from nivel.machine.core.record import Record, field_words
 from nivel.machine.study import StudyRecord

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.record import GROUND, Record, entry
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 

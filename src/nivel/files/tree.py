@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field
 from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
@@ -27,6 +26,7 @@ from nivel.files.nodes import (
     compose,
     cut_at_comma,
 )
+from nivel.lazy import dataclass, field
 
 Path = tuple[str | int, ...]
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Final
 from xml.parsers import expat
 
 from nivel.errors import Fault, ModelError
+from nivel.lazy import dataclass, field
 
 MOST_BYTES: Final = 200 * 10**6
 MOST_ELEMENTS: Final = 1_000_000

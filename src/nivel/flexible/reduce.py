@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -25,6 +24,7 @@ from nivel.flexible.reduction.given_modes import given_modes
 from nivel.flexible.reduction.stiffening import stiffening
 from nivel.flexible.reduction.ties import Attachment, with_interfaces
 from nivel.flexible.source import source_model
+from nivel.lazy import dataclass, replace
 
 NO_MODE: Final = "no mode is left but rigid motions: ask for normal modes, name interfaces, or give other shapes"
 

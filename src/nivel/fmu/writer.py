@@ -6,7 +6,6 @@ import hashlib
 import uuid
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, distribution
 from importlib.resources import files
 from pathlib import Path
@@ -19,6 +18,7 @@ from nivel.fmu.binary import binary
 from nivel.fmu.data import machine_data
 from nivel.fmu.description import description, variables_of
 from nivel.fmu.parameters import Followed, Vary, follow
+from nivel.lazy import dataclass
 from nivel.native import shipped
 
 VERSIONS = (3, 2)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from nivel.errors import Fault
+from nivel.lazy import dataclass
 
 
 @dataclass(frozen=True)

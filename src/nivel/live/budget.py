@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import nan
 from typing import Any, Final
@@ -39,6 +38,7 @@ from nivel.integrate.loop.paced import (
 from nivel.integrate.loop.run import TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
+from nivel.lazy import dataclass
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import arrays_of, bytes_of, live_in, put_back, taken

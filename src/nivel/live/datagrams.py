@@ -26,12 +26,12 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from nivel.errors import Fault, ModelError
+from nivel.lazy import dataclass
 from nivel.live.picture import gauges
 from nivel.live.preparation import SILENCE
 from nivel.live.session import Session

@@ -6,7 +6,6 @@ It looks at the frames that watchers get, once a second, in the process of the s
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
 from math import isnan
 from typing import Any, Final
 
@@ -18,6 +17,7 @@ from nivel.judge.after.checks import circuits, energy, joints
 from nivel.judge.after.checks.energy import Energy
 from nivel.judge.after.checks.joints import Violation
 from nivel.judge.after.subject import Motion
+from nivel.lazy import dataclass, field, replace
 from nivel.live.timing import Timing
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result

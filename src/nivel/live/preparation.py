@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import ceil
 from typing import Any, Final
 
@@ -23,6 +22,7 @@ from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SHOWN, SPEE
 from nivel.integrate.loop.run import TIME, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
+from nivel.lazy import dataclass
 from nivel.live.shared import Sizes, arrays_of, put_back, taken
 from nivel.machine.changes import changed
 from nivel.machine.laws.time_function import Table

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from os import PathLike, fspath
 from pathlib import Path
 from typing import IO, Any, Final
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 import nivel
 from nivel.errors import ModelError
 from nivel.files.target import written
+from nivel.lazy import dataclass, field
 from nivel.live.journal import (
     FRAMES,
     GAP,

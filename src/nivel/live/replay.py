@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Final
@@ -28,6 +27,7 @@ from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.core.status import DONE as ENDED
+from nivel.lazy import dataclass, replace
 from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in

@@ -8,7 +8,6 @@ import os
 import signal
 import threading
 import time
-from dataclasses import asdict, dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
@@ -35,7 +34,7 @@ from nivel.integrate.loop.run import STEP as STEP_CLOCK
 from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core import status as codes
-from nivel.lazy import nivel
+from nivel.lazy import asdict, dataclass, field, nivel
 from nivel.live import shared
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run

@@ -6,7 +6,6 @@ import ctypes
 import gc
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -25,6 +24,7 @@ from nivel.integrate.loop.paced import (
     TICK,
     Live,
 )
+from nivel.lazy import dataclass
 
 LEAST: Final = 0.005  # share of a part that is worth to be told
 PERCENTS: Final = (50.0, 90.0, 99.0, 99.9)

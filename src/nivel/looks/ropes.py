@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.looks.poses import Array, Pose, ends_in_space, in_space, joint_axis
 
 STEPS: Final = 24  # of an arc

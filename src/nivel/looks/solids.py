@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass, field
 from nivel.machine.bodies.surface import surface_arrays
 
 Array = NDArray[np.float64]

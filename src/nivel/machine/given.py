@@ -9,11 +9,12 @@ such an annotation is the first of the three types, by which pydantic reads the 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, dataclass_transform
 
 import pydantic
 from pydantic import BaseModel
+
+from nivel.lazy import dataclass
 
 Validated = TypeVar("Validated")
 Read_co = TypeVar("Read_co", covariant=True)

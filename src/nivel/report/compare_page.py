@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 from nivel.files.target import write_text
+from nivel.lazy import dataclass
 from nivel.report.page import page, text_of
 from nivel.report.story import trusted
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark

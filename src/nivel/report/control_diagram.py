@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, Final
 
+from nivel.lazy import dataclass, field
 from nivel.report.panel import GROUPS, TOGETHER, Curve, Group, Panel, left_out
 
 if TYPE_CHECKING:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass, field
 from nivel.looks.viewpoint import View
 
 Array = NDArray[np.float64]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nivel.lazy import dataclass
 from nivel.results.scales import blocks
 
 if TYPE_CHECKING:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import math
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from nivel.judge.after.report import titles
+from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes
 from nivel.results.frames.summary import in_words
 from nivel.results.trust import NOT_VERIFIED, Item, Trust, Verdict

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from nivel.lazy import dataclass
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

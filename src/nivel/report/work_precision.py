@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from html import escape
 from typing import Final, NamedTuple
 
+from nivel.lazy import dataclass
 from nivel.report.plots import LogAxis, power_of_ten
 from nivel.results.comparison import Comparison, Method, Row, method_label
 from nivel.results.comparison_table import fineness, number, seconds

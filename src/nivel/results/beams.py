@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.lazy import nivel, scipy, xarray
+from nivel.lazy import dataclass, nivel, scipy, xarray
 from nivel.machine.beams.beam import Beam
 from nivel.machine.core.record import unknown_word
 from nivel.machine.machine_record import MachineRecord

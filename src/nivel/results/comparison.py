@@ -7,13 +7,12 @@ import io
 import json
 import math
 import os
-from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 from nivel.errors import ModelError
 from nivel.files.target import write_text
-from nivel.lazy import provided
+from nivel.lazy import dataclass, field, fields, provided
 from nivel.results.comparison_table import as_html, as_text
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments

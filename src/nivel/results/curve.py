@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass, replace
 from nivel.results.frames.contents import shape_of
 from nivel.results.frames.names import derivative
 

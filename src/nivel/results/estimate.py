@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass, field
 from nivel.results.frames.contents import shape_of
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable

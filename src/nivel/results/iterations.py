@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from nivel.lazy import dataclass
 
 Array = NDArray[np.float64]
 ATTRIBUTE = "iterations"  # of results

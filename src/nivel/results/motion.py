@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.results.peaks import Peak
 from nivel.results.scales import Readable
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.lazy import dataclass
 from nivel.results.scales import Readable, blocks
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
@@ -32,7 +31,7 @@ from nivel.flexible.body.recovery import (
     stress_modes,
     von_mises,
 )
-from nivel.lazy import nivel, scipy
+from nivel.lazy import asdict, dataclass, nivel, scipy
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 

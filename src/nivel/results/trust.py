@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
+
+from nivel.lazy import dataclass, field, fields, is_dataclass, replace
 
 Verdict = Literal["green", "amber", "red"]
 NOT_VERIFIED: Final = "not verified"  # in place of green

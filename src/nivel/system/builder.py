@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.kernels.record.hook import Family
+from nivel.lazy import dataclass, field
 from nivel.machine.control.part import PartFunction
 from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.marker import Marker

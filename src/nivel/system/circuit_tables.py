@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +11,7 @@ from nivel.elements.circuits.volumes import ROOM_COLUMNS, filled_room
 from nivel.elements.states import Coupled
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit
+from nivel.lazy import dataclass, field
 from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from nivel.flexible.body.body_file import read_body
 from nivel.flexible.body.invariants import Invariants
 from nivel.kernels.bodies.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.kernels.record.flexible_record import Flexible, ModalTree
+from nivel.lazy import dataclass, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import prod
 
 from nivel.elements.states import StateFact
+from nivel.lazy import dataclass
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from nivel.elements.circuits.nodes import Node
 from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.record.record import Control, Record
+from nivel.lazy import dataclass, field, replace
 from nivel.machine.units.tree import Node as Tree
 from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from functools import reduce
 from itertools import pairwise
 
@@ -16,6 +15,7 @@ from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.bodies.measure import COMBINED
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
+from nivel.lazy import dataclass, field
 
 Array = NDArray[np.float64]
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.looks.poses import rotation
 from nivel.view.acting import place_of
 from nivel.view.coordinate_places import coordinate_place

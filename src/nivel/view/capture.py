@@ -9,7 +9,6 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import Any, Final
@@ -19,7 +18,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.extras import is_installed, require
 from nivel.files.target import write_file
-from nivel.lazy import PIL, imageio_ffmpeg
+from nivel.lazy import PIL, dataclass, imageio_ffmpeg
 from nivel.view.browser import Tab, require_browser, tab
 from nivel.view.page import page_of
 from nivel.view.sources import Source

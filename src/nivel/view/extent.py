@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.looks.links import attached, held_points
 from nivel.looks.poses import Pose, body_poses, in_space, rotation, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import reach_of, shapes_of

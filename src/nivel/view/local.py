@@ -5,7 +5,7 @@ A place is a byte of the machine's memory, counted from its begin. A column is a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from nivel.lazy import dataclass
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, nivel, replace
 from nivel.results.result import Result
 from nivel.view import frames as frame_plan
 from nivel.view.arrows import Moments, arrows, described, places_of

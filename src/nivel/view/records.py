@@ -9,8 +9,9 @@ little-endian 32-bit number that says what follows: see PACKAGE, FRAME and COLUM
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Final, Literal
+
+from nivel.lazy import dataclass, field
 
 Triple = tuple[float, float, float]
 ForceLook = Literal[

@@ -15,13 +15,12 @@ import socket
 import webbrowser
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import parse_qs, urlsplit
 
 from nivel.errors import ModelError
-from nivel.lazy import websockets
+from nivel.lazy import dataclass, field, websockets
 from nivel.view.page import script_hash, served_page
 from nivel.view.sources import Source
 from nivel.view.stream import LARGEST, REFUSED, Stream

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import base64
 import zlib
-from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass, field, replace
 from nivel.looks.links import colour_of, colour_of_body, held_points, link_ends
 from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import shapes_of

@@ -7,7 +7,6 @@ NumPy scalars stand for the numbers that they are. Numbers out of range, and wha
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, reduce, wraps
 from inspect import Parameter, Signature, signature
 from numbers import Integral, Real
@@ -29,6 +28,7 @@ from typing import (
 )
 
 from nivel.errors import Fault, ModelError
+from nivel.lazy import dataclass
 from nivel.words.wording import shown, unknown_word
 
 Given = ParamSpec("Given")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
@@ -18,6 +16,7 @@ from nivel.analysis.assembly.velocities import (
     taken_along,
 )
 from nivel.errors import Fault, ModelError, refuse
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joints import composition_of
 from nivel.system.system import Array, System

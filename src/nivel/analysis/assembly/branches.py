@@ -6,13 +6,12 @@ aside in all directions of their plane are closed again; each comes to one of th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from nivel.analysis.assembly.closing import Index, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, equations, moved
 from nivel.analysis.assembly.redundancy import DEPENDENT, scaled_jacobian
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array
 

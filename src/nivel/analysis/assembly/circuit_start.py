@@ -13,7 +13,6 @@ Pressures that are given stay as they are.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +32,7 @@ from nivel.elements.circuits.volumes import VOLUME
 from nivel.errors import Fault, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, replace, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
 

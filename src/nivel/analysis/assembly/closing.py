@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.system.system import Array
 
 Index = NDArray[np.int64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
 from typing import Any
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.build import build

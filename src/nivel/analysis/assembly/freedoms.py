@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.lazy import dataclass
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.states.relative import bodies_of

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any
 
@@ -39,7 +38,7 @@ from nivel.kernels.residual.beam_tangent import tangent
 from nivel.kernels.residual.element_crossing import pass_nodes
 from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.tree_nodes import pass_sliders
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, replace, scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.beams.beams import nodes_of_elements
 from nivel.system.beams.tangent import (

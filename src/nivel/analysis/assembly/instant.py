@@ -9,7 +9,6 @@ Positions move by tangent increments: a body turns after its present rotation, a
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -25,6 +24,7 @@ from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, SHOWN, Family
 from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
+from nivel.lazy import dataclass
 from nivel.native.duals import DUAL, LANES
 from nivel.system.system import Array, parameter_rates
 

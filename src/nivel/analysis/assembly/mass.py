@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import Fault, refuse
 from nivel.files.rotors import rotors_of
+from nivel.lazy import dataclass
 from nivel.machine.bodies.inertia import point_mass_inertia
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -11,6 +10,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.assembly.idle_rotations import idle_angles, without_turn
 from nivel.files.rotors import rotors_of
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array
 

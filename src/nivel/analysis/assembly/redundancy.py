@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from nivel.analysis.assembly.closing import close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, moved
 from nivel.kernels.core.status import OK
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import Bending, bending_bodies
 from nivel.system.states.floating import carried_markers

@@ -8,11 +8,11 @@ before it have left (Cardan angles; Haug 1989, section 9.3 has the same for z, x
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 ANGLES: Final = (0, 1, 2)  # axes of a frame: its three angles [rad], then its three coordinates [m]

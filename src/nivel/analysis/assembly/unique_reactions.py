@@ -7,7 +7,6 @@ ways, and each way makes the machine exactly constrained, with reactions of its 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import combinations
 from math import comb
 from typing import Final
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # a component that changes by less than this share of the largest change does not: shares are 0.1 and more, or round-off

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import ceil, lcm
@@ -16,6 +15,7 @@ from nivel.analysis.plan.settings import FRAMES
 from nivel.analysis.progress.log import Listener
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
+from nivel.lazy import dataclass
 from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.compare import Axes

@@ -6,7 +6,6 @@ Two of different methods where they exist: dop853 at tight tolerance, and rk4 ex
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
 from math import ceil
 from typing import Any, Final
 
@@ -19,6 +18,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.simulate import run_in_memory
 from nivel.judge.after.report import assess, blindness
 from nivel.judge.after.subject import Run
+from nivel.lazy import asdict, dataclass, replace
 from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison import Reference

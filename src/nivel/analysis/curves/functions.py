@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.laws.python_law import PythonLaw

@@ -9,7 +9,6 @@ between samples are found by bounds of the function over intervals, which are ha
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from nivel.analysis.curves.functions import Varying, varying
 from nivel.analysis.curves.path import Path, Steps, as_seen, cut_at_switches, path_of
 from nivel.integrate.facts import IntegratorFacts
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.bounds import Interval
 from nivel.machine.units.tree import TIME

@@ -8,7 +8,6 @@ integral, where the function has a corner a straight line.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -19,7 +18,7 @@ from nivel.analysis.curves.functions import ExpressionCurve, Varying, is_local
 from nivel.errors import ModelError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import LEAST, PARTS
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import cross
 from nivel.machine.laws.functions import functions_of

@@ -8,13 +8,13 @@ of fixed size contain the change, only if the parameter moves it over some of th
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.gradients.outputs import Array
+from nivel.lazy import dataclass
 
 # Parameters are moved by this share of their scales and by twice as much; where steps are chosen by a tolerance, by the cube root of that.
 STEP = 1e-4

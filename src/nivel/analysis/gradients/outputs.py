@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError, refuse
+from nivel.lazy import dataclass
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.curve import Curve, curve_of

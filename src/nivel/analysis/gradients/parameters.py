@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, get_args
 
 from nivel.errors import Fault, ModelError, refuse
+from nivel.lazy import dataclass
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 from nivel.model import Model

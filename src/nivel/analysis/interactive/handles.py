@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -19,6 +18,7 @@ from nivel.analysis.assembly.turned_frame import (
     TurnedFrame,
     rates_of_angles,
 )
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joints import JOINTS
 from nivel.system.system import Array

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import time as clock_of_python
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -20,6 +19,7 @@ from nivel.analysis.assembly.equations import MotionEquations, equations, moved
 from nivel.analysis.assembly.freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.interactive.handles import Handle, Wish, further_handles, measured_handles
 from nivel.analysis.plan.beam_facts import with_stiff_beams
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.nodes import with_nodes
 from nivel.system.scene import scene

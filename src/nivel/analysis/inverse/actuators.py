@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from nivel.elements.forces.actuators import Motor
 from nivel.errors import Fault, refuse
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.inverse import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown

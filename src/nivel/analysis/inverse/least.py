@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.optimize import nnls
 
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # singular values below this share of the largest are zero

@@ -11,7 +11,6 @@ clipping). Freedoms that the path leaves go towards a preferred posture. Loops s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from nivel.analysis.inverse.mechanics import Mechanics
 from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Led
+from nivel.lazy import dataclass, replace
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name

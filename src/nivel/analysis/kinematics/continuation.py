@@ -7,7 +7,6 @@ along τ is closed again by corrections as small as possible, and the sign of τ
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from nivel.analysis.kinematics.singular import TAKES_PART, determinant_sign, ind
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Curve
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
 from nivel.system.beams.nodes import with_nodes

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import dataclass, replace
 from importlib import import_module
 from os import PathLike
 
@@ -38,6 +37,7 @@ from nivel.judge.during.lockup import find_jam
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.machine.settings.values import POSITIONS

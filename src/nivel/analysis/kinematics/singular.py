@@ -7,7 +7,6 @@ is singular, also between two frames; at a turning point of a driver the machine
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from scipy.linalg import qr
 from nivel.analysis.assembly.redundancy import scaled_jacobian
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import ModelError
+from nivel.lazy import dataclass
 from nivel.results.motion import rotation_matrices
 from nivel.results.result import Result
 from nivel.system.system import Array, System

@@ -13,13 +13,13 @@ without such an axis has ω_P = ω: its frequencies are those that an observer o
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass, replace
 from nivel.system.system import Array
 
 # shares by which principal moments and lengths are equal, and speeds nothing

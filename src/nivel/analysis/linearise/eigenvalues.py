@@ -12,7 +12,6 @@ equal ones with one vector are: the slow motions of a stiff machine have the rou
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from nivel.analysis.linearise.vibrations_apart import Graded
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # entries below this share of the largest of their row are round-off

@@ -8,7 +8,6 @@ difference goes with the distance, at a kink it stays; at a jump the forces them
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -34,6 +33,7 @@ from nivel.kernels.elements.friction import (
     WAY,
 )
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # distances of the sides, in lengths of the machine, radians, and these a second

@@ -7,11 +7,11 @@ name, so that everything goes on reading it. Derivatives with respect to such st
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any, Final
 
 from nivel.elements.circuits.component import Component
 from nivel.errors import Fault, ModelError
+from nivel.lazy import dataclass
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.state import State

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TypeVar
 
@@ -18,6 +17,7 @@ from nivel.elements.forces.actuators import Motor
 from nivel.errors import Fault, refuse
 from nivel.kernels.record.record import SENSE
 from nivel.kernels.signals import sensor
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.layout import reported
 

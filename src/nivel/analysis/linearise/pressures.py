@@ -8,13 +8,13 @@ which pressures take part.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from nivel.analysis.linearise.eigenvalues import Eigen
 from nivel.analysis.linearise.reduction import StateSpace
 from nivel.elements.states import StateFact
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # a state of a volume makes its pressure if it makes this share of it at least, for its size

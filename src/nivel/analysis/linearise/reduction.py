@@ -13,7 +13,6 @@ The matrix K holds ∂(C_qᵀ λ)/∂q, the stiffness of the reactions.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -23,6 +22,7 @@ from scipy.linalg import lstsq, qr
 
 from nivel.analysis.assembly.instant import Instant, Reader, Slopes
 from nivel.analysis.linearise.axes import TurnedAxes
+from nivel.lazy import dataclass, replace
 from nivel.system.system import Array
 
 # singular values of the constraints below this share of the largest are zero

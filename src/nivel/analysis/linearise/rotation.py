@@ -11,7 +11,6 @@ so that flexible bodies and beams are strained by the centrifugal forces, and hi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from nivel.analysis.run.prepared_state import Moment
 from nivel.analysis.statics.equations import turned
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.vectors import cross
 from nivel.system.system import Array
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +30,7 @@ from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_st
 from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.subject import Linearisation
 from nivel.judge.before.analyses import MOST, not_smooth
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel

@@ -11,7 +11,6 @@ A loop is opened where the machine reads a sampled value: a copy that only the m
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 from typing import Any, Final
@@ -24,6 +23,7 @@ from nivel.analysis.linearise.eigenvalues import Complex
 from nivel.analysis.linearise.steady import BALANCE
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.machine.control.order import parts_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.sampled_model import Loop, SampledModel, loop_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.steady import BALANCE, acceleration_of, drift, is_at_rest
 from nivel.analysis.run.prepared_state import Moment
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.results.trust import number
 from nivel.system.system import Array
 

@@ -11,14 +11,13 @@ where K_a is what of the stiffness is not symmetrical. A stiffness is none where
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, eigh
 
 from nivel.analysis.linearise.reduction import ROUND_OFF, Reduction, StateSpace
 from nivel.analysis.statics.linear import symmetric
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # a mass matrix is symmetrical to this share

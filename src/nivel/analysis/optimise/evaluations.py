@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from queue import SimpleQueue
 from typing import Any, Final
 
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, refuse
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.model import Model
 from nivel.results.result import Result
 from nivel.words.wording import shown

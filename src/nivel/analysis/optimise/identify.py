@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any, Final
 
@@ -23,7 +22,7 @@ from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError, refuse
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, replace, scipy
 from nivel.model import Model
 from nivel.results.result import Result
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from nivel.analysis.optimise.evaluations import Box
 from nivel.errors import Fault, refuse
+from nivel.lazy import dataclass
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.words.wording import shown, unknown_word

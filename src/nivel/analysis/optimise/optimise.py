@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from numbers import Real
 from time import perf_counter
 from typing import Any
@@ -24,6 +23,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import OutputFailedError
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import require
+from nivel.lazy import dataclass
 from nivel.machine.study.search import SEARCH_METHODS
 from nivel.model import Model
 from nivel.results.result import Result

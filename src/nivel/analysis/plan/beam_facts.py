@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
 from nivel.machine.joints.joint import Joint

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
 
 from nivel.analysis.plan.choice import (
     FOR_STIFF,
@@ -32,6 +31,7 @@ from nivel.judge.before.refusals import (
     shared_mass,
     stiction_over_steps,
 )
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses

@@ -10,7 +10,6 @@ coefficients, to round-off, so that it holds beyond them.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.preparation.memory import Array, MachineMemory, UnlikeError
 from nivel.errors import ModelError
+from nivel.lazy import dataclass, replace
 
 NODES: Final = 4  # most points of a function
 # y = ± z^power, and whether z are fractions: last, as what is the inverse of a sum follows each parameter alone as a fraction, too

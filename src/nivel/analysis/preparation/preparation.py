@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
 from typing import NamedTuple, Protocol
@@ -36,7 +35,7 @@ from nivel.judge.before.refusals import (
 )
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of

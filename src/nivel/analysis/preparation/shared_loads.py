@@ -6,7 +6,6 @@ Costs one evaluation of the constraints a frame, and nothing where no constraint
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.integrate.loop.sink import Header, Sink
 from nivel.kernels.core.arrays import copied
+from nivel.lazy import dataclass, replace
 from nivel.motion.shared_loads import share_loads
 from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array

@@ -6,8 +6,9 @@ import re
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final, TextIO
+
+from nivel.lazy import dataclass
 
 STEPS: Final = 10  # of a stage: after each it is worth a line again
 SOONEST: Final = 1.0  # s between two lines about one stage

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 
 from nivel.integrate.loop.run import ALLOWED, EVALUATIONS, FACTORISATIONS, HORIZON, PARTS, TAKEN, TIME, Run
+from nivel.lazy import dataclass, field
 from nivel.system.system import Array
 
 # A step of the second run is at most this share of the longest one that the first made at that time: of each part of the duration another

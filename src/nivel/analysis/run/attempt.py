@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
@@ -20,6 +19,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks.accuracy import factor
 from nivel.judge.after.other_elements import Compared, Pair, element_errors, other_elements
 from nivel.judge.after.subject import Run, run_of
+from nivel.lazy import dataclass, replace
 from nivel.results.estimate import estimate_errors
 from nivel.results.memory import Memory
 from nivel.results.result import Result

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time as clock_of_python
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
 from re import sub
@@ -70,7 +69,7 @@ from nivel.kernels.core.status import (
     STEP_TOO_SMALL,
 )
 from nivel.kernels.output.observe import observe
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, field, nivel, replace
 from nivel.native.entry import Entry
 from nivel.results.frames.summary import Occurrence
 from nivel.system.system import Array, System

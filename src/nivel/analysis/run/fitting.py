@@ -9,7 +9,6 @@ What comes in its place is implicit, with steps of one length and one cost.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
@@ -25,6 +24,7 @@ from nivel.elements.forces.shafts import BeltDrive, Shaft
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.judge.during.fastest import Fastest, fastest
+from nivel.lazy import dataclass, replace
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts

@@ -10,7 +10,6 @@ Stretches are counted in steps, so that the motion is the same however a run is 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +24,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import DONE_STEPS, EVENTS, FRAMES, HORIZON, INTERVAL, TIME, Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result

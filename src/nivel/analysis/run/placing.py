@@ -7,7 +7,6 @@ velocities, by the change of the least kinetic energy.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -19,6 +18,7 @@ from nivel.analysis.assembly.velocities import whitened
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import Fault, ModelError, refuse
+from nivel.lazy import dataclass
 from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array, System
 

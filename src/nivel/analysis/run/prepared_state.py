@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from typing import Any
@@ -21,6 +20,7 @@ from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
+from nivel.lazy import dataclass
 from nivel.native.entry import Entry
 from nivel.native.signature import BROKEN, IN_C, RESULT_IN_C
 from nivel.results.memory import Memory

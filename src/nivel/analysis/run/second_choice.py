@@ -8,7 +8,6 @@ start. The choice whose report is best is kept, and the report says what was tri
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from math import ceil
 from typing import Final
 
@@ -23,6 +22,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import TAKEN
 from nivel.judge.after.report import assess, lines_apart
 from nivel.judge.during.stop import Status
+from nivel.lazy import dataclass, replace
 from nivel.results.memory import Memory
 from nivel.results.trust import Trust
 from nivel.words.wording import seconds

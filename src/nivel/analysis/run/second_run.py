@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time as clock_of_python
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from math import ceil, gcd, lcm
 
 import numpy as np
@@ -23,6 +22,7 @@ from nivel.analysis.run.preparation import prepare
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import sampled_times
+from nivel.lazy import dataclass, replace
 from nivel.results.estimate import TIMES
 from nivel.results.memory import Memory
 from nivel.results.result import Result

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
 from os import PathLike, fspath
@@ -52,6 +51,7 @@ from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.signals.watch import watch
+from nivel.lazy import dataclass, field
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.frames.csv_table import columns

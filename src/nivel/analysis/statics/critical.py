@@ -8,7 +8,6 @@ make a limit point, where time turns back; loads that do none a bifurcation, whe
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
@@ -18,6 +17,7 @@ from nivel.analysis.statics.linear import PivotError, lowest, solve, unstable_di
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate
 from nivel.analysis.statics.path import Point
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass, replace
 from nivel.system.system import Array
 
 # The loads do no work along a direction if they do less than this share of what they could.

@@ -11,7 +11,6 @@ energies over a scale of energy e, constraints over their own scales.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -26,6 +25,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.output import static_entries
 from nivel.kernels.record.record import NONE
 from nivel.kernels.residual import tangent_entries
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.vectors import cross
 from nivel.system.layout import reported
 from nivel.system.system import Array

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
 from nivel.kernels.output.observe import observe
 from nivel.kernels.residual.tangent_entries import evaluate_residual
+from nivel.lazy import dataclass
 from nivel.motion.catalogue import IMPLICIT_ACCELERATIONS
 from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array

@@ -8,7 +8,6 @@ do the test and the tolerance.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
 from nivel.analysis.statics.linear import PivotError, bordered, saddle_factors, solve_bordered
 from nivel.analysis.statics.rigid_motions import with_tie
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # The least share of a step that is tried.

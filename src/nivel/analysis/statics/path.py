@@ -8,7 +8,6 @@ equilibrium to go on, are passed. Positions count as much as time does at the st
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tang
 from nivel.analysis.statics.linear import PivotError, bordered, solve, solve_bordered
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.states import equilibrate_states
+from nivel.lazy import dataclass, replace
 
 # Steps are halved so often, at most.
 HALVINGS = 12

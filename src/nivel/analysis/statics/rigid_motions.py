@@ -7,13 +7,12 @@ motions. Where K B = 0 and Bᵀ r = 0 it follows that Wᵀ x = 0: the tie bears 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 
 from nivel.analysis.statics.equations import Rest, Sparse, StaticEquations, Tangent
 from nivel.analysis.statics.linear import NO_STIFFNESS, PivotError, lowest, symmetric
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.vectors import cross
 from nivel.system.system import Array
 

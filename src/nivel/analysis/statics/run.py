@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Any
 
@@ -47,6 +46,7 @@ from nivel.judge.after.subject import Equilibria
 from nivel.judge.before.analyses import OF_STATICS, at_rest, beside_states
 from nivel.judge.before.refusals import faults_of, rough_motions
 from nivel.kernels.solve.saddle import LEFT_OUT
+from nivel.lazy import dataclass, field, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES

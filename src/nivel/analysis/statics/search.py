@@ -11,8 +11,6 @@ there, stable or not. (Levenberg 1944; pseudo-transient continuation, Kelley, Ke
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
@@ -27,6 +25,7 @@ from nivel.analysis.statics.states import (
     growing_motions,
     settle_states,
 )
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 MOST_STEPS = 600

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -14,6 +13,7 @@ from nivel.analysis.statics.frames import FrameWriter
 from nivel.analysis.statics.linear import NO_STIFFNESS, PivotError, is_small, lowest, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps, by_arc_length
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # A path that ends is followed on by so many steps, this share of a step long.

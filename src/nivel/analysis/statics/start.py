@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 
 from nivel.analysis.assembly.assemble import Assembly
@@ -19,6 +17,7 @@ from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.errors import Fault, ModelError, SolveError, refuse
+from nivel.lazy import dataclass, replace
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord

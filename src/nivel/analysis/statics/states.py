@@ -11,7 +11,6 @@ Sampled states are at rest where a sample would leave them as they are.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from scipy.sparse import csc_matrix, diags
 from nivel.analysis.statics.equations import Rest, Sparse, StateError, StaticEquations
 from nivel.analysis.statics.linear import PivotError, factors
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # The longest change of one iteration, in lengths of the machine and radians; most iterations, of which the last ones are Newton's own.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,7 @@ from nivel.analysis.statics.linear import (
     saddle_factors,
     symmetric,
 )
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.system.system import Array
 
 # Squares of frequencies ω² = φᵀ K φ below this share of |φ|ᵀ |K| |φ| are round-off: rigid motions. Where forces have no potential all are

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any, Final
 
@@ -18,6 +17,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.task import usual_names
 from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, Ran, Values, VariantRuns, formulas_for
 from nivel.errors import ModelError
+from nivel.lazy import dataclass, field
 from nivel.model import Model
 from nivel.results.result import Result
 

@@ -7,7 +7,6 @@ changes its structure, or depends on two parameters together is left to those wh
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass, replace
 from time import thread_time
 from typing import Any, Final, NamedTuple
 
@@ -30,6 +29,7 @@ from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, FRAMES, STOPPED, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
+from nivel.lazy import dataclass, fields, is_dataclass, replace
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model

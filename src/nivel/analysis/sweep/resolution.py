@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from nivel.analysis.sweep.expected_names import wrong_names
@@ -12,6 +11,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import OUTSIDE
 from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile
+from nivel.lazy import dataclass
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study import StudyParameter
 from nivel.machine.study.analyses import SETTINGS

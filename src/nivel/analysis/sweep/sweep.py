@@ -6,7 +6,6 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
@@ -26,7 +25,7 @@ from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Sweep, Variant
-from nivel.lazy import rich
+from nivel.lazy import dataclass, rich
 from nivel.machine.study import Output
 
 # facts of every run: attribute of VariantRun, and what it is

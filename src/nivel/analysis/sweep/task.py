@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 from nivel.analysis.plan.settings import with_usual_frames
+from nivel.lazy import dataclass, field
 from nivel.machine.study import Output, PythonOutput
 from nivel.model import Model
 from nivel.results.result import Result

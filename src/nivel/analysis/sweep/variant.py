@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -15,6 +14,7 @@ from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outpu
 from nivel.analysis.sweep.task import Task, usual_names
 from nivel.analysis.sweep.variant_runs import JudgedRuns, VariantRuns, formulas_for, judged_runs
 from nivel.errors import ModelError, NivelError, SolveError
+from nivel.lazy import dataclass, field, replace
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result

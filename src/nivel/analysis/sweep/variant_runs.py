@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from time import thread_time
 from typing import Any, Final
 
@@ -16,6 +15,7 @@ from nivel.analysis.sweep.patched import PatchedRuns, Patches, TooLongError, Uns
 from nivel.errors import ModelError, NivelError, SolveError, refuse
 from nivel.judge.after.subject import run_of
 from nivel.judge.before.refusals import deep_starts
+from nivel.lazy import dataclass, replace
 from nivel.model import Model
 from nivel.results.memory import Memory
 from nivel.results.result import Result

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import prod
 from typing import Any, Final
@@ -12,7 +11,7 @@ import numpy as np
 
 from nivel.analysis.sweep.quantiles import Distribution, quantiles
 from nivel.errors import Fault, ModelError, refuse
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study import DRAWN, SOBOL_INDICES
 from nivel.machine.study.any_quantity import si_or_text

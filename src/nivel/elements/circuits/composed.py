@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from nivel.elements.circuits.poppets import NODES, lift
 from nivel.elements.circuits.restrictions import DIRECT, add_flow, rated, restrict
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.machine.core.element import Acts
 from nivel.machine.laws.time_function import TimeFunction
 

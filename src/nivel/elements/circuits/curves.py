@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Numbers, Pressure
 from nivel.machine.given import Field, Given, ManyNumbers, OneNumber

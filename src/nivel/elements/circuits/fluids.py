@@ -13,7 +13,6 @@ The numbers of each grade are those of usual data sheets: HLP and HVLP of DIN 51
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
 from math import log10
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
@@ -21,6 +20,7 @@ from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import CoreSchema
 
 from nivel.elements.circuits import ranges
+from nivel.lazy import dataclass, fields, replace
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Exponent,

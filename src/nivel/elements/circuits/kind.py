@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from nivel.elements.circuits.phase import PHASES, SLOPES
 from nivel.elements.kind import Kind
+from nivel.lazy import dataclass
 
 if TYPE_CHECKING:
     from nivel.elements.circuits.component import Component

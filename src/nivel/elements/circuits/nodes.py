@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from nivel.elements.circuits.density import HEAT_CAPACITY, START, density_and_modulus
@@ -12,6 +11,7 @@ from nivel.elements.circuits.kind import Swept
 from nivel.elements.circuits.volumes import VOLUME
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 
 if TYPE_CHECKING:
     from nivel.elements.circuits.component import Component

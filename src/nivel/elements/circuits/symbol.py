@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from typing import Any, Final, Literal
 
 from nivel.elements.circuits.component import SENSING
+from nivel.lazy import dataclass, field, replace
 
 SPRING: Final = "l3 -5 l4 10 l4 -10 l3 5"
 LETTER: Final = 6.4  # px, at 11 px

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.body.invariants import Invariants
+from nivel.lazy import dataclass, field, replace
 
 Whole = NDArray[np.int64]
 Array = NDArray[np.float64]

@@ -8,10 +8,10 @@ values at the nodes, which is exact, since the interpolation of solid elements c
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-
 import numpy as np
 from numpy.typing import NDArray
+
+from nivel.lazy import dataclass, fields
 
 Array = NDArray[np.float64]
 

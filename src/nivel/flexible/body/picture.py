@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.body.body import ReducedBody
+from nivel.lazy import dataclass
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.uint32]

@@ -7,7 +7,6 @@ Histories q are (t, n) in the order of the modes; results have the time first.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.flexible.body.body import ReducedBody, StressModes
+from nivel.lazy import dataclass
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -17,6 +16,7 @@ from nivel.flexible.reduction.bases import Basis
 from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody, Orthonormal
 from nivel.flexible.reduction.ties import Attachment
+from nivel.lazy import asdict, dataclass
 
 MOST: Final = 40  # modes of the whole model that are computed for comparison
 DEFLECTION: Final = 0.01  # of the size of the body: for what neglected invariants would cost

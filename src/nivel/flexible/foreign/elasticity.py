@@ -8,7 +8,6 @@ Elasticity, chapter 2.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -17,6 +16,7 @@ from nivel.flexible.foreign.deck import Card, Line
 from nivel.flexible.foreign.matrix import FormatError, fortran_number
 from nivel.flexible.model.model import Array
 from nivel.flexible.model.solid_elements import SHEARS, isotropic
+from nivel.lazy import dataclass, field
 
 LINES: Final = {"ISO": (3,), "ORTHO": (8, 2), "ENGINEERING CONSTANTS": (8, 2), "ANISO": (8, 8, 6)}
 # numbers in each line of a row of constants; the last one is the temperature

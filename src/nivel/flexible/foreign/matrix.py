@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +11,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from nivel.flexible.model.mass import Sparse
+from nivel.lazy import dataclass
 
 Whole = NDArray[np.int64]
 Label = tuple[int, int]  # node, direction 1 … 6

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from nivel.flexible.foreign.deck import Card, Line
 from nivel.flexible.foreign.elasticity import Law, Orientation
 from nivel.flexible.foreign.matrix import fortran_number
+from nivel.lazy import dataclass, field
 
 SHELLS: Final = {"S3": 3, "S4": 4, "S4R": 4, "S6": 6, "S8": 8, "S8R": 8}  # types of shells, with their number of nodes
 

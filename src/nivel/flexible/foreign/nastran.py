@@ -6,13 +6,13 @@ Fields of 8 columns, of 16 where the first ends with `*`, or separated by commas
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label, fortran_number, from_labelled, text_lines
+from nivel.lazy import dataclass, field
 
 SYMMETRIC: Final = 6
 

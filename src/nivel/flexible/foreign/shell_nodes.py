@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,6 +11,7 @@ from nivel.flexible.foreign.matrix import Label
 from nivel.flexible.foreign.shells import Expansion
 from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, Whole
+from nivel.lazy import dataclass
 
 
 @dataclass(frozen=True)

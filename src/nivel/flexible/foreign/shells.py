@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final, NamedTuple
 
@@ -18,6 +17,7 @@ import numpy as np
 
 from nivel.flexible.foreign.matrix import FormatError, Label
 from nivel.flexible.foreign.mesh import SHELLS, Array, Mesh, Section, Shell
+from nivel.lazy import dataclass, replace
 
 SMOOTH: Final = 0.939693  # cosine of the largest angle, 20°, between normals that are averaged
 FLAT: Final = 0.999962  # cosine of the angle below which normals are the same line

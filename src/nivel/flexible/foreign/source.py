@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -35,6 +34,7 @@ from nivel.flexible.model.model import FiniteElementModel, Whole
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import LENGTHS, MASSES, Matrices
 from nivel.flexible.model.selection import NodeSets
+from nivel.lazy import dataclass
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
 STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")

@@ -7,11 +7,10 @@ are Hermite's. θy = -w', θz = v' then.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.machine.beams.section import Material
 from nivel.machine.beams.section_properties import Section
 

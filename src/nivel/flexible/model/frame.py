@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 
@@ -15,6 +14,7 @@ from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mas
 from nivel.flexible.model.mass import PointMass, Sparse
 from nivel.flexible.model.model import Array, FiniteElementModel, Whole, numbered
 from nivel.flexible.model.model_file import Located
+from nivel.lazy import dataclass, field
 from nivel.machine.beams.section_properties import section_of
 
 

@@ -7,12 +7,13 @@ consistent and with lumped mass. `MatrixMass` is a matrix of another program of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+
+from nivel.lazy import dataclass, replace
 
 # a scipy.sparse.csr_array or csc_array with two dimensions; SciPy's own types know neither their shape nor their elements
 Sparse = Any

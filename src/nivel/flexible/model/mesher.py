@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
@@ -15,6 +14,7 @@ from nivel.extras import needed, require
 from nivel.files.apart import apart
 from nivel.flexible.model.model import Array, Whole
 from nivel.flexible.model.solid_records import BoxPart, ConePart, CylinderPart, Part, Solid, SpherePart
+from nivel.lazy import dataclass
 
 TETRAHEDRON_10: Final = 11  # gmsh's number of the element type
 TO_VTK: Final = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh has the edges 23 and 13 the other way round

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.model.mass import Mass, Sparse, rigid_modes
+from nivel.lazy import dataclass, field, replace
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
@@ -13,6 +12,7 @@ import scipy.sparse as sp
 from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, Whole
 from nivel.flexible.model.solid_shapes import SolidShape
+from nivel.lazy import dataclass, replace
 from nivel.machine.beams.section import Material
 
 CHUNK: Final = 8  # fields at once

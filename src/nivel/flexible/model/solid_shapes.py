@@ -7,7 +7,6 @@ at all 27 points of integration.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import Final
@@ -15,6 +14,7 @@ from typing import Final
 import numpy as np
 
 from nivel.flexible.model.model import Array, Whole
+from nivel.lazy import dataclass
 
 Edges = tuple[tuple[int, int], ...]
 

@@ -6,7 +6,6 @@ Every basis also spans the rigid motions or is combined with them by the reducti
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
@@ -18,6 +17,7 @@ from nivel.flexible.model.model import Array
 from nivel.flexible.reduction.factor import NoStiffnessError, Whole, lowest_modes, pivots
 from nivel.flexible.reduction.free_body import FreeBody
 from nivel.flexible.reduction.stiffening import inertia_loads
+from nivel.lazy import dataclass
 
 LIMIT_START = 16  # modes that are computed first where a frequency is the limit
 MOST_MODES = 1000

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Final
 
@@ -13,6 +12,7 @@ import scipy.sparse as sp
 from nivel.flexible.model.mass import Sparse
 from nivel.flexible.model.model import Array, FiniteElementModel
 from nivel.flexible.reduction.factor import Factor, NoStiffnessError, Whole, determinate, lowest_modes
+from nivel.lazy import dataclass, field
 
 
 @dataclass(frozen=True)

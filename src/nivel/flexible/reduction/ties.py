@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -16,6 +15,7 @@ from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import InterfaceRecord
 from nivel.flexible.model.selection import NodeSets, chosen_nodes
 from nivel.flexible.reduction.factor import pivots
+from nivel.lazy import dataclass
 
 FLAT: Final = 1e-9  # the nodes of a surface must spread in two directions at least by this share of its size
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable
 from nivel.system.flexible import Bending, bending_bodies

@@ -8,13 +8,12 @@ as many 2ᵖ - 1 times it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.other_elements import changed, doubled
 from nivel.machine.joints.joint import JOINT_WORDS

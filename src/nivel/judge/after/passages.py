@@ -10,7 +10,6 @@ run, and one that has a minimum far below its middle value also between frames, 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import import_module
 from typing import Any
@@ -27,7 +26,7 @@ from nivel.judge.after.subject import Run
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.core.status import SINGULAR
 from nivel.kernels.solve.saddle import LEFT_OUT
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, replace, scipy
 from nivel.motion.catalogue import FLOATING
 from nivel.results.scales import Readable
 from nivel.system.system import Array, System

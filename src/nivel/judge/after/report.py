@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
@@ -13,6 +12,7 @@ import numpy as np
 
 from nivel.judge.after import checks
 from nivel.judge.after.subject import Equilibria, Motion, Positions, Run, Subject
+from nivel.lazy import dataclass
 from nivel.results.result import Result
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, Trust, plain, worst

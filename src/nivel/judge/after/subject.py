@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from copy import copy
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from nivel.integrate.loop.run import MOVING
+from nivel.lazy import dataclass, field
 from nivel.results.curve import probed
 from nivel.results.peaks import Peak, worst_row
 from nivel.results.scales import Readable, largest_speed, machine_size, speed_of_rest

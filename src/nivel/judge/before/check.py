@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,7 +30,7 @@ from nivel.judge.before.in_words import (
     state_in_words,
 )
 from nivel.kernels.core.status import OK
-from nivel.lazy import nivel
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.circuit_elements import without_slopes

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
@@ -27,6 +26,7 @@ from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve
 from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
 from nivel.judge.finding import Finding
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import PlainVolume
 from nivel.machine.uses.hydraulic_uses import makers, ports_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from nivel.analysis.assembly.equations import MotionEquations
@@ -15,6 +14,7 @@ from nivel.elements.forces.drive_lines import TransmissionLoss
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
+from nivel.lazy import dataclass
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts

@@ -8,7 +8,6 @@ which is the work of that motion itself: the force, or the cylinder, with the la
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
@@ -19,6 +18,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 Vectors = NDArray[np.complex128]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, WAIT, Run
 from nivel.judge.during.stop import Status
 from nivel.kernels.output.observe import observe
+from nivel.lazy import dataclass
 from nivel.machine.units.tree import Node
 from nivel.system.layout import reported
 from nivel.system.system import Array, System

@@ -8,7 +8,6 @@ in a way of its own, or opens the joints. So the positions are asked, and not th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import ModelError
 from nivel.judge.during.stop import named_row, unit_of
 from nivel.kernels.output.observe import observe
+from nivel.lazy import dataclass
 from nivel.system.system import Array
 
 # How far beyond a failure a jam is looked for, in steps: methods that solve for accelerations fail some steps before it, and a driver may

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.kernels.core import status as of_kernels
 from nivel.kernels.record.record import Record
+from nivel.lazy import dataclass
 from nivel.machine.beams.beam import Beam
 from nivel.system.layout import reported
 from nivel.system.system import Array, System

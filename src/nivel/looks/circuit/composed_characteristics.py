@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -13,6 +12,7 @@ from nivel.elements.circuits.check_valves import ShuttleValve
 from nivel.elements.circuits.flow_valves import FlowDivider, PriorityValve
 from nivel.elements.circuits.holding_valves import BrakeValve
 from nivel.elements.circuits.pilot_valves import PilotReducingValve, PilotReliefValve
+from nivel.lazy import dataclass
 
 HALVINGS: Final = 60
 

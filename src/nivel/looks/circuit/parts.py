@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from nivel.elements.circuits import COMPONENTS
 from nivel.elements.circuits.component import SENSING
 from nivel.elements.circuits.symbol import LETTER, Symbol, box
+from nivel.lazy import dataclass, field, replace
 
 HIGHEST: Final = 5e5  # Pa; a tank of a constant pressure above is a supply, others have a symbol at each of their pins
 VALUE: Final = "000.0 bar"  # room for a pressure

@@ -7,9 +7,10 @@ what is told of fluid that is compressed are the rest.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from html import escape
 from typing import Final
+
+from nivel.lazy import dataclass
 
 WIDE, BAR, GAP, TOP, HIGH = 830.0, 12.0, 9.0, 26.0, 260.0
 COLUMNS: Final = (120.0, 300.0, 430.0, 560.0)  # x of the bars: engines, pumps and other sources, the circuit, sinks

@@ -5,9 +5,9 @@ has pins in several channels, a vertical line beside a column joins its tracks. 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 
 from nivel.elements.circuits.symbol import LETTER
+from nivel.lazy import dataclass, field
 from nivel.looks.circuit.parts import VALUE, Circuit, Part
 
 TRACK, LANE, MARGIN, EDGE = 19.0, 11.0, 14.0, 10.0  # [px] between tracks and lanes; above and below tracks; around all

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.core.placement import PARALLEL, frame_between
 
 Array = NDArray[np.float64]

@@ -7,13 +7,13 @@ curvatures; the strain of a point r of the section is Γ + Κ × r.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
+from nivel.lazy import dataclass
 from nivel.machine.beams.section import Material, SectionRecord, Values
 from nivel.machine.beams.section_properties import section_of
 from nivel.machine.beams.six_by_six import (

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.machine.beams.section import Box, Circle, IBeam, Rectangle, SectionRecord, Tube, Values
 
 Array = NDArray[np.float64]

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
+from nivel.lazy import dataclass
 from nivel.machine.bodies.solids import centroid, squared_gyration, volume
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, SomeNumbers, SomeRows

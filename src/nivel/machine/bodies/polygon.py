@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
+
+from nivel.lazy import dataclass
 
 Array = NDArray[np.float64]
 NEAR = 1e-12  # of the size of a polygon: corners and areas below it are nothing

@@ -10,11 +10,12 @@ from __future__ import annotations
 import base64
 import struct
 import zlib
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from nivel.lazy import dataclass
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.uint32]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass, field
 from nivel.machine.core.placement import marker_frame
 
 if TYPE_CHECKING:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
+from nivel.lazy import dataclass
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import Part, PartFunction, signals_read
 

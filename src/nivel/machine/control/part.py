@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+from nivel.lazy import dataclass
 from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.time_function import TimeFunction, signals_of
 from nivel.machine.units.formula import Formula

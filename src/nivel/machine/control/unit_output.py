@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from nivel.lazy import dataclass
 from nivel.machine.units.tree import TIME
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import Marker, TwoMarkers

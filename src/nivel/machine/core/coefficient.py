@@ -7,7 +7,6 @@ which must stand before, what kind it is.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import (
@@ -20,6 +19,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
+from nivel.lazy import dataclass
 from nivel.machine.given import ManyNumbers, OneNumber
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import (

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Final
 
+from nivel.lazy import dataclass
 from nivel.machine.core.record import GROUND, entry
 
 Place = tuple[str | int, ...]

@@ -60,7 +60,12 @@ class Record(BaseModel, metaclass=RecordClass):
     """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True, allow_inf_nan=False
+        frozen=True,
+        extra="forbid",
+        populate_by_name=True,
+        hide_input_in_errors=True,
+        allow_inf_nan=False,
+        defer_build=True,
     )
     collection: ClassVar[str] = ""  # the section of the machine that holds such records
     # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Final, Literal
 
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.axes import Triple, bad_axis_pair, no_direction, parallel
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.marker import TwoMarkers

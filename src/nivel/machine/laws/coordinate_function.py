@@ -5,12 +5,12 @@ where it is an angle.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from nivel.lazy import dataclass
 from nivel.machine.core.coefficient import (
     COORDINATE,
     COORDINATE_ACCELERATION,

@@ -6,8 +6,8 @@ They are found by what they are, in the fields of its parts and of the parts of 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from nivel.lazy import dataclass
 from nivel.machine.control.block import Block
 from nivel.machine.core.record import Record
 from nivel.machine.joints.driver import RATES, Driver

@@ -7,7 +7,6 @@ the quantity is meant: of joints, inputs, states, blocks of the control, forces,
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
 from typing import Any, Final, Literal
@@ -15,6 +14,7 @@ from typing import Any, Final, Literal
 from nivel.elements.circuits import record_of
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
+from nivel.lazy import dataclass
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
 from nivel.machine.joints.joint import JOINT_COORDINATES

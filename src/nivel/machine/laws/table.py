@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
@@ -12,6 +11,7 @@ import numpy as np
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from nivel.lazy import dataclass
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.interpolation import (

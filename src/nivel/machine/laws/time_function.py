@@ -7,12 +7,12 @@ numbers in the text of an expression and those that a law is called with.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, Any, Final
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from nivel.lazy import dataclass
 from nivel.machine.given import Given, Validated
 from nivel.machine.laws.python_law import PythonLaw, read_python_law
 from nivel.machine.laws.table import Table, read_table

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, WrapValidator
 from pydantic_core import CoreSchema, core_schema
 
 from nivel.errors import ModelError
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.record import Record
 from nivel.machine.given import Given, OneNumber
 from nivel.machine.units.quantity import Quantity, Whole, fault, shown

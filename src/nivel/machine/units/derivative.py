@@ -9,9 +9,9 @@ expression itself is: 3*time^2 becomes 6*time, without a division by time.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Final
 
+from nivel.lazy import dataclass
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.functions import FUNCTIONS, read
 from nivel.machine.units.interpolation import SMOOTH

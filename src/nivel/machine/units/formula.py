@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from nivel.lazy import dataclass
 from nivel.machine.units.arithmetic import bind
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import Node, Number, Signal, signals

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
+from nivel.lazy import dataclass
 from nivel.machine.units import intervals
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.intervals import Array, Interval

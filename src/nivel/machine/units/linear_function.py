@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from nivel.lazy import dataclass
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.tree import TIME, Negative, Node, Operation, Signal, Time, varies
 

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field
 from itertools import combinations, islice, product
 from typing import Final
 
 import numpy as np
 
+from nivel.lazy import dataclass, field
 from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, without_angle
 from nivel.machine.units.functions import FUNCTIONS

@@ -10,13 +10,13 @@ from __future__ import annotations
 import numbers
 import re
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from nivel.lazy import dataclass
 from nivel.machine.given import OneNumber, ThreeNumbers
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind, evaluate, given
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle

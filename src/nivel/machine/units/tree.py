@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from typing import Any, Final, Literal, SupportsFloat
 
+from nivel.lazy import dataclass, field, replace
 from nivel.machine.units.dimension import Dimension
 from nivel.machine.units.unit import UNITS
 

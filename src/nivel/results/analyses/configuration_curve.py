@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.target import written
-from nivel.lazy import xarray
+from nivel.lazy import dataclass, field, xarray
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.trust import Trust
 

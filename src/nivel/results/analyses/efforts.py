@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.files.target import write_text
-from nivel.lazy import provided, xarray
+from nivel.lazy import dataclass, field, provided, xarray
 from nivel.results.curve import TOLD, curve
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.files.target import write_text
-from nivel.lazy import nivel, provided, scipy, xarray
+from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
 from nivel.results.analyses.sampled_model import SampledModel
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
+from nivel.lazy import dataclass
 from nivel.results.analyses.mode_motion import CYCLES, FRAMES, PERIOD, SHOWN, TURNED, turned
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from os import PathLike
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
-from nivel.lazy import provided, scipy, xarray
+from nivel.lazy import dataclass, field, provided, scipy, xarray
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.linear_model import LinearModel

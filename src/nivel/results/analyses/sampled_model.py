@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from nivel.elements.circuits.fluids import ATMOSPHERE, REFERENCE_PRESSURE
 from nivel.elements.circuits.spool_valves import ends_of
+from nivel.lazy import dataclass
 from nivel.results.scales import Readable
 
 START: Final = "hydraulics."

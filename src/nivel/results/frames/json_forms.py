@@ -7,8 +7,9 @@ described in `nivel.system.scene`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Final
+
+from nivel.lazy import dataclass
 
 
 @dataclass(frozen=True)

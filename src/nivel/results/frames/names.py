@@ -9,12 +9,12 @@ from __future__ import annotations
 import difflib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from types import MappingProxyType
 
 from nivel.errors import ModelError
+from nivel.lazy import dataclass
 from nivel.system.layout import Variable
 
 # Dimensions whose names are components of one quantity, not elements of the machine.

@@ -7,12 +7,10 @@ which keeps it free of locking; mass exactly.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 
 Array = NDArray[np.float64]

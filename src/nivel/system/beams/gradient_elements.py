@@ -7,11 +7,10 @@ The vectors of a node are its place r and gradients: along the beam ∂r/∂X, a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import dataclass
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
 from nivel.system.beams.elements import gauss

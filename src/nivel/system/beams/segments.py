@@ -8,7 +8,6 @@ energy of linear elements with one point of integration: errors fall with l².
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -17,6 +16,7 @@ from nivel.elements.forces.bushing import BushingRow
 from nivel.elements.forces.bushing import apply as bushing
 from nivel.elements.states import Coupled
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.machine.beams.beam import Beam
 from nivel.system.beams.elements import Array, gauss, relative_turns
 from nivel.system.builder import SystemBuilder

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from nivel.lazy import dataclass
 
 Index = NDArray[np.uint32]
 Groups = tuple[tuple[int, ...], ...]

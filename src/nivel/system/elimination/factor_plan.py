@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from nivel.kernels.algebra.sparse_lu import SparseLU
+from nivel.lazy import dataclass
 
 Index = NDArray[np.uint32]
 Places = NDArray[np.int64]

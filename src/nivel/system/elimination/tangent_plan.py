@@ -8,13 +8,13 @@ evaluations does not grow with a chain.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.system.elimination.factor_plan import FactorPlan, plan_factor
 from nivel.system.tables import index_array
 

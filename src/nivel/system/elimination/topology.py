@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from typing import Final
 
+from nivel.lazy import dataclass
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.system.joints.joints import JOINTS
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -28,7 +27,7 @@ from nivel.kernels.forces import (
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.machine.bodies.touching import Touching

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.forces.hull_pair import NUMBERS
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
 from nivel.machine.bodies.touching import Touching

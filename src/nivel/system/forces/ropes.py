@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from nivel.kernels.forces import capstan_rope, heavy_rope, wound_rope
 from nivel.kernels.forces import rope as straight
 from nivel.kernels.forces.wound_rope import WIDTH, tangent
 from nivel.kernels.record.record import NONE
+from nivel.lazy import dataclass
 from nivel.machine.core.between import GlobalPoint
 from nivel.machine.forces.rope import Rope
 from nivel.machine.machine_record import MachineRecord

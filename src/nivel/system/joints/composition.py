@@ -6,13 +6,13 @@ Axes are those of the two markers: x, y, z of the first, then of the second.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final, Literal
 
 from nivel.kernels.bodies.coordinate import (
     ROTATION,
     TRANSLATION,
 )
+from nivel.lazy import dataclass
 from nivel.machine.joints.joint import Joint
 
 AXES: Final = {"x": 0, "y": 1, "z": 2}

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import Final, Literal, NamedTuple
 
 from nivel.kernels.record.hook import Family
+from nivel.lazy import dataclass, field
 from nivel.machine.joints.joint import Joint
 from nivel.system.joints.composition import POINT, Composition
 from nivel.system.tables import Array

@@ -6,10 +6,9 @@ rotation, before anything is computed: all coordinates and formulations see the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 
+from nivel.lazy import dataclass, field
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints.joint_frames import Placed, joint_frames

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 
 from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.kernels.record.record import NONE, Constraints
+from nivel.lazy import dataclass, field
 from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.joints.joint import Joint
 from nivel.machine.laws.table import Table

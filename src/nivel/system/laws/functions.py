@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from nivel.kernels.record.function import CODE, CONSTANT, HELD, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.record.program import run
 from nivel.kernels.record.record import Functions
+from nivel.lazy import dataclass, field
 from nivel.machine.control.part import PartFunction
 from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.python_law import PythonLaw

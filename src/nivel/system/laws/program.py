@@ -10,13 +10,13 @@ At the time 0 nothing is later: a machine is in equilibrium, and starts, with wh
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.record import program as kernel
 from nivel.kernels.record.function import NEAR
+from nivel.lazy import dataclass
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.functions import FUNCTIONS, is_truth

@@ -7,12 +7,12 @@ are bodies to the joints of the tree. What the tree has more is named in `nivel.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel.kernels.record.record import NONE, Record
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.topology import FREE

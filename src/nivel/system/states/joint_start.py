@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from nivel.kernels.record.record import NONE, Coordinates, Markers
+from nivel.lazy import dataclass
 from nivel.machine.core.orientation import (
     conjugate,
     euler_parameters_from_matrix,

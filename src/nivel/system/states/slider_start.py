@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.system.joints.rails import between, element_of
 from nivel.system.system import Array

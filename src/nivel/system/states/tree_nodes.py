@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -13,6 +12,7 @@ from nivel.kernels.record import record as kernels
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, U1, U2, Coordinates, Record
 from nivel.kernels.tree.joints import BY_ADDRESS
+from nivel.lazy import dataclass, replace
 from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.elimination.topology import FREE, Branch

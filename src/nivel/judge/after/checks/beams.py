@@ -12,7 +12,6 @@ where they would take all that is left of it, a state that was found is none.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 
 from nivel.judge.after.report import FRAMES, OTHERS, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
+from nivel.lazy import dataclass
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.motion import common_frames

@@ -6,8 +6,6 @@ then the method has followed the motion round a corner, which joints that are op
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +13,7 @@ from nivel.integrate.loop.run import LEAST, PARTS, TAKEN
 from nivel.judge.after.passages import LEAST_FRAMES, Passage, Track, can_be_singular, passages, row_pivots, why_not
 from nivel.judge.after.report import SECOND_RUN, STEPS, Check
 from nivel.judge.after.subject import Run
+from nivel.lazy import dataclass
 from nivel.results.scales import Readable
 from nivel.results.trust import Item
 

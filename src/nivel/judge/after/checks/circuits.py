@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from nivel.elements.circuits.ways import CENTRED
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Motion, Run
+from nivel.lazy import dataclass
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number, quantity
 

@@ -6,7 +6,6 @@ Of contacts in passing spheres are exact. Of other shapes the convex hulls are l
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +22,7 @@ from nivel.judge.after.touching_pairs import (
     turns_of,
     way_between,
 )
-from nivel.lazy import scipy
+from nivel.lazy import dataclass, scipy
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.results.scales import Readable, machine_size, rotated

@@ -7,7 +7,6 @@ result.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import polynomial
@@ -15,6 +14,7 @@ from numpy.polynomial import polynomial
 from nivel.judge.after.checks.joints import OPENING
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Actuated, Positions, Scales
+from nivel.lazy import dataclass
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression

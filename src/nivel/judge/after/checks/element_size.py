@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -13,6 +12,7 @@ from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.other_elements import Compared, ElementErrors, Pair
 from nivel.judge.after.report import FRAMES, OTHERS, Check
 from nivel.judge.after.subject import Equilibria, Run
+from nivel.lazy import dataclass
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, number

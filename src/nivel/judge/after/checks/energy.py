@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from nivel.elements.forces import FORCES
 from nivel.judge.after.report import SECOND_RUN, Check, Need
 from nivel.judge.after.subject import Motion, Run
+from nivel.lazy import dataclass
 from nivel.results.motion import common_frames
 from nivel.results.peaks import peak
 from nivel.results.scales import (

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria
+from nivel.lazy import dataclass, replace
 from nivel.results.peaks import peak
 from nivel.results.trust import Item, Threshold, Verdict, number
 

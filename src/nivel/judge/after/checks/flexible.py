@@ -9,7 +9,6 @@ the body bends.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +19,7 @@ from nivel.judge.after.checks.modes import ENERGY_LEFT_OUT, NEAR_LEFT, STRAIGHT,
 from nivel.judge.after.flexible_bodies import Bent, ModalBody, modal_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
 from nivel.results.scales import Readable, blocks

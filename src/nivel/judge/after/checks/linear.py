@@ -3,8 +3,6 @@ make wrong."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +10,7 @@ from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.checks.modes import NEAR_LEFT, modal_bases
 from nivel.judge.after.report import Check, Need
 from nivel.judge.after.subject import Linearisation
+from nivel.lazy import dataclass, replace
 from nivel.results.trust import Item, number
 
 

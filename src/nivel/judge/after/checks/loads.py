@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +19,7 @@ from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run
 from nivel.judge.after.touching_pairs import spheres_among
+from nivel.lazy import dataclass, replace
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord

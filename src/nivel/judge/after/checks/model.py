@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria, Linearisation, Positions, Run
 from nivel.judge.before.unusual import excess, in_words, remarks
+from nivel.lazy import dataclass
 from nivel.machine.bodies.body import Body
 from nivel.machine.given import Usual
 from nivel.machine.joints.joint import CoordinateRates

@@ -8,7 +8,6 @@ body itself.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -18,6 +17,7 @@ from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.flexible_bodies import Bent, ModalBody, numbered_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check, Need
 from nivel.judge.after.subject import Equilibria, Run
+from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.report import ESTIMATE, STEPS, Check
 from nivel.judge.after.subject import Run
+from nivel.lazy import dataclass
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Sphere
 from nivel.machine.core.vectors import cross

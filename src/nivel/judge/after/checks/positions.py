@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from nivel.judge.after.checks.joints import OPENING
 from nivel.judge.after.report import Check
 from nivel.judge.after.subject import Curve, Led, Positions, Reach
+from nivel.lazy import dataclass
 from nivel.results.trust import Item, Threshold, Verdict, number
 
 # share of the least singular value at the start below which a position is near a singular one; names and times in a sentence

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from nivel.judge.after.checks import friction
 from nivel.judge.after.flexible_bodies import MODAL, ModalBody, modal_bodies, point_ranges
 from nivel.judge.after.report import ESTIMATE, Check
 from nivel.judge.after.subject import Run
+from nivel.lazy import dataclass, replace
 from nivel.machine.forces.contact import Contact
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure

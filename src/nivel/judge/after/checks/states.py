@@ -7,7 +7,6 @@ and of its second run: frames of steps that were chosen lie inside these, where 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
 from nivel.kernels.forces import ground_contact
+from nivel.lazy import dataclass, replace
 from nivel.machine.core.element import Acts, Holds
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve

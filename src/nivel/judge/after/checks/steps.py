@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from nivel.integrate.loop.run import TURNED
 from nivel.judge.after.report import FIXED_STEPS, FRAMES, Check, Need
 from nivel.judge.after.subject import Actuated, Positions, Run
 from nivel.judge.during.fastest import fastest, held_step
+from nivel.lazy import dataclass
 from nivel.results.curve import ROUNDED, Curve, curve
 from nivel.results.frames.contents import shape_of
 from nivel.results.frames.loads import with_probes

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from nivel.judge.after.checks.efforts import not_compared
 from nivel.judge.after.other_elements import Compared
 from nivel.judge.after.report import Check
@@ -22,6 +20,7 @@ from nivel.judge.after.subject import (
     Sweep,
     Variant,
 )
+from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust import Item, Verdict, number
 

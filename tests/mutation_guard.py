@@ -122,7 +122,7 @@ COVER = {
     "kernels/forces/held": (*verification("statics_beams"), *BEAMS),
     "kernels/forces/hull": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
     "kernels/forces/pressure_cells": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
-    "kernels/forces/rope": (*verification("ropes"), *STATES),
+    "elements/forces/ropes": (*verification("ropes"), *STATES),
     "elements/circuits/": HYDRAULICS,
     "kernels/output/": (*verification("consistency", "motion", "redundant_loops"), "flexible/test_flexible_motion.py"),
     "kernels/record/": ("machine/test_time_functions.py", "system/test_programs.py", *verification("drivers", "laws", "control"), *STATES),

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from nivel.elements.forces.loads import PairForce as PairForce
     from nivel.elements.forces.loads import PointForce as PointForce
     from nivel.elements.forces.loads import Torque as Torque
+    from nivel.elements.forces.ropes import Rope as Rope
     from nivel.elements.forces.shafts import BeltDrive as BeltDrive
     from nivel.elements.forces.shafts import Shaft as Shaft
     from nivel.elements.forces.spring_node import SpringNode as SpringNode
@@ -55,7 +56,6 @@ if TYPE_CHECKING:
     from nivel.machine.control.block import Block as Block
     from nivel.machine.core.marker import Marker as Marker
     from nivel.machine.forces.contact import Contact as Contact
-    from nivel.machine.forces.rope import Rope as Rope
     from nivel.machine.joints.coupling import Belt as Belt
     from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
     from nivel.machine.joints.coupling import Gear as Gear
@@ -118,7 +118,7 @@ _HOME = {
     "PointForce": "nivel.elements.forces.loads",
     "PythonLaw": "nivel.machine.laws.time_function",
     "Rack": "nivel.machine.joints.coupling",
-    "Rope": "nivel.machine.forces.rope",
+    "Rope": "nivel.elements.forces.ropes",
     "Sensor": "nivel.machine.signals.sensor",
     "Servo": "nivel.elements.forces.actuators",
     "SimulationSettings": "nivel.machine.settings.run",

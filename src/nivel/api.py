@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import pi
 from os import PathLike, fspath
 from pathlib import Path
@@ -148,7 +148,8 @@ class Machine(Model):
             nivel.analysis.plan.compilation.preparation_entries(plan.methods), listener
         )
         with self._faults_in_file():
-            ropes = [finding.fault for finding in nivel.system.forces.stretched_ropes.stretched_ropes(self.record)]
+            place = partial(nivel.system.joints.joint_frames.as_placed, self.record)
+            ropes = [finding.fault for finding in nivel.judge.before.unusual.stretched_ropes(self.record, place)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
             return replace(
                 nivel.judge.before.check.check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks))

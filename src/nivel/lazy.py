@@ -137,6 +137,7 @@ if TYPE_CHECKING:
     import nivel.cli.ending
     import nivel.cli.live
     import nivel.cli.progress
+    import nivel.elements.forces.ropes
     import nivel.exchange
     import nivel.exchange.gltf_writer
     import nivel.exchange.mjcf_writer
@@ -162,6 +163,7 @@ if TYPE_CHECKING:
     import nivel.judge.before.check
     import nivel.judge.before.circuits
     import nivel.judge.before.refusals
+    import nivel.judge.before.unusual
     import nivel.kernels.output.observe
     import nivel.live.budget
     import nivel.live.datagrams
@@ -212,7 +214,7 @@ if TYPE_CHECKING:
     import nivel.system.beams.elements
     import nivel.system.beams.segments
     import nivel.system.elimination.topology
-    import nivel.system.forces.stretched_ropes
+    import nivel.system.joints.joint_frames
     import nivel.system.joints.joints
     import nivel.system.signals.c_instance
     import nivel.system.signals.fmu_instance

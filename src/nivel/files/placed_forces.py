@@ -13,17 +13,15 @@ from nivel.elements.forces.drive_lines import Brake, Freewheel, TransmissionLoss
 from nivel.elements.forces.friction import Friction
 from nivel.elements.forces.loads import PairForce, PointForce, Torque
 from nivel.elements.forces.shafts import BeltDrive, DriveLine, Shaft
-from nivel.elements.forces.spring_node import SpringNode
 from nivel.elements.forces.spring_series import SpringSeries
 from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
-from nivel.machine.core.between import Between, Ends
+from nivel.machine.core.between import Between, BetweenMany, Ends
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.record import Record
 from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.rope import Rope
-from nivel.machine.laws.time_function import Expression, PythonLaw, TimeFunction
+from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)
@@ -137,20 +135,16 @@ def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 
-def _rope(force: Rope, scene: Scene) -> Changes:
-    changes = _varied(force, scene, "speed")
-    if force.axis is not None:  # the sense in which the rope runs around it is kept
-        changes["axis"] = scene.placement.turning(force.axis)
+def _many_ends(force: BetweenMany, scene: Scene) -> Changes:
+    """Its `node` is a point like its ends, and around its `axis` a rope keeps the sense in which it runs."""
+    placing = scene.placement
+    changes: Changes = {name: scene.varied(value) for name, value in force if isinstance(value, (Table, *_FUNCTIONS))}
+    for name, placed in (("axis", placing.turning), ("node", placing.point)):
+        if getattr(force, name, None) is not None:
+            changes[name] = placed(getattr(force, name))
     if force.markers is not None:
         return {"markers": tuple(scene.end(each) for each in force.markers), **changes}
-    return {"points": tuple(scene.placement.point(point) for point in force.points or ()), **changes}
-
-
-def _spring_node(force: SpringNode, scene: Scene) -> Changes:
-    node = {"node": scene.placement.point(force.node)}
-    if force.markers is not None:
-        return {**node, "markers": tuple(scene.end(each) for each in force.markers)}
-    return {**node, "points": tuple(scene.placement.point(point) for point in force.points or ())}
+    return {"points": tuple(placing.point(point) for point in force.points or ()), **changes}
 
 
 def _spring_series(force: SpringSeries, scene: Scene) -> Changes:
@@ -238,8 +232,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     Bushing: _bushing,
     ThreeAxisSpring: _three_axis_spring,
     Contact: _contact,
-    Rope: _rope,
-    SpringNode: _spring_node,
+    BetweenMany: _many_ends,
     SpringSeries: _spring_series,
     DriveLine: _of_drive_line,
     BeltDrive: _of_belt,

@@ -23,10 +23,10 @@ from nivel.machine.units.linear_function import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve
 from nivel.system.circuit_tables import CircuitTable
 from nivel.system.joints.interfaces import marker_place
-from nivel.system.joints.joint_frames import Placed, seen_from
+from nivel.system.joints.joint_frames import Placed, as_placed, seen_from
 from nivel.system.joints.parallel_axes import Directions
 from nivel.system.laws.functions import FunctionTable, Signal
-from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
+from nivel.system.tables import Array, CoordinateTable, ElementTable, MarkerTable, OutputTable
 
 GROUND = "ground"
 AXES = "xyz"
@@ -159,6 +159,14 @@ class SystemBuilder:
                 return self.place(marker_place(self.machine, end))
             case GlobalPoint(body, point):
                 return self.place(seen_from(self.machine, body, np.array(point, dtype=float), np.eye(3)))
+
+    def as_placed(self, end: End) -> Placed:
+        """Body, global point and global axes of where something acts, as the file places its body."""
+        return as_placed(self.machine, end)
+
+    def seen_from(self, body: str, point: Array, axes: Array) -> Placed:
+        """A global point (3,) and axes (3, 3) in the frame of a body, as the file places it."""
+        return seen_from(self.machine, body, point, axes)
 
     def ends(self, ends: tuple[End, End]) -> tuple[int, int]:
         """Indices of the markers at both ends."""

@@ -45,6 +45,7 @@ import numpy as np
 
 from nivel.elements.circuits.actuators import HydraulicCylinder, TelescopicCylinder
 from nivel.elements.forces import Force
+from nivel.elements.forces.ropes import Rope, first_wheel, way_around
 from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
 from nivel.files.rotors import rotors_of
@@ -57,7 +58,6 @@ from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.between import Between, BetweenMarkers
 from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.rope import Rope
 from nivel.machine.joints.coupling import Belt
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
@@ -65,9 +65,8 @@ from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
 from nivel.system.forces.height_fields import ground_surface
-from nivel.system.forces.ropes import first_wheel, way_as_placed
 from nivel.system.joints.interfaces import marker_place
-from nivel.system.joints.joint_frames import slot_frame
+from nivel.system.joints.joint_frames import as_placed, slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
 
@@ -261,7 +260,7 @@ def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
 
 def _wheels(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> dict[str, Any]:
     """How a rope runs around wheels."""
-    way = way_as_placed(machine, rope, radii)
+    way = way_around(rope, radii, [as_placed(machine, end) for end in rope.ends])
     turns = [np.eye(3) if body == "ground" else machine.placed[body][1] for body, _ in way.places]
     carrier = first_wheel(radii)
     fixed = [turns[k].T @ way.axes @ [np.cos(way.fixed[k]), np.sin(way.fixed[k]), 0.0] for k in (0, -1)]

@@ -1,4 +1,4 @@
-// The way of a rope around wheels with parallel axes: tangents and arcs, as `nivel.kernels.forces.wound_rope` has it.
+// The way of a rope around wheels with parallel axes: tangents and arcs, as `nivel.elements.forces.wound_ropes` has it.
 import * as THREE from "three";
 import type { Force, Winding } from "../generated/records";
 import type { Motion } from "../motion";

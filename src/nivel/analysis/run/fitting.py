@@ -20,6 +20,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.preparation import prepare
 from nivel.elements.forces.actuators import Stop
+from nivel.elements.forces.ropes import Rope, length_of
 from nivel.elements.forces.shafts import BeltDrive, Shaft
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
@@ -28,12 +29,11 @@ from nivel.lazy import dataclass, replace
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.rope import Rope
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 from nivel.system.forces.contacts import tangent_stiffness
 from nivel.system.forces.heaps import spheres_between
-from nivel.system.forces.ropes import length_as_placed
+from nivel.system.joints.joint_frames import as_placed
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
 
@@ -193,11 +193,12 @@ def _of_turning(prepared: Prepared, y: Array, t: float) -> Rate | None:
 
 def _of_slack_ropes(machine: MachineRecord) -> Rate | None:
     """Of ropes that are slack as placed, or just not: they are as stiff as others when they become taut."""
-    ways = {each.name: length_as_placed(machine, each) for each in machine.forces if isinstance(each, Rope)}
+    ropes = [each for each in machine.forces if isinstance(each, Rope)]
+    ways = {each.name: length_of(each, [as_placed(machine, end) for end in each.ends]) for each in ropes}
     slack = {
         each.name: (each.length or ways[each.name]) > ways[each.name]
-        for each in machine.forces
-        if isinstance(each, Rope) and each.stiffness and (each.length or ways[each.name]) >= ways[each.name]
+        for each in ropes
+        if each.stiffness and (each.length or ways[each.name]) >= ways[each.name]
     }
     if not slack:
         return None

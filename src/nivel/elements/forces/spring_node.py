@@ -21,13 +21,10 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
-from nivel.machine.core.between import End, GlobalPoint
-from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.between import BetweenMany
+from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeLength, Truth
-from nivel.machine.core.element import ForceElement
-from nivel.machine.core.marker import ManyMarkers
-from nivel.machine.core.record import BodyName
-from nivel.machine.given import Field, ManyNames, ManyNumbers, ManyPlaces, Maybe, OneNumber
+from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.units.quantity import Position, Quantity, listed
 from nivel.native.function import leaf, stage
 
@@ -38,7 +35,7 @@ MOST_SPRINGS: Final = 8
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
 
 
-class SpringNode(ForceElement):
+class SpringNode(BetweenMany):
     """Springs from points of bodies to one node without mass, which is where they balance."""
 
     outputs: ClassVar[tuple[str, ...]] = (
@@ -47,31 +44,15 @@ class SpringNode(ForceElement):
         *(Output(f"tension_{k + 1}", "N", f"tension of spring {k + 1}") for k in range(MOST_SPRINGS)),
     )
 
+    where = "the springs are held"
+
     type: Literal["spring-node"] = "spring-node"
     node: Position = Field(description="where about it is at the start: global; it is found from there")
-    markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
-        default=None, description="where each spring is held: names or markers"
-    )
-    bodies: Annotated[Maybe[ManyNames[BodyName]], BeforeValidator(listed)] = Field(
-        default=None, description="one for each spring, in place of `markers`; a body may stand there again"
-    )
-    points: Annotated[Maybe[ManyPlaces[Position]], BeforeValidator(listed)] = Field(
-        default=None, description="where each spring is held: global, as placed"
-    )
     stiffness: Annotated[ManyNumbers[PositiveStiffness], BeforeValidator(listed)] = Field(description="of each spring")
     free_length: Annotated[ManyNumbers[NotNegativeLength], BeforeValidator(listed)] = Field(
         description="of each spring, at which it has no force"
     )
     only_pulls: Truth = Field(default=False, description="the springs never push, as ropes")
-
-    @property
-    def ends(self) -> tuple[End, ...]:
-        """Where the springs are held."""
-        if self.markers is not None:
-            return self.markers
-        assert self.bodies is not None  # the record was checked
-        assert self.points is not None
-        return tuple(GlobalPoint(body, point) for body, point in zip(self.bodies, self.points, strict=True))
 
     def problems(self) -> Iterator[Problem]:
         count = len(self.stiffness)
@@ -84,23 +65,14 @@ class SpringNode(ForceElement):
             yield Problem(
                 ("free_length",), f"one length for each of the {count} springs is needed, got {len(self.free_length)}"
             )
-        if self.markers is not None:
-            for name in ("bodies", "points"):
-                if getattr(self, name) is not None:
-                    yield superfluous(name, "must not be given with `markers`, which say where the springs are held")
-            held, name = len(self.markers), "markers"
-        elif self.bodies is None or self.points is None:
-            yield Problem(
-                (), "`markers`, or `bodies` and one of `points` for each, are needed to say where the springs are held"
-            )
+        yield from super().problems()
+        if self.markers is None and (self.bodies is None or self.points is None):
             return
-        else:
-            held, name = len(self.points), "points"
-            if len(self.bodies) != held:
-                yield Problem(
-                    ("bodies",),
-                    f"one body for each point is needed; there are {len(self.bodies)} bodies, {held} points",
-                )
+        name = "points" if self.markers is None else "markers"
+        held = len(getattr(self, name))
+        if self.markers is None and len(self.bodies or ()) != held:
+            message = f"one body for each point is needed; there are {len(self.bodies or ())} bodies, {held} points"
+            yield Problem(("bodies",), message)
         if held != count:
             yield Problem((name,), f"one of the {name} for each of the {count} springs is needed, got {held}")
         elif self.points is not None and self.markers is None:

@@ -7,15 +7,13 @@ from pathlib import Path
 
 from nivel.elements.circuits.component import Component
 from nivel.elements.forces.loads import PointForce
-from nivel.elements.forces.spring_node import SpringNode
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import PartFunction
 from nivel.machine.control.unit_output import UnitOutput
-from nivel.machine.core.between import Between, BetweenMarkers, End, Ends
+from nivel.machine.core.between import Between, BetweenMany, BetweenMarkers, End, Ends
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.rope import Rope
 from nivel.machine.joints.coupling import Coupling, FunctionCoupling
 from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.python_law import PythonLaw
@@ -108,7 +106,7 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
         return bodies[end] if isinstance(end, str) else end.body
 
     match force:
-        case Between() | BetweenMarkers() | Rope() | SpringNode():
+        case Between() | BetweenMarkers() | BetweenMany():
             return " and ".join(body(end) for end in force.ends)
         case PointForce(marker=str() as marker):
             return bodies[marker]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.errors import ModelError
 from nivel.judge.finding import Finding
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
@@ -25,6 +26,7 @@ from nivel.machine.bodies.solids import (
     squared_gyration,
 )
 from nivel.machine.control.part import signals_read
+from nivel.machine.core.between import End
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
 from nivel.machine.forces.contact import Contact
@@ -38,6 +40,12 @@ HOLLOW: Final = 0.9
 # Bodies of machines are shorter [m] and lighter [kg].
 LONGEST: Final = 100.0
 HEAVIEST: Final = 1e6
+
+# Ropes of steel break at 1 to 3 % of strain, those of fibres at 3 to 30 %, and work at less than half of it.
+STRAIN: Final = 0.1
+# [N] stiffness times length; below it stands rubber, which may be stretched to several times its length.
+RUBBER: Final = 1e4
+Place = tuple[str, NDArray[np.float64], NDArray[np.float64]]
 
 
 def remarks(machine: MachineRecord) -> Iterator[Finding]:
@@ -214,3 +222,37 @@ def _reach(shape: Box | Cylinder, n: NDArray[np.float64]) -> float:
         return 0.5 * float(np.abs(n) @ np.array(box_size(shape)))
     along = float(n[axes_of(shape.along)[0]])
     return 0.5 * length(shape) * abs(along) + shape.radius * float(np.sqrt(max(1.0 - along * along, 0.0)))
+
+
+def stretched_ropes(machine: MachineRecord, place: Callable[[End], Place]) -> Iterator[Finding]:
+    """Each rope whose way as placed is more than 10 % longer than its unstressed length: a slip of a number, or of the sign of a radius.
+
+    place : of an end, its body, global point (3,) and axes (3, 3) as placed.
+    """
+    ropes: list[Any] = [each for each in machine.forces if each.type == "rope"]
+    for rope in ropes:
+        if rope.length is None or rope.stiffness * rope.length < RUBBER:
+            continue
+        placed = [place(end) for end in rope.ends]
+        way = nivel.elements.forces.ropes.length_of(rope, placed)
+        if way > (1.0 + STRAIN) * rope.length:
+            yield Finding(
+                f"forces.{rope.name}",
+                f"its way as placed is {way:.4g} m, {100.0 * (way / rope.length - 1.0):.3g} % longer than `length`, so the run begins with "
+                f"a tension of {rope.stiffness * (way - rope.length):.3g} N{_other_side(rope, placed)}",
+            )
+
+
+def _other_side(rope: Any, placed: Sequence[Place]) -> str:
+    """The radius whose other sign makes the way a usual one, if there is one."""
+    radii, length = rope.radii or (), rope.length or 0.0
+    for k, radius in enumerate(radii):
+        other = (*radii[:k], -radius, *radii[k + 1 :])
+        try:
+            way = nivel.elements.forces.ropes.way_around(rope, other, placed).length if radius else 0.0
+        except ModelError:  # on that side it would lie within another wheel
+            continue
+        if radius and way <= (1.0 + STRAIN) * length:
+            written = ", ".join(f"{each:g}" for each in other)
+            return f"; on the other side of the wheel at point {k + 1} it would be {way:.4g} m: `radii: [{written}]`"
+    return ""

@@ -9,13 +9,11 @@ import numpy as np
 
 from nivel.elements.forces import FORCES
 from nivel.elements.forces.loads import PointForce
-from nivel.elements.forces.spring_node import SpringNode
-from nivel.machine.core.between import Between
+from nivel.machine.core.between import Between, BetweenMany
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
-from nivel.machine.forces.rope import Rope
 from nivel.machine.joints.joint import JOINT_WORDS
 
 if TYPE_CHECKING:
@@ -114,7 +112,7 @@ def problems_of_points(machine: MachineRecord) -> Iterator[Problem]:
     for at, force in enumerate(machine.forces):
         if isinstance(force, PointForce) and force.body is not None:
             yield from _off(force.body, force.position or (0.0, 0.0, 0.0), origins, ("forces", at, "position"))
-        if isinstance(force, Between | Rope | SpringNode):
+        if isinstance(force, Between | BetweenMany):
             yield from _off_points(force.markers, force.bodies, force.points, origins, ("forces", at))
     for at, sensor in enumerate(machine.sensors):
         for form in ("distance", "angle"):

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Annotated, ClassVar
+
+from pydantic import BeforeValidator
 
 from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.element import ForceElement
-from nivel.machine.core.marker import Marker, TwoMarkers
+from nivel.machine.core.marker import ManyMarkers, Marker, TwoMarkers
 from nivel.machine.core.record import BodyName
-from nivel.machine.given import Field, Maybe, TwoNames, TwoPlaces
-from nivel.machine.units.quantity import Position
+from nivel.machine.given import Field, ManyNames, ManyPlaces, Maybe, TwoNames, TwoPlaces
+from nivel.machine.units.quantity import Position, listed
 
 
 @dataclass(frozen=True)
@@ -72,3 +75,37 @@ class Ends(Checked):
 
 class Between(Ends, ForceElement):
     """Acts between two `markers`, or between two `points` (global, as placed) of two `bodies`."""
+
+
+class BetweenMany(ForceElement):
+    """Acts at many `markers`, or at a point (global, as placed) of each of many `bodies`. where : what these say, in messages."""
+
+    where: ClassVar[str]
+
+    markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
+        default=None, description="where it acts, in order: names or markers; a marker may stand there again"
+    )
+    bodies: Annotated[Maybe[ManyNames[BodyName]], BeforeValidator(listed)] = Field(
+        default=None, description="one for each point, in place of `markers`; a body may stand there again"
+    )
+    points: Annotated[Maybe[ManyPlaces[Position]], BeforeValidator(listed)] = Field(
+        default=None, description="where it acts, in order: global, as placed"
+    )
+
+    @property
+    def ends(self) -> tuple[End, ...]:
+        """Where it acts, in order."""
+        if self.markers is not None:
+            return self.markers
+        assert self.bodies is not None  # the record was checked
+        assert self.points is not None
+        return tuple(GlobalPoint(body, point) for body, point in zip(self.bodies, self.points, strict=True))
+
+    def problems(self) -> Iterator[Problem]:
+        if self.markers is not None:
+            for name in ("bodies", "points"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, f"must not be given with `markers`, which say where {self.where}")
+        elif self.bodies is None or self.points is None:
+            need = "`markers`, or `bodies` and one of `points` for each, are needed to say where"
+            yield Problem((), f"{need} {self.where}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
@@ -68,6 +69,17 @@ def seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> P
         return name, point, axes
     position, A = machine.placed[name]
     return name, A.T @ (point - position), A.T @ axes
+
+
+def as_placed(machine: MachineRecord, end: End) -> Placed:
+    """Body, global point (3,) and global axes (3, 3) of where something acts, as its body is placed; the axes of a point are global."""
+    if isinstance(end, GlobalPoint):
+        return end.body, np.array(end.point, dtype=float), np.eye(3)
+    body, point, axes = marker_place(machine, machine.marker_named[end] if isinstance(end, str) else end)
+    if body == "ground":
+        return body, point, axes
+    position, A = machine.placed[body]
+    return body, position + A @ point, A @ axes
 
 
 def cosine_as_placed(machine: MachineRecord, first: Placed, second: Placed) -> float:

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria, Linearisation, Positions, Run
-from nivel.judge.before.unusual import excess, in_words, remarks
+from nivel.judge.before.unusual import excess, in_words, remarks, stretched_ropes
 from nivel.lazy import dataclass
 from nivel.machine.bodies.body import Body
 from nivel.machine.given import Usual
 from nivel.machine.joints.joint import CoordinateRates
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
-from nivel.system.forces.stretched_ropes import stretched_ropes
+from nivel.system.joints.joint_frames import as_placed
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,7 @@ def look_for_unusual(subject: Run | Equilibria | Positions) -> list[Unusual]:
     found = [Unusual(remark.place, str(remark.fault), remark.number) for remark in remarks(subject.machine)]
     found += [
         Unusual(rope.place.removeprefix("forces."), str(rope.fault), rope.number)
-        for rope in stretched_ropes(subject.machine)
+        for rope in stretched_ropes(subject.machine, partial(as_placed, subject.machine))
     ]
     found += _of_result(subject)
     return sorted(found, key=lambda each: -each.share)[:SHOWN]

@@ -1,7 +1,7 @@
 """Ropes around wheels with a mass m' per length: it runs along the way of the rope past one place p, and has weight all along it.
 
 The unstressed length L has the mass M = m' L, all of which runs at ẏ past p. With the ways s_A up to p and s_B behind it, whose geometry is
-that of `nivel.kernels.forces.wound_rope`, both halves are springs of twice the stiffness:
+that of `nivel.elements.forces.wound_ropes`, both halves are springs of twice the stiffness:
 
     e_A = s_A + y - L_A,   e_B = s_B - y - L_B,   M ÿ = T_B - T_A
 
@@ -20,40 +20,31 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.analytic import real
-from nivel.kernels.algebra.spatial import cross
-from nivel.kernels.core.status import OK
-from nivel.kernels.forces.wound_rope import (
-    AXIS,
+from nivel.elements.forces.wound_ropes import (
     CENTRE,
-    COUNT,
-    DAMPING,
-    FIRST,
-    LENGTH,
-    OUTPUT,
-    PLACES,
-    SPEED,
-    STIFFNESS,
-    UNSTRESSED,
     USED,
     UX,
     UY,
-    WIDTH,
+    RopeRow,
     X,
     Y,
     Z,
     arc_at,
+    at,
     find_parts,
     lay_out,
     let_off,
     next_touched,
+    paid_out,
     tangent,
     velocity_of,
 )
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_force_at, add_torque
-from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
-from nivel.kernels.record.record import NONE, record_at
+from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
 # of `columns` behind the markers: the place p; states: y and ẏ
@@ -105,23 +96,23 @@ def rate_along(machine, k, n, before):
     """Rate of the way up to p, or of that behind it."""
     record = record_at(machine)
     bodies, markers, elements = record.bodies, record.markers, record.elements
-    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
-    p, A = np.int64(index[FIRST + count + PAST]), markers.A[index[AXIS]]
-    w = bodies.omega[markers.body[index[AXIS]]]
+    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
+    p, A = np.int64(index[RopeRow.ALONG + count + PAST]), markers.A[index[RopeRow.AXIS]]
+    w = bodies.omega[markers.body[index[RopeRow.AXIS]]]
     turning = cross((w[0], w[1], w[2]), n)
-    rate, j = 0.0 * numbers[STIFFNESS], 0
+    rate, j = 0.0 * numbers[RopeRow.STIFFNESS], 0
     while j < count - 1:
         i = next_touched(numbers, j, count)
-        a = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
-        b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
+        a = numbers[at(j) : at(j + 1)]
+        b = numbers[at(i) : at(i + 1)]
         part = 1.0 if (i <= p) == before else 0.0
         first = 1.0 if is_before(j, p) == before else 0.0
         last = 1.0 if is_before(i, p) == before else 0.0
         fx, fy, fz, _ = gradient(a, b, part, first, last, 0.0)
         dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
         tx, ty = fz * dx - z * fx, fz * dy - z * fy
-        v = velocity_of(bodies, markers.body[index[FIRST + i]], b)
-        u = velocity_of(bodies, markers.body[index[FIRST + j]], a)
+        v = velocity_of(bodies, markers.body[index[RopeRow.ALONG + i]], b)
+        u = velocity_of(bodies, markers.body[index[RopeRow.ALONG + j]], a)
         for m in range(3):
             rate += (A[m, 0] * fx + A[m, 1] * fy + fz * n[m]) * (v[m] - u[m])
             rate += (A[m, 0] * tx + A[m, 1] * ty) * turning[m]
@@ -129,8 +120,8 @@ def rate_along(machine, k, n, before):
     for end in range(2):
         j = 0 if end == 0 else count - 1
         if is_before(j, p) == before:
-            used = numbers[PLACES + WIDTH * j + USED]
-            r, w = -used if end == 0 else used, bodies.omega[markers.body[index[FIRST + j]]]
+            used = numbers[at(j) + USED]
+            r, w = -used if end == 0 else used, bodies.omega[markers.body[index[RopeRow.ALONG + j]]]
             rate += r * (w[0] * n[0] + w[1] * n[1] + w[2] * n[2])
     return rate
 
@@ -140,14 +131,18 @@ def ways(machine, k):
     """(s_A, s_B, Σ length · h) of the way as its places are laid out, and the least h up to p and behind it."""
     record = record_at(machine)
     bodies, markers, elements = record.bodies, record.markers, record.elements
-    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
-    p = np.int64(index[FIRST + count + PAST])
-    first, second, heavy = 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS], 0.0 * numbers[STIFFNESS]
-    A, end = markers.A[index[AXIS]], numbers[PLACES + WIDTH * (count - 1) : PLACES + WIDTH * count]
-    low, other_low = height(bodies, numbers[PLACES : PLACES + WIDTH]), height(bodies, end)
+    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
+    p = np.int64(index[RopeRow.ALONG + count + PAST])
+    first, second, heavy = (
+        0.0 * numbers[RopeRow.STIFFNESS],
+        0.0 * numbers[RopeRow.STIFFNESS],
+        0.0 * numbers[RopeRow.STIFFNESS],
+    )
+    A, end = markers.A[index[RopeRow.AXIS]], numbers[at(count - 1) : at(count)]
+    low, other_low = height(bodies, numbers[at(0) : at(1)]), height(bodies, end)
     into, before, j = 0.0 * heavy, 0, 0
     while j < count:
-        own = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
+        own = numbers[at(j) : at(j + 1)]
         h, along, out = height(bodies, own), 0.0 * heavy, 0.0 * heavy
         if j < count - 1:
             along, out = slopes(bodies, A, own)
@@ -163,7 +158,7 @@ def ways(machine, k):
                 second += arc
         i = next_touched(numbers, j, count) if j < count - 1 else count
         if i < count:
-            b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
+            b = numbers[at(i) : at(i + 1)]
             _, _, _, whole = gradient(own, b, 0.0, 0.0, 0.0, 0.0)
             ha, hb = h + own[USED] * out, height(bodies, b) + b[USED] * out
             lower = ha if real(ha) < real(hb) else hb
@@ -185,12 +180,16 @@ def act(machine, k, n, ahead, behind, density, mean):
     """Tensions ahead of p and behind it [N], and the weight of the rope with this mass per length of the way, act on the bodies."""
     record = record_at(machine)
     bodies, markers, elements = record.bodies, record.markers, record.elements
-    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
-    p, A, carrier = np.int64(index[FIRST + count + PAST]), markers.A[index[AXIS]], markers.body[index[AXIS]]
+    index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
+    p, A, carrier = (
+        np.int64(index[RopeRow.ALONG + count + PAST]),
+        markers.A[index[RopeRow.AXIS]],
+        markers.body[index[RopeRow.AXIS]],
+    )
     g, before, j = bodies.gravity, 0, 0
     while j < count:
-        a = numbers[PLACES + WIDTH * j : PLACES + WIDTH * (j + 1)]
-        ba, ha, along, out = markers.body[index[FIRST + j]], height(bodies, a) - mean, 0.0 * mean, 0.0 * mean
+        a = numbers[at(j) : at(j + 1)]
+        ba, ha, along, out = markers.body[index[RopeRow.ALONG + j]], height(bodies, a) - mean, 0.0 * mean, 0.0 * mean
         if j < count - 1:
             along, out = slopes(bodies, A, a)
         on_first = (ahead if is_before(j, p) else behind) + density * (ha + a[USED] * out if j > 0 else ha)
@@ -203,8 +202,8 @@ def act(machine, k, n, ahead, behind, density, mean):
             add_torque(bodies, ba, -r * n[0], -r * n[1], -r * n[2])
         i = next_touched(numbers, j, count) if j < count - 1 else count
         if i < count:
-            b = numbers[PLACES + WIDTH * i : PLACES + WIDTH * (i + 1)]
-            bb, hb = markers.body[index[FIRST + i]], height(bodies, b) - mean
+            b = numbers[at(i) : at(i + 1)]
+            bb, hb = markers.body[index[RopeRow.ALONG + i]], height(bodies, b) - mean
             on_last = (ahead if is_before(i, p) else behind) + density * (hb + b[USED] * out if i < count - 1 else hb)
             both = 0.5 * (a[USED] + b[USED])
             on_part = (ahead if i <= p else behind) + density * (0.5 * (ha + hb) + both * out)
@@ -266,29 +265,25 @@ def apply(machine, number, t):
     bodies, elements, control, out = record.bodies, record.elements, record.control, record.outputs.value
     followed = record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, COUNT])
-        own, base = FIRST + count, PLACES + WIDTH * count
+        index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
+        own, base = RopeRow.ALONG + count, at(count)
         n = lay_out(machine, k)
         find_parts(numbers, count)
         if let_off(machine, k):
             find_parts(numbers, count)
         first, second, heavy, low, other_low = ways(machine, k)
         travel, run = elements.state[index[own + TRAVEL]], elements.state[index[own + RUN]]
-        length, speed = 0.0 * first + numbers[UNSTRESSED], 0.0 * first
-        if index[LENGTH] != NONE:
-            length = elements.state[index[LENGTH]]
-            speed = speed + evaluate_function(machine, index[SPEED], t)
-            elements.state_rate[index[LENGTH]] += speed
+        length, speed = paid_out(machine, k, t, 0.0 * first)
         ahead, its_rate = first + travel - (length - numbers[base + BEHIND]), rate_along(machine, k, n, True)
         behind, other_rate = second - travel - numbers[base + BEHIND], rate_along(machine, k, n, False)
         per_length, way = numbers[base + PER_LENGTH], first + second
         mass, mean = per_length * length, heavy / way
         least, other_least = least_of(mass / way, low, mean), least_of(mass / way, other_low, mean)
         one, one_elastic, one_stored = tension_of(
-            numbers[STIFFNESS], numbers[DAMPING], ahead, its_rate + run - speed, least
+            numbers[RopeRow.STIFFNESS], numbers[RopeRow.DAMPING], ahead, its_rate + run - speed, least
         )
         two, two_elastic, two_stored = tension_of(
-            numbers[STIFFNESS], numbers[DAMPING], behind, other_rate - run, other_least
+            numbers[RopeRow.STIFFNESS], numbers[RopeRow.DAMPING], behind, other_rate - run, other_least
         )
         elements.state_rate[index[own + TRAVEL]] += run
         elements.state_rate[index[own + RUN]] += (two - one) / mass
@@ -300,8 +295,8 @@ def apply(machine, number, t):
         elements.depth[k, 0] = ahead + behind
         if followed == 1:
             elements.depth_rate[k, 0] = its_rate + other_rate - speed
-        at, last = index[OUTPUT], numbers[PLACES + WIDTH * (count - 1) : PLACES + WIDTH * count]
-        out[at] = one + mass / way * (height(bodies, numbers[PLACES : PLACES + WIDTH]) - mean)
-        out[at + 1], out[at + 2] = -one * its_rate - two * other_rate, ahead + behind
-        out[at + 3] = two + mass / way * (height(bodies, last) - mean)
+        output, last = index[RopeRow.OUTPUT], numbers[at(count - 1) : at(count)]
+        out[output] = one + mass / way * (height(bodies, numbers[at(0) : at(1)]) - mean)
+        out[output + 1], out[output + 2] = -one * its_rate - two * other_rate, ahead + behind
+        out[output + 3] = two + mass / way * (height(bodies, last) - mean)
     return OK

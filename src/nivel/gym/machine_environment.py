@@ -198,8 +198,6 @@ def _whole_steps(every: float | str, step: float) -> int:
     return count
 
 
-RATE = "_rate"
-
 Reward = Callable[[Simulation, Any], float]
 
 
@@ -212,10 +210,12 @@ def reward_of(given: str | Callable[..., float], sim: Simulation) -> Reward:
         signals = expression.signals
     except ExpressionError as problem:
         raise ModelError(Fault.at("reward", f"`{given}`: {problem}")) from None
-    names = {signal: _result(signal, sim) for signal in signals}
+    for signal in signals:
+        if signal not in sim or hasattr(sim[signal], "shape"):
+            raise ModelError(Fault.at("reward", unknown_word(signal, [*sim.names], "number of the results")))
 
     def reward(sim: Simulation, _action: Any) -> float:
-        values = {signal: float(sim[name]) for signal, name in names.items()}
+        values = {signal: float(sim[signal]) for signal in signals}
         try:
             return float(expression(sim.time, values))
         except ExpressionError as problem:
@@ -223,12 +223,3 @@ def reward_of(given: str | Callable[..., float], sim: Simulation) -> Reward:
             raise ModelError(Fault.at("reward", said)) from None
 
     return reward
-
-
-def _result(signal: str, sim: Simulation) -> str:
-    """The name of a result that a signal is: `hinge.angle_rate` of machine files is `hinge.angle.rate`."""
-    tried = (signal, f"{signal.removesuffix(RATE)}.rate") if signal.endswith(RATE) else (signal,)
-    for name in tried:
-        if name in sim and not hasattr(sim[name], "shape"):
-            return name
-    raise ModelError(Fault.at("reward", unknown_word(signal, [*sim.names], "number of the results")))

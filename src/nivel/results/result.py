@@ -24,6 +24,7 @@ from nivel.results.iterations import Iterations
 from nivel.results.trust import Trust
 from nivel.system.layout import Variable
 from nivel.words.arguments import checked_arguments
+from nivel.words.wording import in_results
 
 if TYPE_CHECKING:
     import xarray
@@ -180,10 +181,15 @@ class Result(Tabulated):
 
     @checked_arguments
     def selection(self, name: str) -> Selection:
-        """Where `name` stands; ModelError with the nearest names when there is none."""
-        if name not in self._selections:
+        """Where `name` stands, as results or expressions write it; ModelError with the nearest names when there is none."""
+        written = self._written(name)
+        if written is None:
             raise unknown_name(name, self._selections)
-        return self._selections[name]
+        return self._selections[written]
+
+    def _written(self, name: str) -> str | None:
+        """`name` as results write it; None where there is no such quantity."""
+        return next((each for each in (name, *in_results(name)) if each in self._selections), None)
 
     @checked_arguments
     def array(self, name: str, frames: slice = slice(None)) -> NDArray[np.float64]:
@@ -230,7 +236,7 @@ class Result(Tabulated):
         return own_units(self.attributes, variable.name, self.coordinates[variable.dims[1]][row])
 
     def __contains__(self, name: object) -> bool:
-        return isinstance(name, str) and (name == "time" or name in self._selections)
+        return isinstance(name, str) and (name == "time" or self._written(name) is not None)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)

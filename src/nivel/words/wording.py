@@ -11,6 +11,11 @@ from nivel.words.vocabulary import translated
 
 LONGEST: Final = 40  # characters of a value in a message
 MOST_NAMES: Final = 8  # of a list of names in a sentence
+# the ends of names of one quantity: as expressions write it, and as results do
+_VECTORS = (("", "position"), ("v", "velocity"), ("w", "angular_velocity"))
+IN_RESULTS: Final = {f"{letter}{axis}": f"{vector}.{axis}" for letter, vector in _VECTORS for axis in "xyz"}
+IN_EXPRESSIONS: Final = {long: short for short, long in IN_RESULTS.items()}
+ROOMS: Final = ("control", "force", "hydraulics")  # in front of names in results
 
 
 def shown(value: object) -> str:
@@ -70,3 +75,30 @@ def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
     if not valid:
         return f"the {what} `{word}` is not known; there are none"
     return f"the {what} `{word}` is not known; there {'are' if len(valid) > 1 else 'is'} {', '.join(valid)}"
+
+
+def in_results(name: str) -> tuple[str, ...]:
+    """Names that results may have for what expressions write `name`, in the order in which expressions look.
+
+    `hinge.angle_rate` is `hinge.angle.rate`, `ball.vx` is `ball.velocity.x`, `spring.rate` is `force.spring.rate`, `servo.value` is
+    `control.servo` or `state.servo`.
+    """
+    element, _, quantity = name.rpartition(".")
+    rate = quantity.removesuffix("_rate")
+    return (
+        *((f"{element}.{rate}.rate",) if rate != quantity else ()),
+        *((f"state.{element}", f"control.{element}") if quantity == "value" else ()),
+        *(f"{room}.{name}" for room in ROOMS),
+        *((f"{element}.{IN_RESULTS[quantity]}",) if quantity in IN_RESULTS else ()),
+    )
+
+
+def in_expressions(name: str) -> str:
+    """What expressions write for a quantity that has `name` in results; `name` itself where it has one dot already, or no such form."""
+    element, _, quantity = name.partition(".")
+    room, _, rest = quantity.partition(".")
+    if not rest:
+        return name
+    if element in ROOMS:
+        return quantity
+    return f"{element}.{room}_rate" if rest == "rate" else f"{element}.{IN_EXPRESSIONS.get(quantity, quantity)}"

@@ -23,6 +23,7 @@ from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters, signals
+from nivel.words.wording import in_expressions
 
 Section = Literal["joints", "inputs", "states", "control", "forces", "hydraulics", "sensors", "markers", "bodies"]
 
@@ -223,7 +224,7 @@ def paths_in(value: Any, place: Place, index: Index, parameters: Parameters) -> 
         case Mapping():
             of = value.get("of")
             if isinstance(of, str) and SIGNAL_PATH.fullmatch(of):  # a whole path, in which a name may have a `-`
-                yield (*place, "of"), of
+                yield (*place, "of"), in_expressions(of)
             yield from paths_in(value.get("arguments"), (*place, "arguments"), index, parameters)
         case list() | tuple():
             for at, each in enumerate(value):

@@ -27,8 +27,9 @@ from nivel.machine.units.measure import signal_dimensions
 from nivel.machine.units.quantity import ANY, Kind, expression_fault, fault, listed, read_quantity, reported, shown
 from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters
 from nivel.words.arguments import checked_arguments, checked_fields
+from nivel.words.wording import in_expressions
 
-SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*\.[^\W\d]\w*")
+SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*(\.[^\W\d]\w*){1,2}")
 
 
 @checked_fields
@@ -102,6 +103,7 @@ def read_table(
         columns = {first_column(given.of): given.times, "values": given.values}
         given = {**columns, "interpolation": given.interpolation, "of": given.of}
     of = given.get("of", TIME)
+    of = in_expressions(of) if isinstance(of, str) else of
     first = first_column(of)
     lines = _faults_of_words(given, first, local)
     points = _read_column(first, given.get(first), _kind_of(of), parameters, lines)

@@ -8,7 +8,7 @@
     sign    = [ + | - ] sign | power
     power   = atom [ (^ | **) sign ]          to the right first, and before the sign: -2^2 = -4, as in Python
     atom    = number | name | signal | function ( whole, … ) | ( whole )
-    signal  = name . name                     without spaces: `hinge.angle`
+    signal  = name . name [ . name ]          without spaces: `hinge.angle`, or as results write it: `ball.position.x`
     unit    = name [ (^ | **) sign ]
 
 A unit multiplies what stands before it in its term, so `3/8 in` is three eighths of an inch and `pi/2 rad` a quarter
@@ -44,11 +44,11 @@ from nivel.machine.units.tree import (
     leaves,
 )
 from nivel.machine.units.unit import UNITS
+from nivel.words.wording import in_expressions
 
 _MOST_TOKENS = 400  # trees are walked by recursion: this and _DEEPEST keep them far from Python's limit
 _MOST_LISTED = 20_000  # with numbers and commas, of which points of curves are made
 _DEEPEST = 60
-_VECTORS = {"position": "", "pos": "", "velocity": "v", "vel": "v", "angular_velocity": "w", "omega": "w"}  # of bodies
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|"
     r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*|°)|(?P<symbol>\*\*|<=|>=|[-+*/^(),<>]))"
@@ -265,12 +265,8 @@ def _is_plain_quantity(node: Node) -> bool:
 def _named(name: str) -> Node:
     if "." not in name:
         return Time() if name == TIME else Name(name)
+    name = in_expressions(name)
     if name.count(".") > 1:
-        element, quantity, *rest = name.split(".")
-        if quantity in _VECTORS and rest in (["x"], ["y"], ["z"]):
-            raise ExpressionError(f"`{name}` has more than one dot; write `{element}.{_VECTORS[quantity]}{rest[0]}`")
-        if rest == ["rate"]:
-            raise ExpressionError(f"`{name}` has more than one dot; write `{element}.{quantity}_rate`")
         raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
     return Signal(name)
 

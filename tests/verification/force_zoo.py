@@ -121,6 +121,8 @@ def round_pair(first, second, apart, contact=CONTACT):
     return Case({**contact, "bodies": ["c", "block"]}, ("c", "block", apart), True, {"bodies": more})
 
 
+TYRE = {"type": "tyre", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "plane": "floor", "radius": 0.3, "width": 0.2, "nominal_load": 60,
+        "stiffness": 900, "damping": 3, "along": {"stiffness": 700, "damping": 4}, "across": {"stiffness": 500, "damping": 4}}  # fmt: skip
 LEVER = {"range": [-1, 1], "signal": {"times": [0, 1], "values": [0.1, 0.5]}}
 CASES = {
     "spring": Case({"type": "spring-damper", **BETWEEN, "stiffness": 80, "free_length": 0.3, "damping": 2, "preload": 5}),
@@ -279,6 +281,9 @@ CASES = {
     "rope with friction, winch": Case({"type": "rope", "markers": ["tip", {"body": "wheel"}, "far", "eye"], "radii": [0, 0.05, -0.08, 0],
                                        "stiffness": 60, "damping": 2, "length": 0.8, "speed": "0.3*lever.value", "friction": 0.02},
                                       more={"inputs": {"lever": LEVER}}),
+    "tyre": Case(TYRE, ("c", "", [-0.5, 0.9, 0.1]), True),
+    "tyre on a body": Case({**TYRE, "plane": "eye", "grip": 0.5}, ("c", "b", [0.05, 0.02, 0.15]), True),
+    "tyre, off the ground": Case(TYRE, ("c", "", [-0.5, 0.9, 1.4]), False),
     "hand": Case({"type": "hand", "pull": "0.8 + 0.1*time", "body_number": 1, "point": [0.1, -0.2, 0.3], "towards": ["time", 1, "tip.x"]}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
     "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),

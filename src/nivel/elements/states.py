@@ -14,7 +14,8 @@ class StateFact:
     name : signal where it has a dot. variable : of the result, default `state.NAME`; units, long_name : of that, SI. start : at t = 0.
     scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger and x is `relative`. sampled :
     x has no rate, it changes at given times or events only. integral : nothing depends on x, so that no step and no iteration waits for
-    it; on what its rate depends need not be said.
+    it; on what its rate depends need not be said. follows : x is what a motion has stretched, so that at rest it is what the way to there
+    makes of it.
     """
 
     name: str
@@ -26,6 +27,7 @@ class StateFact:
     variable: str = ""
     relative: bool = True
     integral: bool = False
+    follows: bool = False
 
     @property
     def result(self) -> str:

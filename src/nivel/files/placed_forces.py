@@ -15,6 +15,7 @@ from nivel.elements.forces.loads import PairForce, PointForce, Torque
 from nivel.elements.forces.shafts import BeltDrive, DriveLine, Shaft
 from nivel.elements.forces.spring_series import SpringSeries
 from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
+from nivel.elements.forces.tyre import Tyre
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
 from nivel.machine.core.between import Between, BetweenMany, Ends
@@ -135,6 +136,10 @@ def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 
+def _tyre(force: Tyre, scene: Scene) -> Changes:
+    return {"wheel": scene.end(force.wheel), "plane": scene.end(force.plane, POLAR_Z)}
+
+
 def _many_ends(force: BetweenMany, scene: Scene) -> Changes:
     """Its `node` is a point like its ends, and around its `axis` a rope keeps the sense in which it runs."""
     placing = scene.placement
@@ -233,6 +238,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     ThreeAxisSpring: _three_axis_spring,
     Contact: _contact,
     BetweenMany: _many_ends,
+    Tyre: _tyre,
     SpringSeries: _spring_series,
     DriveLine: _of_drive_line,
     BeltDrive: _of_belt,

@@ -276,9 +276,9 @@ class StaticEquations:
         return csc_matrix(bmat([[inner], [bmat([[M[first:, : self.n], below]])]]))
 
     @cached_property
-    def is_mass(self) -> NDArray[np.bool_]:
-        """(S,) whether a state is the mass of fluid in a volume."""
-        out = np.zeros(self.state_count, dtype=bool)
+    def follows(self) -> NDArray[np.bool_]:
+        """(S,) whether a state follows the way to where the machine is: the mass of fluid in a volume, the stretch of a tyre."""
+        out = np.array([fact.follows for fact in self.system.states], dtype=bool)
         out[[node.state for node in self.system.nodes if node.kind == VOLUME]] = True
         return out
 

@@ -5,7 +5,7 @@ Positions q, multipliers λ and states x are found together by Newton's iteratio
     [K  D_x  Cᵀ; -∂g/∂q  -∂g/∂x  0; C  0  0] (Δq, Δx, Δλ) = -(r, -g, C)        g = ẋ at rest
 
 A state whose rate depends on nothing that is at rest keeps its start value: a memory that an event changes. Fluid that is shut in keeps
-its mass: `kept_combinations`.
+its mass, and what a motion stretches has the stretch of the way from the start: `kept_combinations`.
 Sampled states are at rest where a sample would leave them as they are.
 """
 
@@ -130,7 +130,8 @@ def settle_states(equations: StaticEquations, state: Rest, iteration: Iteration)
                 continue
             state, since, system = after, moved, then
             sizes.append(size)
-            if size <= iteration.tolerance:
+            # a large σ makes every step short
+            if size * max(sigma, 1.0) <= iteration.tolerance:
                 return Found(state, equations.tangent(state), number, since.moved, tuple(sizes))
             sigma *= min(float(np.linalg.norm(then.right)) / left, 1.0)
     except StateError:
@@ -218,7 +219,7 @@ def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System
     still = np.abs(rate) * equations.duration <= STILL * size
     for k in np.flatnonzero(~moving & ~still):
         raise RestlessStateError(equations.system.states[k].name, float(rate[k]), state)
-    states = np.flatnonzero(moving | equations.is_mass)
+    states = np.flatnonzero(moving | equations.follows)
     scale = np.where(largest > 0.0, largest, size)[states]
     rescaled = np.ones(n + count + rows)
     rescaled[n + states] = 1.0 / scale

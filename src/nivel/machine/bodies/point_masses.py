@@ -78,10 +78,11 @@ def _bodies(element: Any, index: Index) -> Iterator[tuple[Place, str]]:
     for at, each in enumerate(as_list(entry(element, "bodies"))):
         if isinstance(each, str):
             yield ("bodies", at), each
-    for at, end in enumerate(as_list(entry(element, "markers"))):
+    ends = [(("markers", at), end) for at, end in enumerate(as_list(entry(element, "markers")))]
+    for place, end in (*ends, (("wheel",), entry(element, "wheel"))):
         on = index.body_of(end)
         if on is not None:
-            yield ("markers", at), on
+            yield place, on
 
 
 def _no_axes_of_one(force: Any, index: Index, place: Place) -> Faults:

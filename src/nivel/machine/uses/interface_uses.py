@@ -33,7 +33,7 @@ def markers_of(machine: MachineRecord) -> Iterator[tuple[Place, Marker]]:
         yield ("markers", at), marker
     keys = {
         "joints": ("markers",),
-        "forces": ("markers", "plane"),
+        "forces": ("markers", "wheel", "plane"),
         "hydraulics": ("markers",),
         "sensors": ("distance", "angle"),
     }

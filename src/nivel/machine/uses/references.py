@@ -143,12 +143,27 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
         for at, plane in enumerate(as_list(entry(force, "planes"))):
             yield from _of_end(plane, index, (*place, "planes", at))
         return
+    if (wheel := entry(force, "wheel")) is not None:
+        yield from _of_wheel(wheel, entry(force, "plane"), index, place)
     yield from _unknown_body(entry(force, "body"), index, (*place, "body"))
     marker = entry(force, "marker")
     yield from _unknown_marker(marker, index, (*place, "marker"))
     if isinstance(marker, str) and index.body_of(marker) == GROUND:
         yield (*place, "marker"), f"the marker `{marker}` is on `{GROUND}`: a force there moves nothing"
     yield from _of_pair(force, index, place, "a force needs two different bodies")
+
+
+def _of_wheel(wheel: Any, plane: Any, index: Index, place: Place) -> Faults:
+    """The two markers of a tyre."""
+    for key, end in (("wheel", wheel), ("plane", plane)):
+        yield from _of_end(end, index, (*place, key))
+    if index.body_of(wheel) == GROUND:
+        yield (*place, "wheel"), f"the marker is on `{GROUND}`: a wheel there does not turn"
+    elif index.body_of(wheel) is not None and index.body_of(wheel) == index.body_of(plane):
+        yield (
+            (*place, "plane"),
+            f"the plane is on `{index.body_of(plane)}` itself; it needs another body, or `{GROUND}`",
+        )
 
 
 def _of_contact(contact: Any, index: Index, place: Place) -> Faults:

@@ -1,0 +1,497 @@
+"""Tyres: a disc on a plane whose patch rolls, slides and stands by one equation.
+
+A slip law returns fluidities A = sliding speed by force [m/(N s)] along, across and about the normal, at a load, a transport speed
+v_T = r |Ω| of the tread and sliding velocities v of the patch. A carcass of stiffness c and damping d joins patch and rim:
+
+    ż = -(v + A c z)/(1 + A d),   F = c z + d ż                    steady: F = -v/A, the curve of the law
+
+Rolling, A = v_T/slope: z relaxes over the length slope/c. Locked, A = |v|/F_sliding: a bristle (Dahl 1968). At rest A = 0 and ż = 0: no
+creep, and no smallest speed. Rill 2012, 3.7 has the same equation with a smallest speed in A. Below STICKS of the sliding force, or
+unloading, and slower than SLOW the sliding part of A is zero (Dupont et al. 2002), as vibration would else make the bristle creep. Where
+the load has fallen, so that c z is beyond the peak, A grows by (c z/F_peak - 1)/d: z comes back, and no state at rest has more than the
+peak.
+
+The curves are those of TMeasy (Rill 2012, 3.5): slope, peak and sliding at two loads, forces between by a parabola through zero, slips
+linearly; rational to the peak, two parabolas down to sliding. With slips together, σ² = Σ (s/s_M)², each direction has F/s of its own curve
+at σ s_M: slopes, peaks and their ellipse are exact, and where it slides the force is along the velocity. Bore slip R_B ω_n/v_T is a third
+component, R_B = (L + b)/6; camber is a sliding speed L/6 Ω sin γ; F_y acts behind the middle by the trail n L.
+Every force acts on the velocity that it is computed from: F_x at the rolling radius, F_y at the trail. So what is lost is
+d ż² + A F² ≥ 0, and nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import BeforeValidator
+
+from nivel.elements.kind import Kind
+from nivel.elements.output import Output, add_outputs, of_force
+from nivel.elements.rows import Row, several
+from nivel.elements.states import StateFact
+from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import axis, minus
+from nivel.kernels.forces.wrench import add_force_at, add_torque
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber
+from nivel.machine.core.element import Acts, ForceElement, Inequalities
+from nivel.machine.core.marker import MarkerPlace
+from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
+from nivel.machine.units.quantity import PositiveLength, Quantity, listed
+from nivel.native.function import leaf
+
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
+PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
+PositiveDamping = Annotated[OneNumber, Quantity("damping", positive=True)]
+TwoForces = Annotated[TwoNumbers[PositiveForce], BeforeValidator(listed)]
+TwoShares = Annotated[TwoNumbers[PositiveNumber], BeforeValidator(listed)]
+
+STICKS, SLIDES, SLOW = (
+    0.7,
+    0.95,
+    0.1,
+)  # shares of the sliding force, and a speed [m/s], between which a bristle is elastic and slides
+ROLLED, ROLL_TIME = 0.01, 0.05  # [m] of rolling that stretch the rolling resistance, and d/c of it [s]
+MOST_LOAD, LEAST_LOAD = 3.0, 1e-6  # of the nominal load: curves end there, and a tyre with less has left the ground
+FLAT = 0.1  # cosine of camber of a wheel that lies rather than rolls
+# A guess by the nominal load P: the passenger-car tyre of Rill 2012, 3.5, at P and 2 P; forces by P, its carcass by the vertical stiffness
+ALONG = {
+    "slope": (30.0, 50.0),
+    "peak_slip": (0.11, 0.12),
+    "peak": (1.1, 2.175),
+    "sliding_slip": (0.5, 0.8),
+    "sliding": (1.0625, 1.9),
+}
+ACROSS = {
+    "slope": (13.75, 20.0),
+    "peak_slip": (0.2, 0.22),
+    "peak": (1.05, 1.875),
+    "sliding_slip": (0.8, 1.0),
+    "sliding": (1.0375, 1.85),
+}
+DEFLECTION = 1 / 15  # of the radius, under the nominal load
+DAMPING_TIME, CARCASS_TIME = 2e-3, 4e-3  # d/c [s]
+SOFTER = {"along": 0.85, "across": 0.65}  # stiffness of the carcass by the vertical one
+
+
+class SlipCurve(Checked):
+    """Force over slip of one direction at the nominal load and at twice that, and the carcass in this direction."""
+
+    slope: Maybe[TwoForces] = Field(default=None, description="of force over slip at zero slip", absent="guessed")
+    peak: Maybe[TwoForces] = Field(default=None, description="largest force", absent="guessed")
+    peak_slip: Maybe[TwoShares] = Field(default=None, description="slip of the largest force", absent="guessed")
+    sliding: Maybe[TwoForces] = Field(default=None, description="force where all of the patch slides", absent="guessed")
+    sliding_slip: Maybe[TwoShares] = Field(default=None, description="slip from which on all slides", absent="guessed")
+    stiffness: Maybe[PositiveStiffness] = Field(default=None, description="of the carcass", absent="guessed")
+    damping: Maybe[PositiveDamping] = Field(default=None, description="of the carcass", absent="4 ms · stiffness")
+
+    def problems(self) -> Iterator[Problem]:
+        for name in ALONG:
+            pair = getattr(self, name)
+            most = 4.0 if name in ("slope", "peak", "sliding") else 2.0
+            least = 1.0 if most == 4.0 else 0.5
+            if pair is not None and not least * pair[0] < pair[1] < most * pair[0]:
+                message = f"at twice the load {least:g} to {most:g} times as much was expected, got {pair[0]:g} and {pair[1]:g}"
+                yield Problem((name,), message)
+
+    def numbers(self, load: float, guess: dict[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+        """The pairs of `guess` at a nominal load [N], and in their place what is given."""
+        made = {name: tuple(v if "slip" in name else v * load for v in pair) for name, pair in guess.items()}
+        given = {name: tuple(pair) for name in guess if (pair := getattr(self, name)) is not None}
+        return {**made, **given}  # type: ignore[dict-item]
+
+    def problems_with(self, load: float, guess: dict[str, tuple[float, float]]) -> Iterator[Problem]:
+        """What is wrong between its numbers and guessed ones."""
+        its = self.numbers(load, guess)
+        for k in (0, 1):
+            least = 2.0 * its["peak"][k] / its["peak_slip"][k]
+            if its["slope"][k] < least * (1.0 - 1e-9):
+                told = f"no curve with this `slope` has its `peak` at `peak_slip`: at least {least:.6g} N was expected"
+                yield Problem(("slope",), f"{told}, got {its['slope'][k]:.6g} N")
+            if its["sliding"][k] > its["peak"][k]:
+                yield Problem(
+                    ("sliding",), f"`sliding` {its['sliding'][k]:g} N is more than the `peak` {its['peak'][k]:g} N"
+                )
+            if its["sliding_slip"][k] <= its["peak_slip"][k]:
+                told = f"`sliding_slip` {its['sliding_slip'][k]:g} must be greater than `peak_slip` {its['peak_slip'][k]:g}"
+                yield Problem(("sliding_slip",), told)
+
+
+class Tyre(ForceElement):
+    """A tyre on the plane of a marker. What is not given of it is guessed from `radius`, `width` and `nominal_load`."""
+
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_force("load across the plane"),
+        Output("longitudinal", "N", "force on the wheel in the direction in which it points"),
+        Output("lateral", "N", "force on the wheel to the side to which its marker's z axis points"),
+        Output("moment", "N m", "moment on the wheel about the normal of the plane"),
+        Output("rolling_moment", "N m", "moment on the wheel about its axle beside that of the longitudinal force"),
+        Output("slip", "1", "(r Ω - v) / max(|v|, r |Ω|)"),
+        Output("slip_angle", "rad", "angle from where the wheel points to where it moves"),
+        Output("camber", "rad", "angle of the axle above the plane"),
+        Output("deflection", "m", "vertical deflection"),
+        Output("slip_loss", "W", "power lost in patch and carcass"),
+    )
+    turns: ClassVar[bool] = True
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is off the ground", "touches the ground"),
+            "radius",
+            lambda own, of: of["deflection"],
+            lambda own, of: of["magnitude"],
+        ),
+    )
+
+    type: Literal["tyre"] = "tyre"
+    wheel: MarkerPlace = Field(description="marker on the wheel: its point is the centre, its z axis the axle")
+    plane: MarkerPlace = Field(description="marker: its point lies in the plane, its z axis points out of it")
+    radius: PositiveLength = Field(description="of the tyre without load")
+    width: PositiveLength = Field(description="of the patch")
+    nominal_load: PositiveForce = Field(description="to which the first numbers of the curves belong")
+    stiffness: Maybe[PositiveStiffness] = Field(
+        default=None, description="vertical one", absent="15 · nominal_load / radius"
+    )
+    damping: Maybe[PositiveDamping] = Field(default=None, description="vertical one", absent="2 ms · stiffness")
+    along: OneRecord[SlipCurve] = Field(default=SlipCurve(), description="curve of the longitudinal force, and carcass")
+    across: OneRecord[SlipCurve] = Field(default=SlipCurve(), description="curve of the lateral force, and carcass")
+    trail: TwoShares = Field(
+        default=(0.178, 0.19), description="of the lateral force at zero slip, by the length of the patch"
+    )
+    trail_zero: TwoShares = Field(default=(0.2, 0.22), description="lateral slip at which the trail is zero")
+    trail_end: TwoShares = Field(default=(0.35, 0.4), description="lateral slip from which on it is zero again")
+    grip: PositiveNumber = Field(default=1.0, description="factor of peak and sliding forces and of their slips")
+    rolling_resistance: NotNegativeNumber = Field(default=0.01, description="force by load")
+    rolling_share: NotNegativeNumber = Field(
+        default=0.375, description="of the deflection that the rolling radius does not follow, at the nominal load"
+    )
+
+    @property
+    def vertical_stiffness(self) -> float:
+        """[N/m], given or guessed."""
+        return self.nominal_load / (DEFLECTION * self.radius) if self.stiffness is None else self.stiffness
+
+    def problems(self) -> Iterator[Problem]:
+        for name, guess in (("along", ALONG), ("across", ACROSS)):
+            for each in getattr(self, name).problems_with(self.nominal_load, guess):
+                yield Problem((name, *each.place), each.message)
+        for name in ("trail", "trail_zero", "trail_end"):
+            first, second = getattr(self, name)
+            if not 0.5 < second / first < 2.0:
+                yield Problem(
+                    (name,), f"at twice the load 0.5 to 2 times as much was expected, got {first:g} and {second:g}"
+                )
+        for k in (0, 1):
+            if self.trail_end[k] <= self.trail_zero[k]:
+                told = f"`trail_end` {self.trail_end[k]:g} must be greater than `trail_zero` {self.trail_zero[k]:g}"
+                yield Problem(("trail_end",), told)
+
+
+class TyreRow(Row):
+    """Markers WHEEL and PLANE, states of four stretches; vertical, carcass and curves: slope, peak slip, peak, sliding slip, sliding."""
+
+    output: int
+    wheel: int
+    plane: int
+    stretch: Sequence[int] = several(4)
+    radius: float
+    width: float
+    load: float
+    c: float
+    d: float
+    cx: float
+    dx: float
+    cy: float
+    dy: float
+    grip: float
+    rolling: float
+    rolling_share: float
+    along: Sequence[float] = several(10)
+    across: Sequence[float] = several(10)
+    trail: Sequence[float] = several(6)
+
+
+@leaf
+def between(n, k, q):
+    """A number at q times the nominal load, linearly between two."""
+    return n[k] + (n[k + 1] - n[k]) * (q - 1.0)
+
+
+@leaf
+def force_at(n, k, q):
+    """A force at q times the nominal load: the parabola through zero and two."""
+    return q * (2.0 * n[k] - 0.5 * n[k + 1] + (0.5 * n[k + 1] - n[k]) * q)
+
+
+@leaf
+def curve_at(n, k, q, grip):
+    """(slope, s_M, F_M, s_S, F_S)."""
+    s_m, f_m = grip * between(n, k + 2, q), grip * force_at(n, k + 4, q)
+    return force_at(n, k, q), s_m, f_m, grip * between(n, k + 6, q), grip * force_at(n, k + 8, q)
+
+
+@leaf
+def over_slip(s, curve):
+    """F(s)/s of one direction."""
+    slope, s_m, f_m, s_s, f_s = curve
+    slope = maximum(slope, 2.0 * f_m / s_m)
+    if real(s) < real(s_m):
+        n = s / s_m
+        return slope / (1.0 + n * (n + slope * s_m / f_m - 2.0))
+    if real(s) >= real(s_s):
+        return f_s / s
+    bend = (f_m / s_m) ** 2 / (slope * s_m)
+    joint = s_m + (f_m - f_s) / (bend * (s_s - s_m))
+    if real(joint) > real(s_s):
+        n = (s - s_m) / (s_s - s_m)
+        return (f_m - (f_m - f_s) * n * n * (3.0 - 2.0 * n)) / s
+    if real(s) <= real(joint):
+        return (f_m - bend * (s - s_m) ** 2) / s
+    return (f_s + bend * (joint - s_m) / (s_s - joint) * (s_s - s) ** 2) / s
+
+
+@leaf
+def smooth(x):
+    """From 0 at 0 to 1 at 1 without corners."""
+    return x * x * (3.0 - 2.0 * x)
+
+
+@leaf
+def fluidity(v_t, weighted, speed, curve):
+    """A of one direction. weighted : s_M times the sliding speeds by their s_M; speed : the same without weights."""
+    if real(weighted) >= real(curve[3] * v_t):
+        return speed / curve[4]
+    s = weighted / v_t
+    fluid = v_t / over_slip(s, curve)
+    if real(s) > real(curve[1]):
+        fluid *= 1.0 + smooth((s - curve[1]) / (curve[3] - curve[1])) * (speed / weighted - 1.0)
+    return fluid
+
+
+@leaf
+def sliding_share(share, unloads, speed):
+    """Of the sliding part of A, of a bristle under a share of its sliding force."""
+    slides = 1.0 + 0.0 * share
+    if unloads or real(share) < STICKS:
+        slides = 0.0 * share
+    elif real(share) < SLIDES:
+        slides = smooth((share - STICKS) / (SLIDES - STICKS))
+    if real(speed) >= SLOW:
+        return 1.0 + 0.0 * share
+    return maximum(slides, (speed / SLOW) ** 4)
+
+
+@leaf
+def root(x):
+    """√x, without a slope at zero."""
+    return np.sqrt(x) if real(x) > 0.0 else 0.0 * x
+
+
+@leaf
+def fluidities(n, q, v_t, v, z):
+    """(A_x, A_y = A of the bore). v, z : sliding velocities and stretches along, across and of the bore."""
+    x, y = curve_at(n, TyreRow.ALONG, q, n[TyreRow.GRIP]), curve_at(n, TyreRow.ACROSS, q, n[TyreRow.GRIP])
+    across = v[1] * v[1] + v[2] * v[2]
+    speed = root(v[0] * v[0] + across)
+    weighted = root((v[0] / x[1]) ** 2 + across / (y[1] * y[1]))
+    a, b = fluidity(v_t, x[1] * weighted, speed, x), fluidity(v_t, y[1] * weighted, speed, y)
+    fx, fy, fb = n[TyreRow.CX] * z[0], n[TyreRow.CY] * z[1], n[TyreRow.CY] * z[2]
+    across = fy * fy + fb * fb
+    if real(speed) < SLOW:
+        share = root((fx / x[4]) ** 2 + across / (y[4] * y[4]))
+        slides = sliding_share(share, real(v[0] * fx + v[1] * fy + v[2] * fb) > 0.0, speed)
+        a, b = v_t / x[0] + (a - v_t / x[0]) * slides, v_t / y[0] + (b - v_t / y[0]) * slides
+    over = (fx / x[2]) ** 2 + across / (y[2] * y[2])
+    if real(over) > 1.0:
+        over = np.sqrt(over) - 1.0
+        a, b = a + over / n[TyreRow.DX], b + over / n[TyreRow.DY]
+    return a, b
+
+
+@leaf
+def stretch_rate(v, a, c, d, z):
+    """ż of a carcass."""
+    return -(v + a * c * z) / (1.0 + a * d)
+
+
+@leaf
+def trail_at(n, q, slip):
+    """Trail by the length of the patch (Rill 2012, 3.6)."""
+    n0, zero, end = (
+        between(n, TyreRow.TRAIL, q),
+        n[TyreRow.GRIP] * between(n, TyreRow.TRAIL + 2, q),
+        n[TyreRow.GRIP] * between(n, TyreRow.TRAIL + 4, q),
+    )
+    if real(slip) >= real(end):
+        return 0.0 * slip
+    w = zero / end
+    if real(slip) <= real(zero):
+        s = slip / zero
+        return n0 * ((1.0 - w) * (1.0 - s) + w * (1.0 - smooth(s)))
+    s = (end - slip) / (end - zero)
+    return -n0 * (1.0 - w) * (slip - zero) / zero * s * s
+
+
+@leaf
+def rolling(n, load, roll, v_t, z):
+    """(F, ż, loss) of the rolling resistance f F_z, which stands still at rest. roll : r Ω."""
+    c = n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED
+    d = ROLL_TIME * c
+    if real(c) == 0.0:
+        return 0.0 * roll, -z / ROLL_TIME, 0.0 * roll
+    most = n[TyreRow.ROLLING] * load
+    share = absolute(c * z) / most
+    a = v_t / most * sliding_share(share, real(roll * z) > 0.0, v_t)
+    if real(share) > 1.0:
+        a += (share - 1.0) / d
+    u = stretch_rate(roll, a, c, d, z)
+    force = c * z + d * u
+    return force, u, d * u * u + a * force * force
+
+
+@family
+def apply(machine, number, t):
+    """Forces of all tyres, on wheels and planes, and rates of their stretches."""
+    record = record_at(machine)
+    elements, markers, bodies, control = record.elements, record.markers, record.bodies, record.control
+    followed = record.watched.followed[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        i, j, first, own = index[TyreRow.WHEEL], index[TyreRow.PLANE], index[TyreRow.OUTPUT], index[TyreRow.STRETCH :]
+        wheel, road = markers.body[i], markers.body[j]
+        normal, y, centre = axis(markers.A[j], 2), axis(markers.A[i], 2), markers.r[i]
+        cx, dx, cy, dy = n[TyreRow.CX], n[TyreRow.DX], n[TyreRow.CY], n[TyreRow.DY]
+        rate = elements.state_rate
+        z, rolled = (elements.state[own[0]], elements.state[own[1]], elements.state[own[2]]), elements.state[own[3]]
+        out = record.outputs.value[first : first + 11]
+        # from the centre to the patch d, across the axle in the plane of the axle and the normal; x, a: along and across in the plane
+        tilt = dot(normal, y)
+        upright = np.sqrt(maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt))
+        loaded = dot(normal, minus(centre, markers.r[j])) / upright
+        deflection = n[TyreRow.RADIUS] - loaded
+        x = cross(y, normal)
+        x = x[0] / upright, x[1] / upright, x[2] / upright
+        a = cross(normal, x)
+        arm = -loaded / upright
+        d = arm * (normal[0] - tilt * y[0]), arm * (normal[1] - tilt * y[1]), arm * (normal[2] - tilt * y[2])
+        p = centre[0] + d[0], centre[1] + d[1], centre[2] + d[2]
+        w, over = bodies.omega[wheel], bodies.omega[road]
+        turn, below = cross(w, d), cross(over, minus(p, markers.r[j]))
+        v, under = markers.rdot[i], markers.rdot[j]
+        s = (
+            v[0] + turn[0] - under[0] - below[0],
+            v[1] + turn[1] - under[1] - below[1],
+            v[2] + turn[2] - under[2] - below[2],
+        )
+        w = minus(w, over)
+        spin, bore, sinking = dot(w, y), dot(w, normal), -dot(s, normal) / upright
+        elements.depth[k, 0] = deflection
+        if followed == 1:
+            elements.depth_rate[k, 0] = sinking
+        elastic = n[TyreRow.C] * deflection
+        load = maximum((elastic + n[TyreRow.D] * sinking) / upright, 0.0 * tilt)
+        control.stored[0] += 0.5 * (cx * z[0] * z[0] + cy * (z[1] * z[1] + z[2] * z[2]))
+        control.stored[0] += 0.5 * n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED * rolled * rolled
+        q = load / n[TyreRow.LOAD]
+        for m in range(11):
+            out[m] = 0.0 * tilt
+        if real(deflection) <= 0.0 or real(q) < LEAST_LOAD or real(tilt * tilt) > 1.0 - FLAT * FLAT:
+            rate[own[0]] -= cx / dx * z[0]
+            rate[own[1]] -= cy / dy * z[1]
+            rate[own[2]] -= cy / dy * z[2]
+            rate[own[3]] -= rolled / ROLL_TIME
+            loss = cx / dx * cx * z[0] * z[0] + cy / dy * cy * (z[1] * z[1] + z[2] * z[2])
+            loss += n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED / ROLL_TIME * rolled * rolled
+            control.power[1] += loss
+            out[9], out[10] = deflection, loss
+            continue
+        control.stored[0] += 0.5 * elastic * deflection
+        control.power[1] += (load * upright - elastic) * sinking
+        q = minimum(q, MOST_LOAD + 0.0 * q)
+        stays = n[TyreRow.ROLLING_SHARE] * minimum(q, 2.0 + 0.0 * q)
+        r = n[TyreRow.RADIUS] - (1.0 - stays) * deflection
+        roll = r * spin
+        v_t = absolute(roll) if real(roll) != 0.0 else 0.0 * real(roll)
+        length = 2.0 * np.sqrt(n[TyreRow.RADIUS] * deflection)
+        lever, lean = (length + n[TyreRow.WIDTH]) / 6.0, length / 6.0 * tilt
+        along, across = dot(s, x), dot(s, a)
+        slow = np.sqrt(v_t * v_t + SLOW * SLOW)
+        trail = length * trail_at(n, q, absolute(across + lean * spin) / slow) * roll / slow
+        v = along + (loaded - r) * spin, across - trail * bore + lean * spin, lever * bore
+        fluid, fluid_across = fluidities(n, q, v_t, v, z)
+        u0 = stretch_rate(v[0], fluid, cx, dx, z[0])
+        u1, u2 = stretch_rate(v[1], fluid_across, cy, dy, z[1]), stretch_rate(v[2], fluid_across, cy, dy, z[2])
+        fx, fy, fb = cx * z[0] + dx * u0, cy * z[1] + dy * u1, cy * z[2] + dy * u2
+        fr, u3, loss = rolling(n, load, roll, v_t, rolled)
+        rate[own[0]] += u0
+        rate[own[1]] += u1
+        rate[own[2]] += u2
+        rate[own[3]] += u3
+        loss += dx * u0 * u0 + dy * (u1 * u1 + u2 * u2) + fluid * fx * fx + fluid_across * (fy * fy + fb * fb)
+        control.power[1] += loss
+        moment, axial = lever * fb - trail * fy, r * fr + (loaded - r) * fx + lean * fy
+        f0 = fx * x[0] + fy * a[0] + load * normal[0]
+        f1 = fx * x[1] + fy * a[1] + load * normal[1]
+        f2 = fx * x[2] + fy * a[2] + load * normal[2]
+        m0, m1, m2 = (
+            moment * normal[0] + axial * y[0],
+            moment * normal[1] + axial * y[1],
+            moment * normal[2] + axial * y[2],
+        )
+        power = add_force_at(bodies, wheel, p, f0, f1, f2) + add_torque(bodies, wheel, m0, m1, m2)
+        power += add_force_at(bodies, road, p, -f0, -f1, -f2) + add_torque(bodies, road, -m0, -m1, -m2)
+        moved = along + loaded * spin  # of the contact point without its spin
+        fastest = maximum(absolute(moved), v_t)
+        out[0], out[1], out[2], out[3], out[4], out[5] = load, power, fx, fy, moment, axial
+        if real(fastest) > 0.0:
+            out[6] = (roll - moved) / fastest
+        out[7], out[8], out[9], out[10] = arctan2(across, absolute(moved)), np.arcsin(tilt), deflection, loss
+    return OK
+
+
+def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
+    """A tyre, with four stretches."""
+    wheel, plane = builder.ends((force.wheel, force.plane))
+    vertical = force.vertical_stiffness
+    curves, carcass = {}, {}
+    for name, guess in (("along", ALONG), ("across", ACROSS)):
+        own: SlipCurve = getattr(force, name)
+        curves[name] = [each for pair in own.numbers(force.nominal_load, guess).values() for each in pair]
+        c = SOFTER[name] * vertical if own.stiffness is None else own.stiffness
+        carcass[name] = c, CARCASS_TIME * c if own.damping is None else own.damping
+    words = (("along", "along the wheel"), ("across", "across it"), ("bore", "of its turn"), ("roll", "of its rolling"))
+    facts = [
+        StateFact(f"{force.name}.{word}", "m", f"stretch of {force.name} {text}", 0.0, 1e-3, follows=True)
+        for word, text in words
+    ]
+    row = TyreRow(
+        output=add_outputs(builder, force),
+        wheel=wheel,
+        plane=plane,
+        stretch=[builder.own_state(fact) for fact in facts],
+        radius=force.radius,
+        width=force.width,
+        load=force.nominal_load,
+        c=vertical,
+        d=DAMPING_TIME * vertical if force.damping is None else force.damping,
+        cx=carcass["along"][0],
+        dx=carcass["along"][1],
+        cy=carcass["across"][0],
+        dy=carcass["across"][1],
+        grip=force.grip,
+        rolling=force.rolling_resistance,
+        rolling_share=force.rolling_share,
+        trail=[*force.trail, *force.trail_zero, *force.trail_end],
+        **curves,
+    )
+    builder.add(apply, row, 1, (0,))
+
+
+KINDS = (Kind(Tyre, add_tyre, (apply,)),)

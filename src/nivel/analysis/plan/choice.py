@@ -1,7 +1,7 @@
 """Choice of the integrator and of the coordinates of a run that leaves them to nivel.
 
 Steps are chosen by their error. `dopri5` begins; where stability bounds its steps, `radau` goes on from that time. Friction that sticks
-has `radau` from the start, circuits have `extrapolated-euler`, beams `generalised-alpha`.
+has `radau` from the start, circuits have `extrapolated-euler`, beams `generalised-alpha`, tyres `rk4` with its fixed step.
 
 For `coordinates: auto` the ones are taken in which an evaluation of the equations costs least. Joints named in `cut` are a wish about
 relative coordinates: where these are possible, they are taken. Velocities named in `independent` are one about independent coordinates.
@@ -62,10 +62,10 @@ def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
         impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
         names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
         return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
-    if any(map(is_sticking, machine.forces)):
-        return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))
     if any(force.type == "tyre" for force in machine.forces):
         return (("rk4", TYRES),)
+    if any(map(is_sticking, machine.forces)):
+        return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))
     return (("dopri5", EXPLICIT), ("rk4", FIXED))
 
 

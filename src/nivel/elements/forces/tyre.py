@@ -7,9 +7,9 @@ v_T = r |Ω| of the tread and sliding velocities v of the patch. A carcass of st
 
 Rolling, A = v_T/slope: z relaxes over the length slope/c. Locked, A = |v|/F_sliding: a bristle (Dahl 1968). At rest A = 0 and ż = 0: no
 creep, and no smallest speed. Rill 2012, 3.7 has the same equation with a smallest speed in A. Below STICKS of the sliding force, or
-unloading, and slower than SLOW the sliding part of A is zero (Dupont et al. 2002), as vibration would else make the bristle creep. Where
-the load has fallen, so that c z is beyond the peak, A grows by (c z/F_peak - 1)/d: z comes back, and no state at rest has more than the
-peak.
+unloading, and slower than SLOW the sliding part of A is zero (Dupont et al. 2002), and slower than ROCKS the rolling part falls with v_T²:
+vibration would else make the bristle creep. Where the load has fallen, so that c z is beyond the peak, A grows by (c z/F_peak - 1)/d: z
+comes back, and no state at rest has more than the peak.
 
 The curves are those of TMeasy (Rill 2012, 3.5): slope, peak and sliding at two loads, forces between by a parabola through zero, slips
 linearly; rational to the peak, two parabolas down to sliding. With slips together, σ² = Σ (s/s_M)², each direction has F/s of its own curve
@@ -42,11 +42,13 @@ from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.core.marker import MarkerPlace
+from nivel.machine.core.placement import marker_frame
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.units.quantity import PositiveLength, Quantity, listed
 from nivel.native.function import leaf
 
 if TYPE_CHECKING:
+    from nivel.machine.machine_record import MachineRecord
     from nivel.system.builder import SystemBuilder
 
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
@@ -54,6 +56,7 @@ PositiveDamping = Annotated[OneNumber, Quantity("damping", positive=True)]
 TwoForces = Annotated[TwoNumbers[PositiveForce], BeforeValidator(listed)]
 TwoShares = Annotated[TwoNumbers[PositiveNumber], BeforeValidator(listed)]
 
+ROCKS = 1e-3  # [m/s] of rolling, below which a tyre rocks to and fro on the same tread, which relaxes nothing further
 STICKS, SLIDES, SLOW = (
     0.7,
     0.95,
@@ -61,6 +64,7 @@ STICKS, SLIDES, SLOW = (
 )  # shares of the sliding force, and a speed [m/s], between which a bristle is elastic and slides
 ROLLED, ROLL_TIME = 0.01, 0.05  # [m] of rolling that stretch the rolling resistance, and d/c of it [s]
 MOST_LOAD, LEAST_LOAD = 3.0, 1e-6  # of the nominal load: curves end there, and a tyre with less has left the ground
+SKEW = 0.2  # sine of the angle between axle and joint beyond which one of them is taken for a slip
 FLAT = 0.1  # cosine of camber of a wheel that lies rather than rolls
 # A guess by the nominal load P: the passenger-car tyre of Rill 2012, 3.5, at P and 2 P; forces by P, its carcass by the vertical stiffness
 ALONG = {
@@ -178,6 +182,31 @@ class Tyre(ForceElement):
         """[N/m], given or guessed."""
         return self.nominal_load / (DEFLECTION * self.radius) if self.stiffness is None else self.stiffness
 
+    @property
+    def source(self) -> str:
+        """Where its numbers are from."""
+        guessed = ["stiffness"] if self.stiffness is None else []
+        for name in ("along", "across"):
+            missing = [key for key in ALONG if getattr(getattr(self, name), key) is None]
+            guessed += [name] if len(missing) == len(ALONG) else [f"{name}.{key}" for key in missing]
+        return f"guessed by radius and nominal load: {', '.join(guessed)}" if guessed else "all numbers given"
+
+    def remarks(self, machine: MachineRecord) -> Iterator[tuple[str, str]]:
+        marker = machine.marker_named[self.wheel] if isinstance(self.wheel, str) else self.wheel
+        if marker.body not in machine.placed:
+            return
+        axle = machine.placed[marker.body][1] @ marker_frame(marker)[1][:, 2]
+        for joint in machine.joints:
+            if joint.type != "revolute" or joint.axis is None or marker.body not in (joint.bodies or ()):
+                continue
+            axis = np.array(joint.axis) / np.linalg.norm(joint.axis)
+            if np.linalg.norm(np.cross(axis, axle)) > SKEW:
+                text = f"the z axis of the marker is not along the axis of the joint `{joint.name}`, about which `{marker.body}` turns"
+                yield (
+                    "wheel",
+                    f"{text}; z is the axle: a body whose shape goes `from` one point `to` another has its x axis along them",
+                )
+
     def problems(self) -> Iterator[Problem]:
         for name, guess in (("along", ALONG), ("across", ACROSS)):
             for each in getattr(self, name).problems_with(self.nominal_load, guess):
@@ -234,7 +263,8 @@ def force_at(n, k, q):
 def curve_at(n, k, q, grip):
     """(slope, s_M, F_M, s_S, F_S)."""
     s_m, f_m = grip * between(n, k + 2, q), grip * force_at(n, k + 4, q)
-    return force_at(n, k, q), s_m, f_m, grip * between(n, k + 6, q), grip * force_at(n, k + 8, q)
+    # of little load, the parabola of the sliding force may pass that of the peak
+    return force_at(n, k, q), s_m, f_m, grip * between(n, k + 6, q), minimum(grip * force_at(n, k + 8, q), f_m)
 
 
 @leaf
@@ -285,7 +315,7 @@ def sliding_share(share, unloads, speed):
         slides = smooth((share - STICKS) / (SLIDES - STICKS))
     if real(speed) >= SLOW:
         return 1.0 + 0.0 * share
-    return maximum(slides, (speed / SLOW) ** 4)
+    return maximum(slides, smooth(2.0 * speed / SLOW - 1.0)) if real(speed) > 0.5 * SLOW else slides
 
 
 @leaf
@@ -418,7 +448,7 @@ def apply(machine, number, t):
         stays = n[TyreRow.ROLLING_SHARE] * minimum(q, 2.0 + 0.0 * q)
         r = n[TyreRow.RADIUS] - (1.0 - stays) * deflection
         roll = r * spin
-        v_t = absolute(roll) if real(roll) != 0.0 else 0.0 * real(roll)
+        v_t = absolute(roll) if np.abs(real(roll)) >= ROCKS else roll * roll / ROCKS
         length = 2.0 * np.sqrt(n[TyreRow.RADIUS] * deflection)
         lever, lean = (length + n[TyreRow.WIDTH]) / 6.0, length / 6.0 * tilt
         along, across = dot(s, x), dot(s, a)

@@ -120,6 +120,8 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
                 "; bodies at rest creep, `friction_model: stiction` holds up to 15 of them" if force.friction else ""
             )
             return f"{len(spheres_between(machine, force))} spheres{planes}{creeps}"
+    if (wheel := getattr(force, "wheel", None)) is not None:
+        return f"{body(wheel)} and {body(getattr(force, 'plane', ''))}; {getattr(force, 'source', '')}"
     return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
 
 

@@ -60,6 +60,8 @@ def remarks(machine: MachineRecord) -> Iterator[Finding]:
     yield from _immense(machine)
     yield from _narrow(machine)
     yield from resting_remarks(machine)
+    for force in machine.forces:
+        yield from (Finding(f"forces.{force.name}.{key}", text) for key, text in force.remarks(machine))
     if machine.hydraulics:
         yield from nivel.judge.before.circuits.circuit_remarks(machine.hydraulics)
     yield from _unread(machine)

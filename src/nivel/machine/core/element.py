@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
 from nivel.machine.core.checked import Checked
 from nivel.machine.core.record import Name
 from nivel.machine.core.usual import POWER
 from nivel.machine.given import Usual
+
+if TYPE_CHECKING:
+    from nivel.machine.machine_record import MachineRecord
 
 OUTPUTS: Final = ("magnitude", "power")
 # of an element and its numbers over time (`nivel.judge.after.checks.states`): an array over time
@@ -69,3 +72,7 @@ class ForceElement(Checked):
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
+
+    def remarks(self, machine: MachineRecord) -> Iterator[tuple[str, str]]:
+        """Key and text of what is right by itself in it, and may be a slip."""
+        return iter(())

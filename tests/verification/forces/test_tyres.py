@@ -1,0 +1,233 @@
+"""Tyres against closed forms: curves at their points, rolling, sliding, standing, and the linear single track."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import nivel
+from nivel.elements.forces.tyre import ACROSS, ALONG, CARCASS_TIME, SOFTER, TyreRow, fluidities, over_slip
+from nivel.errors import SolveError
+from simulating import G, machine
+
+P, R, C, W = 4e3, 0.315, 190e3, 0.195
+TYRE = {"type": "tyre", "plane": "road", "radius": R, "width": W, "nominal_load": P, "stiffness": C, "damping": 400.0}
+CAR = Path(__file__).parents[3] / "examples" / "vehicles" / "car.yaml"
+
+
+def at_load(pair, q):
+    """A force by P at the load q P: the parabola through zero and two."""
+    return q * P * (2 * pair[0] - pair[1] / 2 + (pair[1] / 2 - pair[0]) * q)
+
+
+def curve(guess, q=1.0):
+    """(slope, s_M, F_M, s_S, F_S) of the guessed tyre."""
+    slips = [guess[key][0] + (guess[key][1] - guess[key][0]) * (q - 1.0) for key in ("peak_slip", "sliding_slip")]
+    peak = at_load(guess["peak"], q)
+    return at_load(guess["slope"], q), slips[0], peak, slips[1], min(at_load(guess["sliding"], q), peak)
+
+
+def test_curves_go_through_their_points_without_corners():
+    for guess in (ALONG, ACROSS):
+        for q in (0.5, 1.0, 2.0):
+            slope, s_m, f_m, s_s, f_s = its = curve(guess, q)
+
+            def force(s, its=its):
+                return s * over_slip(s, its)
+
+            assert over_slip(0.0, its) == pytest.approx(slope, rel=1e-14)
+            assert force(s_m) == pytest.approx(f_m, rel=1e-14)
+            assert force(s_s) == pytest.approx(f_s, rel=1e-14)
+            for s in np.linspace(0.3 * s_m, 1.5 * s_s, 400):
+                e = 1e-7
+                left, right = (force(s) - force(s - e)) / e, (force(s + e) - force(s)) / e
+                assert abs(left - right) < 1e-4 * slope
+            assert abs(force(s_m + 1e-6) - force(s_m - 1e-6)) < 1e-9 * f_m
+            assert max(force(s) for s in np.linspace(0.01, 2.0, 500)) <= f_m * (1 + 1e-12)
+
+
+def numbers():
+    """The row of the guessed tyre."""
+    row = TyreRow(output=0, wheel=0, plane=0, stretch=[0] * 4, radius=R, width=W, load=P, c=C, d=400.0, cx=1e5, dx=400.0, cy=1e5,
+                  dy=400.0, grip=1.0, rolling=0.0, rolling_share=0.375, trail=[0.1] * 6,
+                  along=[v * (P if "slip" not in k else 1) for k, pair in ALONG.items() for v in pair],
+                  across=[v * (P if "slip" not in k else 1) for k, pair in ACROSS.items() for v in pair])  # fmt: skip
+    return np.array(row.numbers)
+
+
+def test_slips_together_have_the_ellipse_of_peaks_and_slide_along_their_velocity():
+    n, none = numbers(), (0.0, 0.0, 0.0)
+    x, y = curve(ALONG), curve(ACROSS)
+    for angle in np.linspace(0.0, 2.0 * math.pi, 17):
+        v = 10.0 * x[1] * math.cos(angle), 10.0 * y[1] * math.sin(angle), 0.0
+        a, b = fluidities(n, 1.0, 10.0, v, none)
+        assert (v[0] / a / x[2]) ** 2 + (v[1] / b / y[2]) ** 2 == pytest.approx(1.0, rel=1e-13)
+        small = 1e-9 * v[0], 1e-9 * v[1], 0.0
+        assert fluidities(n, 1.0, 10.0, small, none) == pytest.approx((10.0 / x[0], 10.0 / y[0]), rel=1e-6)
+        v = math.cos(angle), math.sin(angle), 0.0
+        assert fluidities(n, 1.0, 0.1, v, none) == pytest.approx((1.0 / x[4], 1.0 / y[4]), rel=1e-13)
+
+
+def sled(turn=0.0, gravity=(0, 0, -G), locked=True, speed=0.0, rolling=0.0, forces=None, mass=1600.0, **simulation):
+    """A body on four tyres at its corners, its centre of mass on the road: no load is transferred. Locked wheels are one with it."""
+    sag = mass / 4 * -gravity[2] / C
+    r = R - (1 - 0.375 * sag * C / P) * sag
+    bodies, joints, markers, tyres = {}, {}, {"road": {"body": "ground", "axis": [0, 0, 1]}}, {}
+    axle = [-math.sin(turn), math.cos(turn), 0.0]
+    for k, (x, y) in enumerate(((1.2, 0.7), (1.2, -0.7), (-1.2, 0.7), (-1.2, -0.7))):
+        at = [x, y, R - sag]
+        if locked:
+            markers[f"m{k}"] = {"body": "sled", "position": at, "axis": axle}
+        else:
+            bodies[f"w{k}"] = {"mass": 1e-3, "inertia": [1.0] * 3, "position": at, "velocity": [speed, 0, 0],
+                               "angular_velocity": [0, speed / r, 0]}  # fmt: skip
+            joints[f"j{k}"] = {"type": "revolute", "bodies": ["sled", f"w{k}"], "point": at, "axis": axle}
+            markers[f"m{k}"] = {"body": f"w{k}", "axis": axle}
+        tyres[f"t{k}"] = {**TYRE, "wheel": f"m{k}", "rolling_resistance": rolling}
+    bodies["sled"] = {"mass": mass, "inertia": [900.0, 900.0, 1500.0], "velocity": [speed, 0, 0]}
+    return machine({"gravity": list(gravity), "bodies": bodies, "joints": joints, "markers": markers,
+                    "forces": {**tyres, **(forces or {})}, "simulation": {"step": 1e-3, **simulation}})  # fmt: skip
+
+
+def slope(grade, across=False):
+    """Gravity on a slope along x, or y."""
+    angle = math.atan(grade)
+    down = -G * math.sin(angle)
+    return (0.0, down, -G * math.cos(angle)) if across else (down, 0.0, -G * math.cos(angle))
+
+
+IDLING = {"idling": {"type": "force", "body": "sled", "vector": ["400*sin(2*pi*25*time)", "300*sin(2*pi*25*time)", 0]}}
+
+
+@pytest.mark.parametrize("across", [False, True])
+def test_a_machine_parked_on_ten_per_cent_does_not_creep_while_its_engine_idles(across):
+    """At whole periods of the engine, once the first vibration has died out."""
+    run = sled(gravity=slope(0.1, across), forces=IDLING, start="equilibrium", duration=60, output_interval=0.04)
+    place = run.simulate(verify=False).array("position")[:, 0]
+    assert np.abs(place[-1] - place[1000]).max() < 1e-9
+
+
+@pytest.mark.parametrize(("across", "name"), [(False, "along"), (True, "across")])
+def test_an_equilibrium_is_that_of_the_carcass_and_none_is_beyond_the_grip(across, name):
+    gravity = slope(0.1, across)
+    found = sled(gravity=gravity).statics().array("position")[-1, 0]
+    moved = 1600.0 * (gravity[1] if across else gravity[0]) / (4.0 * SOFTER[name] * C)
+    assert found[1 if across else 0] == pytest.approx(moved, rel=1e-4)
+    with pytest.raises(SolveError):
+        sled(gravity=slope(1.3, across)).statics()
+
+
+@pytest.mark.parametrize("turn", [0.0, math.pi / 2])
+def test_locked_wheels_stop_in_the_distance_of_their_sliding_force(turn):
+    """v²/(2 a), a = 4 F_S/m; the carcass stretches by some centimetres first."""
+    speed, q = 40.0, 1600.0 * G / 4 / P
+    a = 4.0 * curve(ACROSS if turn else ALONG, q)[4] / 1600.0
+    run = sled(turn=turn, speed=speed, duration=1.1 * speed / a).simulate(verify=False)
+    assert run.array("position")[:, 0, 0].max() == pytest.approx(0.5 * speed**2 / a, rel=1e-3)
+
+
+def test_rolling_resistance_slows_by_its_force_and_loses_what_it_takes():
+    """a = f m g/(m + 4 J/r²) for wheels whose torques are in balance with the force at the rolling radius; power in is power lost."""
+    f, speed, mass = 0.01, 20.0, 1600.0
+    run = sled(locked=False, speed=speed, rolling=f, duration=10).simulate()
+    sag = mass / 4 * G / C
+    r = R - (1 - 0.375 * sag * C / P) * sag
+    v = run.array("velocity")[:, -1, 0]
+    a = f * (mass + 4e-3) * G / (mass + 4e-3 + 4.0 / r**2)
+    assert (v[200] - v[-1]) / (run.time[-1] - run.time[200]) == pytest.approx(a, rel=1e-4)
+    kinetic = 0.5 * mass * speed**2
+    assert np.abs(run.array("energy_error")).max() < 1e-9 * kinetic
+    assert np.abs(run.array("force.t0.lateral")).max() == 0.0
+
+
+def test_free_wheels_stay_on_a_slope_below_their_rolling_resistance_and_leave_on_a_steeper_one():
+    at = sled(locked=False, rolling=0.01, gravity=slope(0.005), start="equilibrium", duration=20).simulate(verify=False)
+    x = at.array("position")[:, -1, 0]
+    assert abs(x[-1] - x[len(x) // 2]) < 1e-9
+    at = sled(locked=False, rolling=0.01, gravity=slope(0.02), duration=10).simulate(verify=False)
+    v = at.array("velocity")[:, -1, 0]
+    mass, r = 1600.004, R - 0.01
+    a = mass * G * (0.02 - 0.01) * math.cos(math.atan(0.02)) / (mass + 4.0 / r**2)
+    assert (v[len(v) // 2] - v[-1]) / (0.5 * at.time[-1]) == pytest.approx(a, rel=2e-3)
+    with pytest.raises(SolveError):
+        sled(locked=False, rolling=0.01, gravity=slope(0.02)).statics()
+
+
+def test_a_car_that_steers_to_the_other_side_moves_in_the_mirror():
+    left, right = (
+        nivel.load(CAR, overrides={"parameters.turn": turn}).simulate(duration=2.5, verify=False)
+        for turn in ("1.5 deg", "-1.5 deg")
+    )
+    one, other = left.array("position")[:, 0], right.array("position")[:, 0]
+    assert np.abs(one[:, 1]).max() > 0.5
+    np.testing.assert_allclose(one * [1, -1, 1], other, atol=1e-9)
+
+
+SIDE, FRONT, REAR, YAW, SPEED, STEERED = 1600.0, 1.2, -1.5, 2000.0, 20.0, 2e-4  # kg, m, m, kg m², m/s, rad
+
+
+def single_track():
+    """A body that a planar joint holds on the road, with a wheel steered a little in front and one behind, both under P."""
+    sag = P / C
+    r = R - (1 - 0.375) * sag
+    bodies = {
+        "body": {"mass": SIDE, "inertia": [1500.0, 1500.0, YAW], "position": [0, 0, 0.5], "velocity": [SPEED, 0, 0]}
+    }
+    joints = {"plane": {"type": "planar", "bodies": ["ground", "body"], "point": [0, 0, 0.5], "axis": [0, 0, 1]}}
+    markers, forces = {"road": {"body": "ground", "axis": [0, 0, 1]}}, {}
+    for name, x, turn in (("front", FRONT, STEERED), ("rear", REAR, 0.0)):
+        axle, at = [-math.sin(turn), math.cos(turn), 0.0], [x, 0.0, R - sag]
+        bodies[name] = {"mass": 1e-3, "inertia": [1.0] * 3, "position": at, "velocity": [SPEED, 0, 0],
+                        "angular_velocity": [SPEED / r * each for each in axle]}  # fmt: skip
+        joints[name] = {"type": "revolute", "bodies": ["body", name], "point": at, "axis": axle}
+        markers[f"{name}_axle"] = {"body": name, "axis": axle}
+        forces[name] = {**TYRE, "wheel": f"{name}_axle", "rolling_resistance": 0.0}
+    return machine({"bodies": bodies, "joints": joints, "markers": markers, "forces": forces,
+                    "simulation": {"step": 1e-3, "duration": 1.5, "output_interval": 0.01}})  # fmt: skip
+
+
+def test_a_step_of_steering_is_that_of_the_linear_single_track():
+    """States v_y, r, and of each wheel the stretches across and of the bore:
+
+    ż = -(s + A c z)/(1 + A d), F = c z + d ż; s = v_y + (x - n) r - δ v across, R_B r of the bore; A = v/slope; n trail, R_B = (L + b)/6.
+    """
+    sag = P / C
+    length = 2.0 * math.sqrt(R * sag)
+    c = SOFTER["across"] * C
+    d, fluid = CARCASS_TIME * c, SPEED / curve(ACROSS)[0]
+    trail, lever = 0.178 * length, (length + W) / 6.0
+    A, b = np.zeros((6, 6)), np.zeros(6)
+    forces = np.zeros((4, 6)), np.zeros(4)
+    for k, (x, turn) in enumerate(((FRONT, STEERED), (REAR, 0.0))):
+        for m, (slide, steer) in enumerate((((1.0, x - trail), -turn * SPEED), ((0.0, lever), 0.0))):
+            row = 2 + 2 * k + m
+            A[row, :2] -= np.array(slide) / (1 + fluid * d)
+            A[row, row] -= fluid * c / (1 + fluid * d)
+            b[row] -= steer / (1 + fluid * d)
+            forces[0][2 * k + m] = d * A[row]
+            forces[0][2 * k + m, row] += c
+            forces[1][2 * k + m] = d * b[row]
+    for k, x in enumerate((FRONT, REAR)):
+        for row, across, bore in ((0, 1.0 / SIDE, 0.0), (1, (x - trail) / YAW, lever / YAW)):
+            for m, factor in ((0, across), (1, bore)):
+                A[row] += factor * forces[0][2 * k + m]
+                b[row] += factor * forces[1][2 * k + m]
+    A[0, 1] -= SPEED
+    run = single_track().simulate(verify=False)
+    steady = -np.linalg.solve(A, b)
+    expected = np.array([steady - expm(A * t) @ steady for t in run.time])
+    found = run.array("angular_velocity")[:, 0, 2]
+    # the slopes of the curves fall by 0.3 % per thousandth of slip
+    np.testing.assert_allclose(found, expected[:, 1], atol=2e-3 * abs(steady[1]))
+
+
+def test_the_example_stands_still_in_the_end_and_keeps_its_energy():
+    run = nivel.load(CAR).simulate(verify=False)
+    place, late = run.array("position")[:, 0], run.time > 7.5
+    assert place[-1, 0] > 70.0
+    assert np.ptp(place[late], axis=0).max() < 1e-3
+    assert np.abs(run.array("energy_error")).max() < 1e-6 * 0.5 * 1480.0 * 20.0**2
+    # both sides of the road: the lane change
+    assert place[:, 1].max() > 0.5

@@ -37,6 +37,7 @@ from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
 from nivel.machine.signals.state import State
+from nivel.methods import Analysis
 from nivel.model import Model
 from nivel.settings import (
     CompareSettingsDict,
@@ -517,26 +518,29 @@ class Machine(Model):
         exact_slopes: bool = False,
         time_limit: float | None = None,
         threads: int | None = None,
+        analysis: Analysis = "run",
+        analysis_settings: Mapping[str, Any] | None = None,
         journal: Any = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
     ) -> Optimum:
-        """The values of parameters with which a run has the least objective, or the largest: ``optimum.values``, ``optimum.machine``.
+        """The values of parameters with which an analysis has the least objective, or the largest: ``optimum.values``, ``optimum.machine``.
 
         objective : an output in words, ``"max(crank.angle)"``, ``"slider.position.x at 0.5 s"``, ``"time(lift)"``, a name (its value at the
-        end), or a function of the result. parameters : bounds by path, ``{"bodies.rod.mass": (1, 3)}``, or (1, 2, 3) with a start between
-        them. outputs : others, by name; limits : (least, greatest) of outputs, ``{"force": (None, 500.0)}``. method : of
-        `scipy.optimize.minimize`, `differential-evolution`, or `CMA-ES` and `TPE` of the extra `search`. starts : the first is the
-        machine's own values, the others are drawn from a Latin hypercube with `seed`. time_limit [s] : of the processor time of
-        each run, which has no outputs where it takes longer. iterations : of each start, at most. accuracy : of the objective, as
-        a share. journal : of a study, which keeps every run. settings : of the runs.
+        end), ``"mode.1.frequency"`` of linear models, ``"buckling.1"`` of statics, or a function of the result. analysis : what is computed
+        of each variant: `run`, or `statics`, `kinematics`, `linearise` or `inverse` with their `analysis_settings`. parameters : bounds by
+        path, ``{"bodies.rod.mass": (1, 3)}``, or (1, 2, 3) with a start between them. outputs : others, by name; limits : (least, greatest)
+        of outputs, ``{"force": (None, 500.0)}``. method : of `scipy.optimize.minimize`, `differential-evolution`, or `CMA-ES` and `TPE` of
+        the extra `search`. starts : the first is the machine's own values, the others are drawn from a Latin hypercube with `seed`.
+        time_limit [s] : of the processor time of each run, which has no outputs where it takes longer. iterations : of each start, at
+        most. accuracy : of the objective, as a share. journal : of a study, which keeps every run. settings : of the runs.
 
-        Slopes are differences of runs; with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
+        Slopes are differences; of runs with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
         outputs and slopes. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
         ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective;
         SolveError where that is because runs fail.
         """
-        chosen = self._ready(settings, listener)
+        chosen = self._ready(settings, listener, analysis)
         given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
         return nivel.analysis.optimise.optimise.optimise(
             chosen,
@@ -547,10 +551,14 @@ class Machine(Model):
             seed=seed,
             most=iterations,
             tolerance=accuracy,
-            threads=threads or nivel.native.workers.processors(),
-            exact=chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
-            time_limit=time_limit,
-            journal=journal,
+            computation=nivel.analysis.optimise.evaluations.Computation(
+                analysis,
+                analysis_settings or {},
+                threads or nivel.native.workers.processors(),
+                time_limit,
+                chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
+                journal,
+            ),
             listener=listener,
         )
 
@@ -601,8 +609,10 @@ class Machine(Model):
             nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
             most=iterations,
             tolerance=accuracy,
-            threads=threads or nivel.native.workers.processors(),
-            exact=machine._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
+            computation=nivel.analysis.optimise.evaluations.Computation(
+                threads=threads or nivel.native.workers.processors(),
+                exact=machine._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
+            ),
             listener=listener,
         )
         return course.tables(found.values), found
@@ -621,6 +631,8 @@ class Machine(Model):
         exact_slopes: bool = False,
         time_limit: float | None = None,
         threads: int | None = None,
+        analysis: Analysis = "run",
+        analysis_settings: Mapping[str, Any] | None = None,
         journal: Any = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
@@ -628,28 +640,33 @@ class Machine(Model):
         """Parameters with which runs come nearest to measurements, by least squares: ``found.values``, ``found.deviations``.
 
         data : a file (CSV, MAT, Parquet) with a column `time` and columns with names of results, each with its unit in the heading,
-        ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. parameters : as in `optimise`. deviations : standard
-        deviations of the signals, where they are known; else each signal is measured by how much it varies, and the covariance follows from
-        what is left. exact_slopes : those of the run on dual numbers, in place of differences.
-        starts, seed, iterations, accuracy, time_limit, journal, settings : as in `optimise`.
+        ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. Numbers without history need no times: with
+        ``analysis="linearise"`` ``{"mode.1.frequency": 12.0}``, or a list of repeated measurements. parameters : as in `optimise`.
+        deviations : standard deviations of the signals, where they are known; else each signal is measured by how much it varies, and the
+        covariance follows from what is left. exact_slopes : those of the run on dual numbers, in place of differences.
+        starts, seed, iterations, accuracy, time_limit, analysis, analysis_settings, journal, settings : as in `optimise`.
 
         `found.covariance` is that of the parameters in their order, `found.undetermined` names those that the measurements do not tell
         apart, `found.on_bounds` those that would go on beyond their bounds, which have no deviation.
         Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
         """
-        chosen = self._ready(settings, listener)
+        chosen = self._ready(settings, listener, analysis)
         return nivel.analysis.optimise.identify.identify(
             chosen,
             nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
             nivel.analysis.optimise.measurements.signals_of(data, deviations or {}),
             with_slopes=chosen._with_slopes if exact_slopes else None,
-            time_limit=time_limit,
             starts=starts,
             seed=seed,
             most=iterations,
             tolerance=accuracy,
-            threads=threads or nivel.native.workers.processors(),
-            journal=journal,
+            computation=nivel.analysis.optimise.evaluations.Computation(
+                analysis,
+                analysis_settings or {},
+                threads or nivel.native.workers.processors(),
+                time_limit,
+                journal=journal,
+            ),
             listener=listener,
         )
 
@@ -657,12 +674,13 @@ class Machine(Model):
         """The run with these values, with the slopes of all that it computes with respect to them."""
         return self.with_values(values).simulate(verify=False, sensitivities=list(values))
 
-    def _ready(self, settings: RunSettingsDict, listener: Listener | None) -> Machine:
-        """The machine with these settings, whose runs are compiled."""
+    def _ready(self, settings: RunSettingsDict, listener: Listener | None, analysis: str = "run") -> Machine:
+        """The machine with these settings, whose runs are compiled; other analyses compile themselves."""
         given = _given(settings)
         chosen = self.with_settings(given)
-        plan = chosen._plan({*given, *self.origin.settings_outside})
-        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
+        if analysis == "run":
+            plan = chosen._plan({*given, *self.origin.settings_outside})
+            nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         return chosen
 
     @checked_arguments

@@ -146,15 +146,13 @@ class Study:
         if search is None:
             said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
             raise ModelError(self.file.fault((), said))
-        runs = (
-            nivel.analysis.plan.settings.with_usual_frames(self.machine)
-            if nivel.analysis.sweep.task.only_numbers(outputs)
-            else self.machine
-        )
+        machine, analysis = self.machine, self.file.record.analysis
+        if analysis == "run" and nivel.analysis.sweep.task.only_numbers(outputs):
+            machine = nivel.analysis.plan.settings.with_usual_frames(machine)
 
         def find(journal: Journal | None) -> tuple[Optimum, bool]:
             units = {} if journal is None else journal.facts
-            found = runs.optimise(
+            found = machine.optimise(
                 self._output(search.output, units),
                 self._bounds,
                 maximise=search.maximise,
@@ -166,6 +164,8 @@ class Study:
                 iterations=search.iterations,
                 time_limit=self.file.record.time_limit,
                 threads=threads,
+                analysis=self.file.record.analysis,
+                analysis_settings=self.resolved.settings,
                 journal=journal,
                 listener=listener,
             )
@@ -203,6 +203,8 @@ class Study:
                 iterations=search.iterations,
                 time_limit=self.file.record.time_limit,
                 threads=threads,
+                analysis=self.file.record.analysis,
+                analysis_settings=self.resolved.settings,
                 journal=journal,
                 listener=listener,
             )
@@ -225,7 +227,14 @@ class Study:
         outputs = {name: each.model_dump(mode="json") for name, each in self.file.record.outputs.items()}
         table = read_bytes(beside(self.file.file, search.data)) if hasattr(search, "data") else b""
         of = nivel.analysis.progress.journal.fingerprint(
-            self.machine, search.model_dump(mode="json"), table, outputs, self._bounds, self.file.record.time_limit
+            self.machine,
+            search.model_dump(mode="json"),
+            table,
+            outputs,
+            self._bounds,
+            self.file.record.time_limit,
+            self.file.record.analysis,
+            json.dumps(self.resolved.settings, sort_keys=True, default=str),
         )
         with self._journal(target, of, "runs", resume=resume, force=force) as journal:
             try:
@@ -237,9 +246,14 @@ class Study:
                 raise
             if journal is None:
                 return found
-            checked = found.machine.simulate()
-            if checked.outcome == "interrupted":
-                raise KeyboardInterrupt
+            if self.file.record.analysis == "run":
+                checked = found.machine.simulate()
+                if checked.outcome == "interrupted":
+                    raise KeyboardInterrupt
+            else:
+                checked = nivel.analysis.sweep.variant_runs.analysed(
+                    found.machine, self.file.record.analysis, self.resolved.settings
+                )
             kept = {"trust": checked.trust.to_json(), "verdict": checked.trust.light, "kept": int(whole)}
             found = replace(found, dataset=found.dataset.assign_attrs({**found.dataset.attrs, **kept}))
             write_netcdf(found.dataset, journal.target)

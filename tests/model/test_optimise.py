@@ -345,7 +345,7 @@ def test_measurements_in_another_unit_are_refused(oscillator, tmp_path, heading,
         (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (2, 1)}), "bounds were expected"),
         (lambda m: m.optimise("max(rail.displacement)", {}), "nothing varies"),
         (lambda m: m.optimise(result_stiffness, {STIFFNESS: (1, 2)}, exact_slopes=True), "not of functions"),
-        (lambda m: m.optimise("block.position", {STIFFNESS: (1, 2)}), "one number was expected"),
+        (lambda m: m.optimise("block.position", {STIFFNESS: (1, 2)}), "has 3 numbers; write one"),
         (lambda m: m.optimise("block.position.x at soon", {STIFFNESS: (1, 2)}), "a time was expected after `at`"),
         (lambda m: m.optimise("max(rail.displacement)", {STIFFNESS: (1, 2)}, method="SLQP"), "did you mean `SLSQP`"),
         (

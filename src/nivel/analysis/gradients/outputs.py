@@ -8,7 +8,6 @@ time(lift)                when the event `lift` came for the first time
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -17,18 +16,14 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass
-from nivel.machine.units.quantity import read_quantity
-from nivel.machine.units.tree import ExpressionError
+from nivel.machine import study
+from nivel.machine.study.output import said_output
 from nivel.results.curve import Curve, curve_of
 from nivel.results.reductions import Number, extreme, integral_of_product, largest, smallest
 from nivel.results.reductions import integral as whole
 from nivel.results.result import Result
-from nivel.words.wording import unknown_word
 
 Array = NDArray[np.float64]
-
-_CALL = re.compile(r"^\s*(\w+)\((.+)\)\s*$")
-_AT = re.compile(r"^(.+?)\s+at\s+(.+)$")
 
 
 class Moving(NamedTuple):
@@ -174,29 +169,18 @@ def outputs_of(labels: Sequence[str], result: Result, *, curves: bool = False) -
 
 
 def _output(label: str, result: Result, curves: bool) -> Output:
-    if (call := _CALL.match(label)) is not None:
-        word, name = call[1], call[2].strip()
-        if word == "time":
-            return Output(label, name, is_event=True)
-        if word not in REDUCTIONS:
-            raise ModelError(Fault.at(label, unknown_word(word, [*REDUCTIONS, "time"], "function")))
-        result.selection(name)
-        return Output(label, name, REDUCTIONS[word], by_time=word == "integral")
-    if (when := _AT.match(label)) is not None:
-        result.selection(when[1])
-        return Output(label, when[1], at(_time(when[2], result)))
-    result.selection(label)
-    return Output(label, label, None if curves else final)
-
-
-def _time(text: str, result: Result) -> float:
-    try:
-        t = float(read_quantity(text, "time", {}))
-    except (ExpressionError, TypeError, ValueError) as problem:
-        raise ModelError(Fault.at(text, f"a time was expected, as `0.5 s`: {problem}")) from None
-    if not result.time[0] <= t <= result.time[-1]:
-        raise ModelError(Fault.at(text, f"the run goes from {result.time[0]:g} s to {result.time[-1]:g} s"))
-    return t
+    said = said_output(label)
+    if isinstance(said, study.EventTime):
+        return Output(label, said.event, is_event=True)
+    name: str = getattr(said, "of", "")
+    result.selection(name)
+    if isinstance(said, study.Reduced):
+        return Output(label, name, REDUCTIONS[said.type], by_time=said.type == "integral")
+    if not isinstance(said, study.AtTime):
+        return Output(label, name, None if curves else final)
+    if not result.time[0] <= said.time <= result.time[-1]:
+        raise ModelError(Fault.at(label, f"the run goes from {result.time[0]:g} s to {result.time[-1]:g} s"))
+    return Output(label, name, at(said.time))
 
 
 def value_of(output: Output, result: Result) -> Array:

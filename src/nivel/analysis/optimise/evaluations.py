@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import field
 from queue import SimpleQueue
 from typing import Any, Final
 
@@ -11,15 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.progress.journal import Journal, packed, unpacked
-from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
+from nivel.analysis.sweep.outputs import Found
+from nivel.analysis.sweep.variant_runs import AnalysedVariants, VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, refuse
 from nivel.lazy import dataclass, scipy
+from nivel.machine.study import ANALYSES
 from nivel.model import Model
-from nivel.results.result import Result
-from nivel.words.wording import shown
+from nivel.words.wording import shown, unknown_word
 
 Array = NDArray[np.float64]
-Reader = Callable[[Result], Array]
+Reader = Callable[[Found], Array]
 # parameters by path to outputs (m,) and exact slopes (m, d), from one run
 Exact = Callable[[Mapping[str, float]], tuple[Array, Array]]
 
@@ -99,6 +101,33 @@ def _present(machine: Model, path: str, low: float, high: float) -> float:
 
 
 @dataclass(frozen=True)
+class Computation:
+    """What is computed of each variant. analysis : `run`, or one with its settings. threads : at once, of runs whose numbers are patched.
+    time_limit [s] : of each run. exact : outputs with their slopes from one run; None: differences. journal : keeps every variant, and has
+    those of an interrupted search, which are not computed again."""
+
+    analysis: str = "run"
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    threads: int = 1
+    time_limit: float | None = None
+    exact: Exact | None = None
+    journal: Journal | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what goes with runs alone, or not with exact slopes. Raises ModelError."""
+        if self.analysis not in ANALYSES:
+            raise ModelError(Fault.at("analysis", unknown_word(self.analysis, ANALYSES, "analysis")))
+        if self.exact is not None and self.time_limit is not None:
+            raise ModelError(Fault.at("time_limit", "runs with exact slopes have no time limit: leave one out"))
+        if self.analysis == "run" and self.settings:
+            raise ModelError(Fault.at("analysis_settings", "settings of runs are given by their names, as duration=2"))
+        if self.analysis != "run":
+            for name, given in (("exact_slopes", self.exact), ("time_limit", self.time_limit)):
+                if given is not None:
+                    raise ModelError(Fault.at(name, f"belongs to runs; `{self.analysis}` has none"))
+
+
+@dataclass(frozen=True)
 class Evaluated:
     """One variant: place z (d,) in the unit cube, outputs (m,), not numbers where there are none, and how it ended."""
 
@@ -120,45 +149,31 @@ class UnreadError(Exception):
 class Evaluations:
     """Outputs (m,) of variants of a machine. made : all of them, in the order in which they were asked for."""
 
-    def __init__(
-        self,
-        machine: Model,
-        box: Box,
-        read: Reader,
-        count: int,
-        *,
-        threads: int = 1,
-        exact: Exact | None = None,
-        time_limit: float | None = None,
-        journal: Journal | None = None,
-    ) -> None:
-        """read : the outputs (count,) of a result; a variant of which it raises UnreadError has failed. exact : outputs with their slopes;
-        None: differences. time_limit [s] : of each run. journal : keeps every variant, and has those of an interrupted search, which are
-        not computed again.
-
-        Raises ModelError for a limit with exact slopes, which are not watched.
-        """
-        self.box, self._read, self._count, self._exact = box, read, count, exact
-        self._journal = journal
-        rows = () if journal is None else journal.rows.values()
-        self._finished = {unpacked(row["z"]).tobytes(): row for row in rows}
+    def __init__(self, machine: Model, box: Box, read: Reader, count: int, of: Computation) -> None:
+        """read : the outputs (count,) of a result; a variant of which it raises UnreadError has failed."""
+        self.box, self._read, self._count, self._exact, self._journal = box, read, count, of.exact, of.journal
+        finished = () if of.journal is None else of.journal.rows.values()
+        self._finished = {unpacked(row["z"]).tobytes(): row for row in finished}
         self._slopes: dict[bytes, Array] = {}
         self.made: list[Evaluated] = []
         self._known: dict[bytes, Array] = {}
-        self.start, self._threads, self.prepared_because = 0, 1, "slopes are exact"
-        if exact is not None:
-            if time_limit is not None:
-                raise ModelError(Fault.at("time_limit", "runs with exact slopes have no time limit: leave one out"))
+        self._runs: SimpleQueue[VariantRuns | AnalysedVariants] = SimpleQueue()
+        self.start, self._threads = 0, 1
+        if of.exact is not None:
+            self.prepared_because = "slopes are exact"
+            return
+        if of.analysis != "run":
+            self.prepared_because = f"`{of.analysis}` has no steps"
+            self._runs.put(AnalysedVariants(machine, of.analysis, of.settings))
             return
         rng = np.random.default_rng(0)
         rows = [
             box.values(z) for z in (np.zeros(len(box.low)), np.ones(len(box.low)), *rng.random((SAMPLED, len(box.low))))
         ]
-        self._patches, self.prepared_because = formulas_for(machine, rows)
-        self._runs: SimpleQueue[VariantRuns] = SimpleQueue()
-        self._threads = threads if self._patches is not None else 1
+        patches, self.prepared_because = formulas_for(machine, rows)
+        self._threads = of.threads if patches is not None else 1
         for _ in range(self._threads):
-            self._runs.put(VariantRuns(machine, self._patches, time_limit))
+            self._runs.put(VariantRuns(machine, patches, of.time_limit))
 
     def at(self, z: Array) -> Array:
         """(m,) at a place in the unit cube."""

@@ -15,12 +15,10 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Evaluations
-from nivel.analysis.optimise.spoken_outputs import at_times
+from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations
 from nivel.analysis.optimise.table import nothing_found, table_of
-from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.sweep.outputs import another_measure
+from nivel.analysis.sweep.outputs import Found, another_measure, at_times, units_of
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass, replace, scipy
 from nivel.model import Model
@@ -56,7 +54,7 @@ class Identified:
     deviation_of : standard deviation of the residuals of each signal; reached : (starts,) the sum of squares that each came to;
     undetermined : paths of parameters that the measurements do not tell apart; on_bounds : of those that would go on beyond a
     bound, and have no deviation: those of the others hold with these held there; dataset : every variant computed; machine : with
-    what was found; residuals : by signal; evaluations : number of runs.
+    what was found; residuals : by signal; evaluations : number of variants that were computed.
     """
 
     values: Mapping[str, float]
@@ -82,31 +80,22 @@ def identify(
     seed: int = 0,
     most: int = 100,
     tolerance: float = 1e-10,
-    threads: int = 1,
     with_slopes: Callable[[Mapping[str, float]], Result] | None = None,
-    time_limit: float | None = None,
-    journal: Journal | None = None,
+    computation: Computation | None = None,
     listener: Listener | None = None,
 ) -> Identified:
     """The parameters with the least squares. with_slopes : the run of a variant with the slopes of its results; None: differences. most :
-    iterations of each start. time_limit [s] : of each run. journal : of an interrupted search, or of this one.
+    iterations of each start. computation : of each variant, runs by default; without `exact`, which follows from `with_slopes`.
 
     Raises ModelError where no start has results, and SolveError where that is because runs fail; its `result` is the table of all variants.
     """
     begin = perf_counter()
     _check_signals(signals, box)
     residuals = _Residuals(box, signals, with_slopes)
-    exact = None if with_slopes is None else residuals.read_exact
-    evaluations = Evaluations(
-        machine,
-        box,
-        residuals.read,
-        residuals.count,
-        threads=threads,
-        exact=exact,
-        time_limit=time_limit,
-        journal=journal,
-    )
+    computation = computation or Computation()
+    if with_slopes is not None:
+        computation = replace(computation, exact=residuals.read_exact)
+    evaluations = Evaluations(machine, box, residuals.read, residuals.count, computation)
     fit = _Fit(evaluations, residuals.count)
     ends = []
     for number, z in enumerate(box.starts(starts, seed)):
@@ -115,7 +104,12 @@ def identify(
         if listener is not None and listener.progress is not None:
             listener.progress(float(number + 1))
     reached = np.array([2.0 * each.cost for each in ends])
-    attributes = {"analysis": "identify", "machine": machine.name, "seconds": perf_counter() - begin}
+    attributes = {
+        "analysis": "identify",
+        "computed": computation.analysis,
+        "machine": machine.name,
+        "seconds": perf_counter() - begin,
+    }
     found = ends[int(np.argmin(reached))]
     if not np.isfinite(evaluations.at(found.x)).all():
         fault = Fault.at("data", "no start has results at all measurements")
@@ -157,8 +151,8 @@ class _Residuals:
         self._units = [_unit(each) for each in signals]
         self.count = sum(len(each.values) for each in signals)
 
-    def read(self, result: Result) -> Array:
-        """(n,) of a run. Raises ModelError where measurements have another unit."""
+    def read(self, result: Found) -> Array:
+        """(n,) of a result. Raises ModelError where measurements have another unit."""
         _check_units(self._signals, result)
         rows = [
             (at_times(result, each.name, each.times) - each.values) / unit
@@ -273,12 +267,12 @@ def _when_measured(signals: Sequence[Signal]) -> str:
     return f"the run ends before the measurements do, or begins after them: they last from {first:g} to {last:g} s"
 
 
-def _check_units(signals: Sequence[Signal], result: Result) -> None:
+def _check_units(signals: Sequence[Signal], result: Found) -> None:
     """Raise ModelError where measurements are given in a unit that the result does not have."""
     faults = [
         Fault.at(f"data.{each.name}", wrong)
         for each in signals
-        if each.units and (wrong := another_measure(f"1 {each.units}", result.units(each.name)))
+        if each.units and (wrong := another_measure(f"1 {each.units}", units_of(result, each.name)))
     ]
     refuse(faults)
 

@@ -14,6 +14,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
+from nivel.machine.study.output import SCALAR
 from nivel.words.wording import shown
 
 Columns = tuple[np.ndarray, np.ndarray, str]  # times [s], values in SI units, and the unit of the heading
@@ -22,7 +23,8 @@ TIME: Final = "time"
 
 
 def signals_of(data: str | PathLike[str] | Mapping[str, Any], deviations: Mapping[str, float]) -> list[Signal]:
-    """data : a file with a column `time` and columns with names of results; or (times, values) by name. Raises ModelError."""
+    """data : a file with a column `time` and columns with names of results; or (times, values) by name. Numbers without history (`SCALAR`)
+    need no times: columns of repeated measurements, or one or more numbers by name. Raises ModelError."""
     given = _arrays(data) if isinstance(data, Mapping) else _columns(fspath(data))
     there = ", ".join(f"`{name}`" for name in given)
     faults = [
@@ -45,7 +47,8 @@ def _arrays(data: Mapping[str, Any]) -> dict[str, Columns]:
     out, faults = {}, []
     for name, pair in data.items():
         try:
-            times, values = (np.asarray(each, dtype=float).ravel() for each in pair)
+            both = (np.zeros(np.size(pair)), pair) if SCALAR.fullmatch(name) else pair
+            times, values = (np.asarray(each, dtype=float).ravel() for each in both)
         except (TypeError, ValueError):
             faults.append(Fault.at(f"data.{name}", f"times and values were expected, got {shown(pair)}"))
             continue
@@ -65,6 +68,8 @@ def _columns(file: str) -> dict[str, Columns]:
         columns = numeric_columns(content, file)
     except CsvError as problem:
         raise ModelError(Fault(file, problem.line, 1 if problem.line else 0, "", str(problem))) from None
+    if all(SCALAR.fullmatch(name) for name in columns):
+        return {name: (np.zeros(len(values)), np.array(values), units) for name, (values, units) in columns.items()}
     if TIME not in columns:
         message = f"a column `time` is missing; there are {', '.join(f'`{name}`' for name in columns)}"
         raise ModelError(Fault(file, 1, 1, "", message))

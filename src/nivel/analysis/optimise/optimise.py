@@ -12,25 +12,21 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Evaluations, UnreadError
+from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, UnreadError
 from nivel.analysis.optimise.libraries import LIBRARIES_OF
 from nivel.analysis.optimise.search import CONSTRAINED, KEPT, Search
-from nivel.analysis.optimise.spoken_outputs import Spoken, event_of, spoken_output
 from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.plan.settings import with_usual_frames
-from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.sweep.outputs import OutputFailedError
+from nivel.analysis.sweep.outputs import Found, OutputFailedError, Said, event_of, said_number
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import require
 from nivel.lazy import dataclass
 from nivel.machine.study.search import SEARCH_METHODS
 from nivel.model import Model
-from nivel.results.result import Result
 from nivel.words.wording import shown, unknown_word
 
 Array = NDArray[np.float64]
-Said = str | Callable[[Result], float]
 Limits = Mapping[str, tuple[float | None, float | None]]
 
 
@@ -39,7 +35,7 @@ class Optimum:
     """What was found. values : by path; objective : there; outputs : by name; kept : whether all constraints hold there.
 
     reached : (starts,) the objective that each start came to; dataset : every variant that was computed; machine : the best one;
-    message : what the method says of its end; evaluations : number of runs.
+    message : what the method says of its end; evaluations : number of variants that were computed.
     """
 
     values: Mapping[str, float]
@@ -74,14 +70,11 @@ def optimise(
     seed: int = 0,
     most: int = 200,
     tolerance: float = 1e-8,
-    threads: int = 1,
-    exact: Any = None,
-    time_limit: float | None = None,
-    journal: Journal | None = None,
+    computation: Computation | None = None,
     listener: Listener | None = None,
 ) -> Optimum:
-    """The machine with the least objective. most : iterations of each start; tolerance : of the objective, as a share; time_limit [s] : of
-    each run. journal : of an interrupted search, or of this one.
+    """The machine with the least objective. most : iterations of each start; tolerance : of the objective, as a share. computation : of
+    each variant, runs by default.
 
     Raises ModelError where words are not known, or no start has an objective, and SolveError where that is because runs fail; its
     `result` is the table of all variants.
@@ -92,19 +85,19 @@ def optimise(
     if method in LIBRARIES_OF:
         require(f"the method `{method}` needs", LIBRARIES_OF[method])
     limits = _checked_limits(aim.limits or {}, said, method)
-    _check_events(machine, said)
-    readers = {name: spoken_output(each) for name, each in said.items()}
+    computation = computation or Computation()
+    if computation.analysis == "run":
+        _check_events(machine, said)
+    readers = {name: said_number(each) for name, each in said.items()}
     names, sign = tuple(said), -1.0 if aim.maximise else 1.0
 
-    def read(result: Result) -> Array:
+    def read(result: Found) -> Array:
         return _read(result, readers, first=not evaluations.made)
 
     begin = perf_counter()
     seen = any(callable(each) for each in said.values())  # frames, by functions of the user
-    runs = machine if seen else with_usual_frames(machine)
-    evaluations = Evaluations(
-        runs, box, read, len(names), threads=threads, exact=exact, time_limit=time_limit, journal=journal
-    )
+    runs = machine if seen or computation.analysis != "run" else with_usual_frames(machine)
+    evaluations = Evaluations(runs, box, read, len(names), computation)
     search = Search(evaluations, names, limits, sign, method, most, tolerance, seed)
     found, messages = [], []
     for number, begun in enumerate(box.starts(starts, seed)):
@@ -118,6 +111,7 @@ def optimise(
     best = int(np.argmin(values))
     attributes = {
         "analysis": "optimise",
+        "computed": computation.analysis,
         "machine": machine.name,
         "method": method,
         "maximise": int(aim.maximise),
@@ -143,7 +137,7 @@ def optimise(
     )
 
 
-def _read(result: Result, readers: Mapping[str, Spoken], *, first: bool) -> Array:
+def _read(result: Found, readers: Mapping[str, Callable[[Found], float]], *, first: bool) -> Array:
     """The outputs of a result. Raises UnreadError where a function of the user fails, and ModelError for words that do not fit the `first`
     result: of later ones the table would be lost with it."""
     values, failed = np.full(len(readers), np.nan), list[str]()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
+import json
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.machine.study import AtEvent, AtTime, EventTime, FinalValue, Output, PythonOutput, ScalarOutput
 from nivel.machine.study.any_quantity import dimension_of
+from nivel.machine.study.output import SCALAR, said_output
 from nivel.machine.units.dimension import described, without_angle
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.efforts import Efforts
@@ -25,8 +26,9 @@ from nivel.words.wording import unknown_word
 
 Array = NDArray[np.float64]
 Found = Result | Efforts | LinearModel
-MODE = re.compile(r"mode\.(\d+)\.(\w+)")
+Said = str | Callable[[Any], float]
 OF_MODE = {"frequency": "Hz", "damping_ratio": "1", "real": "1/s", "imaginary": "1/s"}
+OF_LOOP = {"gain_margin": "1", "phase_margin": "rad", "delay_margin": "s"}
 
 
 class Number(NamedTuple):
@@ -138,35 +140,83 @@ def _of_efforts(found: Efforts, name: str) -> History:
     return History(curve(found.time, values), units)
 
 
+def said_number(said: Said) -> Callable[[Found], float]:
+    """What reads an output in words (`said_output`) from a result, or a function of the user. Raises ModelError for words that are none."""
+    if callable(said):
+        return lambda found: float(said(found))
+    output = said_output(said)
+    return lambda found: _number(found, output).value
+
+
+def event_of(said: Said) -> str:
+    """The event whose time was said; empty for other outputs."""
+    output = None if callable(said) else said_output(said)
+    return output.event if isinstance(output, EventTime) else ""
+
+
+def at_times(found: Found, name: str, times: Array) -> Array:
+    """Values at times [s], between two frames by cubics, not numbers outside of the result; of a number without history, at every time."""
+    if _is_scalar(found, name):
+        return np.full(len(times), _scalar(found, name).value)
+    of = history_of(found, name).curve
+    slack = 1e-9 * abs(of.time[-1])
+    out = of.at(times)[:, 0]
+    out[(times < of.time[0] - slack) | (times > of.time[-1] + slack)] = np.nan
+    return out
+
+
+def units_of(found: Found, name: str) -> str:
+    """SI unit of a history, or of a number without one. Raises ModelError."""
+    return _scalar(found, name).units if _is_scalar(found, name) else history_of(found, name).units
+
+
+def _is_scalar(found: Found, name: str) -> bool:
+    return isinstance(found, LinearModel) or SCALAR.fullmatch(name) is not None
+
+
 def _scalar(found: Found, name: str) -> Number:
+    """A number without history; not a number where a mode, a buckling load or a margin is none. Raises ModelError."""
+    kind, _, rest = name.partition(".")
+    if isinstance(found, Result):
+        if kind == "buckling" and rest.isdigit():
+            loads = json.loads(str(found.attributes.get("buckling", "[]")))
+            return Number(loads[int(rest) - 1]["time"] if 1 <= int(rest) <= len(loads) else np.nan, "s")
+        message = "`type: value` is for linear models, and for `buckling.1` of statics"
+        raise ModelError(f"{message}; for a history write `type: final`, with `of: {name}`")
     if not isinstance(found, LinearModel):
-        raise ModelError(f"`type: value` is for linear models; for a history write `type: final`, with `of: {name}`")
+        raise ModelError(f"`{name}` is a number of linear models; inverse dynamics has histories")
     if name == "stable":
         return Number(float(found.stable), "1")
     if name == "largest_real_part":
         moving = found.eigenvalues[~found.structural]
         return Number(float(np.max(moving.real, initial=-np.inf)) if len(moving) else np.nan, "1/s")
-    asked = MODE.fullmatch(name)
-    if asked is None or asked[2] not in OF_MODE:
-        known = [*(f"mode.1.{each}" for each in OF_MODE), "stable", "largest_real_part"]
-        raise ModelError(unknown_word(name, known, "name"))
-    moving = [each for each in found.modes if not each.structural]
-    if not 1 <= int(asked[1]) <= len(moving):
-        return Number(np.nan, OF_MODE[asked[2]])
-    mode = moving[int(asked[1]) - 1]
-    numbers = {
-        "frequency": mode.natural_frequency,
-        "damping_ratio": mode.damping_ratio,
-        "real": mode.eigenvalue.real,
-        "imaginary": mode.eigenvalue.imag,
-    }
-    return Number(float(numbers[asked[2]]), OF_MODE[asked[2]])
+    first, _, last = rest.rpartition(".")
+    if kind == "mode" and first.isdigit() and last in OF_MODE:
+        moving = [each for each in found.modes if not each.structural]
+        if not 1 <= int(first) <= len(moving):
+            return Number(np.nan, OF_MODE[last])
+        mode = moving[int(first) - 1]
+        numbers = {
+            "frequency": mode.natural_frequency,
+            "damping_ratio": mode.damping_ratio,
+            "real": mode.eigenvalue.real,
+            "imaginary": mode.eigenvalue.imag,
+        }
+        return Number(float(numbers[last]), OF_MODE[last])
+    loops = {} if found.sampled is None else {each.name: each for each in found.sampled.loops}
+    if kind == "loop" and first in loops and last in OF_LOOP:
+        margin = float(getattr(loops[first], last))
+        return Number(np.radians(margin) if last == "phase_margin" else margin, OF_LOOP[last])
+    known = [*(f"mode.1.{each}" for each in OF_MODE), "stable", "largest_real_part"]
+    raise ModelError(
+        unknown_word(name, [*known, *(f"loop.{each}.{margin}" for each in loops for margin in OF_LOOP)], "name")
+    )
 
 
 def _event_time(found: Found, name: str) -> float:
     """Time [s] of the first coming; not a number where it did not come."""
     if not isinstance(found, Result):
-        raise ModelError(Fault.at("event", "events come in runs"))
+        raise ModelError(Fault.at("event", "events come in runs and statics"))
     return next((each.time for each in found.events if each.name == name), np.nan)
 
 

@@ -12,7 +12,7 @@ from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, outputs_of
 from nivel.analysis.sweep.task import Task, usual_names
-from nivel.analysis.sweep.variant_runs import JudgedRuns, VariantRuns, formulas_for, judged_runs
+from nivel.analysis.sweep.variant_runs import JudgedRuns, VariantRuns, analysed, formulas_for, judged_runs
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.lazy import dataclass, field, replace
 from nivel.model import Model
@@ -149,7 +149,7 @@ def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:
     settings = dict(task.settings)
     if task.analysis == "statics":
         settings["verify"] = task.verify
-    return getattr(machine, task.analysis)(**settings)  # of `nivel.Machine`
+    return analysed(machine, task.analysis, settings)
 
 
 def _kept(found: Found, outcome: str, reason: str, task: Task) -> VariantRun:

@@ -30,14 +30,14 @@ WORTH_FORMULAS: Final = 24
 
 @dataclass(frozen=True)
 class Ran:
-    """A run of a variant. outcome, reason : as of a `VariantRun`. loop_seconds : in the compiled loop.
+    """A variant, computed. outcome, reason : as of a `VariantRun`. loop_seconds : in the compiled loop.
 
-    result : what was computed, valid until the next run of the same `VariantRuns`; None where nothing was.
+    result : what was computed, of the kind that the analysis has, valid until the next of the same `VariantRuns`; None where nothing was.
     """
 
     outcome: str
     reason: str = ""
-    result: Result | None = None
+    result: Any = None
     loop_seconds: float = 0.0
 
 
@@ -97,6 +97,30 @@ class VariantRuns:
                 raise TooLongError(limit)
 
         return Listener(progress=look)
+
+
+class AnalysedVariants:
+    """Variants of a machine, each by an analysis other than a run, without estimates by other elements of beams. settings : of it."""
+
+    def __init__(self, base: Model, analysis: str, settings: Mapping[str, Any]) -> None:
+        self._base = base
+        self._analysis = analysis
+        self._settings = {**({"verify": False} if analysis in ("statics", "linearise") else {}), **settings}
+
+    def run(self, values: Values) -> Ran:
+        """The machine with these values."""
+        try:
+            found = analysed(self._base.with_values(values), self._analysis, self._settings)
+            return Ran("done", getattr(found, "no_modes", ""), found)
+        except ModelError as error:
+            return Ran("refused", str(error))
+        except NivelError as error:
+            return Ran("failed", str(error))
+
+
+def analysed(machine: Model, analysis: str, settings: Mapping[str, Any]) -> Any:
+    """What an analysis of `nivel.Machine` other than a run computes. Raises NivelError."""
+    return getattr(machine, analysis)(**settings)
 
 
 def sample_of(rows: Sequence[Values]) -> tuple[Values, ...]:

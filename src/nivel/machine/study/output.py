@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import reduce
 from operator import or_
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, get_args
 
-from pydantic import GetCoreSchemaHandler
+from pydantic import BeforeValidator, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
+from nivel.errors import Fault, ModelError
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.study.any_quantity import AnyQuantity, si, unlike
-from nivel.machine.units.quantity import Quantity
-from nivel.words.wording import shown
+from nivel.machine.units.quantity import Quantity, fault, read_quantity
+from nivel.machine.units.tree import ExpressionError
+from nivel.words.wording import shown, unknown_word
 
 Moment = Annotated[OneNumber, Quantity("time")]
 NAME = "name of a result, such as hinge.angle"
+Reduction = Literal["max", "min", "peak", "rms", "mean", "integral"]
+# numbers of an analysis that have no history: of a linear model, its sampled loops, and statics
+SCALAR: Final = re.compile(
+    r"mode\.\d+\.(frequency|damping_ratio|real|imaginary)|stable|largest_real_part|buckling\.\d+"
+    r"|loop\..+\.(gain|phase|delay)_margin"
+)
+CALL: Final = re.compile(r"(\w+)\((.+)\)")
 
 
 class StudyOutput(Checked):
@@ -46,7 +56,7 @@ class StudyOutput(Checked):
 class Reduced(StudyOutput):
     """One number of a history: largest, smallest, largest magnitude, root of the mean square, mean, or integral over time."""
 
-    type: Literal["max", "min", "peak", "rms", "mean", "integral"]
+    type: Reduction
     of: str = Field(description=NAME)
     start: Maybe[Moment] = Field(default=None, key="from", description="begin", absent="the begin of the result")
     end: Maybe[Moment] = Field(default=None, key="to", description="end", absent="the end of the result")
@@ -89,7 +99,7 @@ class EventTime(StudyOutput):
 
 
 class ScalarOutput(StudyOutput):
-    """A number of an analysis that has no history, such as `mode.1.frequency` of a linear model."""
+    """A number of an analysis that has no history: of a linear model, as `mode.1.frequency`, or of statics, as `buckling.1`."""
 
     type: Literal["value"]
     of: str = Field(description="name of a number, such as mode.1.frequency or stable")
@@ -123,16 +133,48 @@ OUTPUTS: tuple[type[StudyOutput], ...] = (
 )
 
 
+def _from_words(given: Any) -> Any:
+    if not isinstance(given, str):
+        return given
+    try:
+        return said_output(given)
+    except ModelError as error:
+        raise fault("; ".join(each.message for each in error.faults)) from None
+
+
 class _AnyOutput:
-    """A record of one of OUTPUTS, told apart by its `type`."""
+    """A record of one of OUTPUTS, told apart by its `type`, or in words (`said_output`)."""
 
     @classmethod
     def __get_pydantic_core_schema__(cls, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         kinds: Any = reduce(or_, OUTPUTS)
-        return handler.generate_schema(Annotated[kinds, Field(discriminator="type")])
+        return handler.generate_schema(Annotated[kinds, Field(discriminator="type"), BeforeValidator(_from_words)])
 
 
 if TYPE_CHECKING:
     Output = Reduced | FinalValue | AtTime | AtEvent | EventTime | ScalarOutput | PythonOutput
 else:
     Output = _AnyOutput
+
+
+def said_output(words: str) -> Output:
+    """An output in words: ``max(hinge.angle)`` and other reductions, ``hinge.angle at 0.5 s``, ``time(lift)`` of the first event of a
+    name, a number such as ``mode.1.frequency``, or a name of a result alone, which is its last value. Raises ModelError for other words."""
+    words = words.strip()
+    if call := CALL.fullmatch(words):
+        word, inner = call[1], call[2].strip()
+        if word == "time":
+            return EventTime(type="event-time", event=inner)
+        if word not in get_args(Reduction):
+            raise ModelError(Fault.at(words, unknown_word(word, [*get_args(Reduction), "time"], "reduction")))
+        return Reduced(type=word, of=inner)  # type: ignore[arg-type]
+    if SCALAR.fullmatch(words):
+        return ScalarOutput(type="value", of=words)
+    name, at, moment = words.rpartition(" at ")
+    if not at:
+        return FinalValue(type="final", of=words)
+    try:
+        time = float(read_quantity(moment, "time", {}))
+    except (ExpressionError, TypeError, ValueError) as problem:
+        raise ModelError(Fault.at(words, f"a time was expected after `at`, as `0.5 s`: {problem}")) from None
+    return AtTime(type="at-time", of=name.strip(), time=time)

@@ -113,13 +113,13 @@ class StudyRecord(Checked):
             yield Problem(("verify",), f"`{self.analysis}` makes no second run; its trust report has other checks")
 
     def _of_searches(self) -> Iterator[Problem]:
-        """Searches need bounds, and runs."""
+        """Searches need bounds; limits of time are watched in runs alone."""
         for path, each in self.parameters.items():
             if isinstance(each, Values) or not all(isfinite(bound) for bound in each.bounds):
                 message = "a search needs two bounds: write `{type: range, from: …, to: …}`"
                 yield Problem(("parameters", path, "type"), message)
-        if self.analysis != "run":
-            yield Problem(("analysis",), f"searches are made with `run`, not with `{self.analysis}`")
+        if self.analysis != "run" and self.time_limit is not None:
+            yield Problem(("time_limit",), f"searches watch the time of runs, not of `{self.analysis}`: leave it out")
         if self.optimise is not None and self.optimise.output not in self.outputs:
             known = list(self.outputs)
             yield Problem(("optimise", "output"), unknown_word(self.optimise.output, known, "output"))

@@ -82,6 +82,7 @@ if TYPE_CHECKING:
     import xarray
 
     import nivel
+    import nivel.analysis.assembly.circuit_start
     import nivel.analysis.assembly.mass
     import nivel.analysis.compare.compare
     import nivel.analysis.compare.compare_grid
@@ -137,6 +138,8 @@ if TYPE_CHECKING:
     import nivel.cli.ending
     import nivel.cli.live
     import nivel.cli.progress
+    import nivel.elements.circuits.actuators
+    import nivel.elements.circuits.chambers
     import nivel.elements.forces.ropes
     import nivel.exchange
     import nivel.exchange.gltf_writer
@@ -175,6 +178,7 @@ if TYPE_CHECKING:
     import nivel.live.timing
     import nivel.looks.circuit.characteristics
     import nivel.looks.circuit.drawing
+    import nivel.looks.circuit.power_flow
     import nivel.machine.core.orientation
     import nivel.machine.core.record
     import nivel.machine.settings.inverse
@@ -183,6 +187,7 @@ if TYPE_CHECKING:
     import nivel.machine.settings.statics
     import nivel.machine.settings.values
     import nivel.machine.units.quantity
+    import nivel.machine.uses.hydraulic_uses
     import nivel.native.library
     import nivel.native.processor
     import nivel.native.shipped
@@ -213,6 +218,8 @@ if TYPE_CHECKING:
     import nivel.studies
     import nivel.system.beams.elements
     import nivel.system.beams.segments
+    import nivel.system.circuit_elements
+    import nivel.system.circuit_tangent
     import nivel.system.elimination.topology
     import nivel.system.joints.joint_frames
     import nivel.system.joints.joints

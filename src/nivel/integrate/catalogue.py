@@ -12,7 +12,7 @@ from nivel.integrate.facts import IntegratorFacts, Machines
 from nivel.methods import known_words
 
 # in the order in which they are looked through
-FAMILIES: Final = ("explicit", "newmark", "rosenbrock", "radau", "variable_order", "multistep")
+FAMILIES: Final = ("explicit", "radau", "newmark", "rosenbrock", "variable_order", "multistep")
 
 
 @cache

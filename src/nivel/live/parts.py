@@ -13,9 +13,9 @@ from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVALUATIONS, EVENTS, FRAMES, TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
+from nivel.lazy import nivel
 from nivel.live.preparation import LiveRun
 from nivel.native.entry import Entry
-from nivel.system.circuit_elements import families_of
 
 REPEATED: Final = 100  # calls of a part, of which the median counts
 AT_ONCE: Final = 20  # of short ones
@@ -64,7 +64,10 @@ def shares(live_run: LiveRun, control: Any, loop: Callable[[], int]) -> dict[str
     read = evaluation()
     families[0] = first
     forces = circuit = 0.0
-    of_circuits = {each.address for each in families_of(live_run.plan.machine)}
+    words = live_run.plan.machine
+    of_circuits = (
+        {each.address for each in nivel.system.circuit_elements.families_of(words)} if words.hydraulics else ()
+    )
     for k, family in enumerate(int(each) for each in families):
         seconds = cost(lambda k=k, family=family: repeat_family(family, machine, k, at, AT_ONCE), AT_ONCE)
         circuit += seconds * (family in of_circuits)

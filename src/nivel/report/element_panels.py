@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nivel.looks.circuit.power_flow import PowerFlow, power_diagram, power_flow
+from nivel.lazy import nivel
 from nivel.report.panel import GROUPS, TOGETHER, Curve, Group, Panel, left_out
-from nivel.results.frames.circuit_balance import ComponentBalance
 from nivel.results.result import Result
+
+if TYPE_CHECKING:
+    from nivel.looks.circuit.power_flow import PowerFlow
+    from nivel.results.frames.circuit_balance import ComponentBalance
 
 MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dashed
 
@@ -183,7 +186,7 @@ TOTALS = ("supplied", "lost", "delivered")
 def power_picture(result: Result, record: Mapping[str, Any], balances: Sequence[ComponentBalance]) -> str:
     """SVG of the power flow over the run; empty without a circuit through which energy flows."""
     flow = circuit_power(result, record, balances)
-    return "" if flow is None else power_diagram(flow)
+    return "" if flow is None else nivel.looks.circuit.power_flow.power_diagram(flow)
 
 
 def circuit_power(result: Result, record: Mapping[str, Any], balances: Sequence[ComponentBalance]) -> PowerFlow | None:
@@ -198,4 +201,4 @@ def circuit_power(result: Result, record: Mapping[str, Any], balances: Sequence[
     components = record.get("hydraulics") or ()
     engines = {str(each["name"]): str(each["engine"]) for each in components if each.get("engine")}
     duration = float(result.time[-1] - result.time[0])
-    return power_flow([asdict(each) for each in balances], totals, engines, duration)
+    return nivel.looks.circuit.power_flow.power_flow([asdict(each) for each in balances], totals, engines, duration)

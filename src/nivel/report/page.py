@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from jinja2 import Environment, FileSystemLoader
+from jinja2 import Environment, FileSystemBytecodeCache, FileSystemLoader
+from jinja2.bccache import Bucket
 
 from nivel import __version__
+from nivel.native.store import folder
 
 HERE: Final = Path(__file__).parent
+
+
+class _Kept(FileSystemBytecodeCache):
+    """Byte code of templates beside the machine code, where there is room for it."""
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        with suppress(OSError):
+            super().dump_bytecode(bucket)
 
 
 def text_of(name: str) -> str:
@@ -22,7 +33,13 @@ def page(
     template: str, styles: tuple[str, ...], filters: Mapping[str, Callable[..., str]] | None = None, **values: Any
 ) -> str:
     """The page of a template with its `values`, the style of all pages and further `styles`; `filters` are those of Jinja."""
-    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment = Environment(
+        loader=FileSystemLoader(HERE),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        bytecode_cache=_Kept(str(folder())),
+    )
     environment.filters.update(filters or {})
     style = "".join(map(text_of, styles))
     return environment.get_template(template).render(

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.files.target import keep_sources, write_file
 from nivel.judge.after.report import thresholds_of
-from nivel.looks.circuit.characteristics import valve_diagram
-from nivel.looks.circuit.drawing import circuit_diagram
+from nivel.lazy import nivel
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
 from nivel.report.beam_shapes import beam_shapes
@@ -31,7 +30,6 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.tornado import headline as slopes_headline
 from nivel.report.tornado import tornados
-from nivel.results.frames.circuit_balance import component_balances, pressures_at
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
 from nivel.view.page import scene_html
@@ -59,7 +57,8 @@ def report_html(result: Result) -> str:
     """The report as text."""
     record = _record(result)
     shown = panels(result)
-    balances = component_balances(result, record)
+    balance_of = nivel.results.frames.circuit_balance.component_balances if record.get("hydraulics") else None
+    balances = balance_of(result, record) if balance_of else []
     motion, motion_left_out = _motion(result)
     return page(
         "page.html.j2",
@@ -89,8 +88,7 @@ def report_html(result: Result) -> str:
         diagram=control_diagram(record),
         balance=balances,
         power=power_picture(result, record, balances),
-        valves=valve_diagram(record) if record.get("hydraulics") else "",
-        circuit=circuit_diagram(record, pressures_at(result, 0) if len(result.time) else {}),
+        **_circuit_pictures(result, record),
         icon=joint_icon,
         panels=shown,
         data=_data(result, shown),
@@ -99,6 +97,15 @@ def report_html(result: Result) -> str:
         source=str(result.attributes.get("machine_source", "")),
         **_bundled(),
     )
+
+
+def _circuit_pictures(result: Result, record: dict[str, Any]) -> dict[str, str]:
+    """The diagram of the circuits, and the curves of their valves."""
+    if not record.get("hydraulics"):
+        return {"circuit": "", "valves": ""}
+    pressures = nivel.results.frames.circuit_balance.pressures_at(result, 0) if len(result.time) else {}
+    diagram = nivel.looks.circuit.drawing.circuit_diagram(record, pressures)
+    return {"circuit": diagram, "valves": nivel.looks.circuit.characteristics.valve_diagram(record)}
 
 
 def _record(result: Result) -> dict[str, Any]:

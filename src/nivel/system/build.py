@@ -44,6 +44,7 @@ from nivel.kernels.signals import sensor
 from nivel.kernels.signals.functions import compute, read_inputs, sample
 from nivel.kernels.signals.watch import MARK
 from nivel.kernels.solve.saddle import SETTLED
+from nivel.lazy import nivel
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression, expression_of
@@ -52,7 +53,6 @@ from nivel.system.beams.beams import add_beam, no_tangent, shared_mass
 from nivel.system.beams.gradient_beams import point_inertia
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
-from nivel.system.circuit_elements import add_circuits, add_components, add_ledger, sensed_and_acting
 from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
@@ -146,20 +146,23 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
     add_couplings(builder, rows)
     add_drivers(builder, rows)
     add_inputs(builder)
-    add_circuits(builder)
+    if machine.hydraulics:
+        nivel.system.circuit_elements.add_circuits(builder)
     add_control(builder)
-    add_components(builder)
+    if machine.hydraulics:
+        nivel.system.circuit_elements.add_components(builder)
     add_states(builder)
     for force in machine.forces:
         _add_force(builder, force)
     for beam in machine.beams:
         add_beam(builder, beam)
-    add_ledger(builder)
+    if machine.hydraulics:
+        nivel.system.circuit_elements.add_ledger(builder)
     for joint in machine.joints:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():
                 builder.coordinate(f"{joint.name}.{name}")
-    sensed, acting = sensed_and_acting(machine)
+    sensed, acting = nivel.system.circuit_elements.sensed_and_acting(machine) if machine.hydraulics else ([], [])
     # what reads or computes signals, each after what it reads; all other elements follow, last what reads their outputs
     builder.elements.order((read_inputs, *sensed, compute, *acting), (friction_work.apply,))
     return builder, rows

@@ -52,8 +52,6 @@ def sensed_and_acting(machine: MachineRecord) -> tuple[list[Family], list[Family
 
 def families_of(machine: MachineRecord) -> list[Family]:
     """The kernels that the circuits of a machine may need, in the order of an evaluation."""
-    if not machine.hydraulics:
-        return []
     kinds = (COMPONENTS[each.type] for each in machine.hydraulics)
     needed = {*OF_NODES, *(family for kind in kinds for family in kind.families)}
     if any(isinstance(fluid, Gas) for fluid in machine.fluids):
@@ -75,23 +73,19 @@ def has_slopes(machine: MachineRecord) -> bool:
 
 def add_circuits(builder: SystemBuilder) -> None:
     """Fluids, nodes and pressures of all circuits of a machine, and its pistons."""
-    if builder.machine.hydraulics:
-        add_fluids(builder)
-        add_nodes(builder)
-        _add_pressures(builder)
-        for component in builder.machine.hydraulics:
-            if (present := COMPONENTS[component.type].present) is not None:
-                with located(f"hydraulics.{component.name}"), builder.noting():
-                    present(builder, component)
+    add_fluids(builder)
+    add_nodes(builder)
+    _add_pressures(builder)
+    for component in builder.machine.hydraulics:
+        if (present := COMPONENTS[component.type].present) is not None:
+            with located(f"hydraulics.{component.name}"), builder.noting():
+                present(builder, component)
 
 
 def add_components(builder: SystemBuilder) -> None:
     """What flows through and acts, after the control that steers it."""
-    components = builder.machine.hydraulics
-    if not components:
-        return
     # positions of valves and torques of pumps before what reads them
-    for component in sorted(components, key=lambda each: COMPONENTS[each.type].last):
+    for component in sorted(builder.machine.hydraulics, key=lambda each: COMPONENTS[each.type].last):
         if (add := COMPONENTS[component.type].add) is not None:
             with located(f"hydraulics.{component.name}"), builder.noting():
                 add(builder, component)
@@ -138,8 +132,6 @@ def _know_late(builder: SystemBuilder, component: Component) -> None:
 
 def add_ledger(builder: SystemBuilder) -> None:
     """Three energies and a mass as states that nothing depends on, behind all other states of the machine."""
-    if not builder.machine.hydraulics:
-        return
     first = builder.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
     states = []
     for name, (units, words) in LEDGER.items():

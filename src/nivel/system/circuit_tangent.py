@@ -31,11 +31,6 @@ STATES: dict[Family, int] = {
 COORDINATES: dict[Family, int] = {pistons.guide: pistons.COORDINATE, rotary.turn: rotary.COORDINATE}
 
 
-def slope_hooks(record: Record) -> int:
-    """How many hooks, the last ones, add slopes of circuits."""
-    return len(record.circuit.tangent.family)
-
-
 def with_circuit_tangent(system: System) -> System:
     """The system with room for the derivatives of its circuits, in relative coordinates."""
     record = system.record

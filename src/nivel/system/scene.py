@@ -39,17 +39,17 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from nivel.elements.circuits.actuators import HydraulicCylinder, TelescopicCylinder
 from nivel.elements.forces import Force
 from nivel.elements.forces.ropes import Rope, first_wheel, way_around
 from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
 from nivel.files.rotors import rotors_of
 from nivel.flexible.body.picture import moving_surface
+from nivel.lazy import nivel
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.colour import digits_of
@@ -69,6 +69,9 @@ from nivel.system.joints.interfaces import marker_place
 from nivel.system.joints.joint_frames import as_placed, slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
+
+if TYPE_CHECKING:
+    from nivel.elements.circuits.actuators import HydraulicCylinder, TelescopicCylinder
 
 WALL: Final = 0.2  # of a cylinder, of its inner radius
 BARREL: Final = 0.92  # length of a barrel, of that of the retracted cylinder
@@ -240,7 +243,8 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
                 out["axis"] = markers.frame[second][:, 2].tolist()
         yield out
     for cylinder in machine.hydraulics:
-        if isinstance(cylinder, HydraulicCylinder | TelescopicCylinder):
+        kinds = nivel.elements.circuits.actuators
+        if isinstance(cylinder, kinds.HydraulicCylinder | kinds.TelescopicCylinder):
             ends = builder.ends(cylinder.ends)
             yield {
                 "name": cylinder.name,
@@ -253,7 +257,7 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
 
 def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
     """Radii of barrel and rod, and length of the barrel [m], as they are drawn."""
-    diameters = cylinder.stages if isinstance(cylinder, TelescopicCylinder) else (cylinder.piston, cylinder.rod)
+    diameters = cylinder.stages if cylinder.type == "telescopic-cylinder" else (cylinder.piston, cylinder.rod)
     thin = diameters[-1] if 0.0 < diameters[-1] < diameters[0] else 0.5 * diameters[0]
     return [0.5 * (1.0 + WALL) * diameters[0], 0.5 * thin, BARREL * cylinder.retracted_length]
 

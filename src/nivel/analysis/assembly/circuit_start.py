@@ -72,8 +72,6 @@ def circuit_start(machine: MachineRecord, motion: MotionEquations, y: Array) -> 
 
     Raises ModelError where a piston stands beyond its stroke, and where an engine has no steady speed.
     """
-    if not machine.hydraulics:
-        return motion.system, y
     y = y.copy()
     motion.evaluate(0.0, y)
     _refuse_strokes(machine, motion.system)

@@ -49,7 +49,6 @@ from nivel.system.beams.tangent import (
     rail_of,
     tangent_tables,
 )
-from nivel.system.circuit_tangent import slope_hooks
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import dual_address
@@ -278,7 +277,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
     twin = dual_twin(record)
     address = np.zeros_like(record.hooks.address)
     # behind the others are motions of joints, and then what adds slopes of circuits, which are real numbers
-    end = len(address) - slope_hooks(record)
+    end = len(address) - len(record.circuit.tangent.family)
     for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS, *range(HOOKS, end)):
         address[hook] = _on_duals(record.hooks.address[hook])
     families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)

@@ -10,7 +10,6 @@ from time import perf_counter
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.log import Listener
-from nivel.elements.circuits.chambers import Actuator
 from nivel.elements.circuits.phase import SLOPES
 from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces import FORCES
@@ -22,7 +21,7 @@ from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.c_function import output as c_output
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.functions import compute, rate_states, read_inputs
-from nivel.lazy import rich
+from nivel.lazy import nivel, rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.joints.joint import JOINT_WORDS
@@ -33,8 +32,6 @@ from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
 from nivel.system.beams.beams import ELASTIC, family_of
 from nivel.system.beams.beams import FAMILIES as BEAMS
-from nivel.system.circuit_elements import families as families_of_circuits
-from nivel.system.circuit_elements import families_of
 from nivel.system.joints.joints import JOINTS
 
 # in these equations every machine is assembled
@@ -145,7 +142,7 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         twins.append(entry_of(RESIDUAL))
     if integrator.needs == "accelerations" and path.dependent:
         modules.append(f"{path.dependent}:depend")
-    slopes = [SLOPES.get(family) for family in families_of(machine)] if integrator.needs == "circuits" else []
+    slopes = [SLOPES.get(family) for family in _of_circuits(machine)] if integrator.needs == "circuits" else []
     own = _motions(machine) if methods.coordinates == "relative" else []
     twins += [motion.twin for motion in own if twins]
     if methods.coordinates == "relative":
@@ -233,7 +230,7 @@ def all_entries() -> list[Entry]:
     families = dict.fromkeys(
         [
             *(each for kind in FORCES.values() for each in kind.families),
-            *families_of_circuits(),
+            *nivel.system.circuit_elements.families(),
             *BEAMS,
             read_inputs,
             compute,
@@ -286,12 +283,16 @@ def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], 
 def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].needed(machine, force))
-    families |= dict.fromkeys(families_of(machine))
+    families |= dict.fromkeys(_of_circuits(machine))
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, rate_states] if machine.control else [rate_states] if machine.states else [])
     families |= dict.fromkeys(_unit_law(block.facts) for block in machine.control if isinstance(block, UnitBlock))
     return [*families, run_expression]
+
+
+def _of_circuits(machine: MachineRecord) -> list[Family]:
+    return nivel.system.circuit_elements.families_of(machine) if machine.hydraulics else []
 
 
 def _unit_law(facts: UnitFacts) -> Family:
@@ -320,7 +321,7 @@ def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
 def _has_surfaces(machine: MachineRecord) -> bool:
     """Whether something may touch: contacts, stops, ends of cylinders."""
     return any(force.type in FOLLOWED or getattr(force, "backlash", 0.0) for force in machine.forces) or any(
-        isinstance(component, Actuator) for component in machine.hydraulics
+        isinstance(component, nivel.elements.circuits.chambers.Actuator) for component in machine.hydraulics
     )
 
 

@@ -9,10 +9,10 @@ from nivel.elements.circuits.component import Component
 from nivel.elements.forces.loads import PointForce, Torque
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.integrate.facts import IntegratorFacts
+from nivel.lazy import nivel
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.laws.time_function import signals_of
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.circuit_elements import has_slopes
 
 MOVING = ("joints", "inputs", "markers", "bodies")  # what signals of the motion are read from
 
@@ -26,7 +26,7 @@ def only_circuits_are_stiff(machine: MachineRecord) -> bool:
         and all(is_soft(machine, each) for each in machine.forces)
         and all(state.update is not None for state in machine.states)
         and all(part.role != "state" for block in machine.control for part in block.parts)
-        and has_slopes(machine)
+        and nivel.system.circuit_elements.has_slopes(machine)
         and all(_waits(machine, path) for component in machine.hydraulics for path in _signals(component))
     )
 

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.assemble import Assembly, assemble
 from nivel.analysis.assembly.branches import both_assemblies
-from nivel.analysis.assembly.circuit_start import circuit_start
 from nivel.analysis.assembly.equations import MotionEquations, equations
 from nivel.analysis.assembly.exact_joints import exact_joints
 from nivel.analysis.assembly.freedoms import touches_ground
@@ -39,7 +38,6 @@ from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system.circuit_tangent import with_circuit_tangent
 from nivel.system.elimination.partition import DIRECTIONS, PARAMETERS, refuse_dependent
 from nivel.system.system import Array, System
 
@@ -147,7 +145,9 @@ def prepare(
     refuse(uncertain_loads(machine, redundancy, partial(_exactly_constrained, machine, motion, assembly.y, redundancy)))
     refuse(deep_starts(machine, absolute, assembly.y))
     motion.system.record.coordinates.reference[:] = assembly.reference
-    system, y = circuit_start(machine, absolute, assembly.y)
+    system, y = absolute.system, assembly.y
+    if machine.hydraulics:
+        system, y = nivel.analysis.assembly.circuit_start.circuit_start(machine, absolute, y)
     assembly = replace(assembly, y=y)
     motion = replace(motion, system=replace(motion.system, states=system.states))
     absolute = replace(absolute, system=system)
@@ -162,7 +162,7 @@ def prepare(
         ways = PARAMETERS if system.equations.normalisation else DIRECTIONS
         refuse_dependent(prepared.system.record.partition, wanted, system.bodies, ways)
     if integrator.needs == "circuits":
-        prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
+        prepared = replace(prepared, system=nivel.system.circuit_tangent.with_circuit_tangent(prepared.system))
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, residual or _wanted(prepared, y, methods), path)
     return Prepared(

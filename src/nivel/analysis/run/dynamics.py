@@ -271,6 +271,7 @@ def march_in_chunks(
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
+    since = 0.0  # [s] in the loop since frames were given: a block of few frames costs sinks what one of many does
     with interruptible() as interrupted:
         while status in GOES_ON:
             if pacing is not None and not pacing.before(run):
@@ -283,6 +284,7 @@ def march_in_chunks(
             status = advance()
             spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
+            since += spent
             cut = probes is not None and probes.is_due(run)
             if chunk_steps is None and status == BUDGET_SPENT and not cut:
                 budget = _next_budget(budget, spent)
@@ -296,7 +298,9 @@ def march_in_chunks(
                     status = BUDGET_SPENT
                     continue
                 give_held(narrow, run, system, sinks, finished, goes_on=status in (*GOES_ON, STIFF))
-            give_frames(run, sinks)
+            if since >= CHUNK or status != BUDGET_SPENT or narrow is not None or chunk_steps is not None:
+                give_frames(run, sinks)
+                since = 0.0
             if probes is not None and status == BUDGET_SPENT:
                 probes.look(run)
             finished.events += taken_events(run, system.events)
@@ -309,6 +313,8 @@ def march_in_chunks(
             if status in GOES_ON and interrupted():
                 finished.outcome = "interrupted"
                 break
+        if narrow is None:
+            give_frames(run, sinks)
         finished.asked_to_stop = interrupted()
     return status, loop_seconds
 

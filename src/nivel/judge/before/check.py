@@ -33,7 +33,6 @@ from nivel.kernels.core.status import OK
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.circuit_elements import without_slopes
 from nivel.system.flexible import bending_bodies
 from nivel.system.joints.joints import JOINTS, composition_of
 from nivel.system.states.relative import tree_of
@@ -356,7 +355,7 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
 
 def _without_slopes(machine: MachineRecord) -> Iterator[str]:
     """What it costs that derivatives of some components are not known by hand."""
-    if without := without_slopes(machine):
+    if without := nivel.system.circuit_elements.without_slopes(machine):
         names = ", ".join(f"{each.name} ({each.type})" for each in without)
         has = "has" if len(without) == 1 else "have"
         yield (

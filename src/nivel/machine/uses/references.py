@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final
 
+from nivel.lazy import nivel
 from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
@@ -16,7 +17,6 @@ from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, 
 from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, unknown_name
 from nivel.machine.uses.coordinate_uses import coordinate_faults
-from nivel.machine.uses.hydraulic_uses import hydraulic_faults
 
 __all__ = ["SECTIONS", "reference_faults"]
 
@@ -61,7 +61,8 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _of_sensor(sensor, index, ("sensors", at))
     for at, block in enumerate(elements(machine, "control")):
         yield from symbol_faults(block, ("control", at), index, parameters or {}, CONTROL_KEYS)
-    yield from hydraulic_faults(machine, index, parameters or {})
+    if elements(machine, "hydraulics"):
+        yield from nivel.machine.uses.hydraulic_uses.hydraulic_faults(machine, index, parameters or {})
     for at, component in enumerate(elements(machine, "hydraulics")):
         yield from _of_pair(component, index, ("hydraulics", at), "a cylinder needs two different bodies")
     for at, coupling in enumerate(elements(machine, "couplings")):

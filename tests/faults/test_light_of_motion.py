@@ -101,6 +101,20 @@ def test_a_driver_that_moves_its_body_to_its_law_is_green_and_said():
     assert "block was moved by 0.5 m" in line.text
 
 
+@pytest.mark.parametrize("verify", [True, False])
+def test_the_error_of_the_balance_is_a_share_of_the_work_to_and_fro(verify):
+    """A motor with the force m x₀ ω² cos ω t: its work is m (x₀ ω)²/2 sin² ω t, twice that in each of 2 ω T/2π half periods."""
+    sections, omega, cycles = slide(0), 2.0 * np.pi * 2.0, 20
+    sections["forces"] = {
+        "shake": {"type": "motor", "coordinate": "rail", "effort": f"10*0.1*({omega!r})^2*cos({omega!r}*time)"}
+    }
+    run = {"duration": cycles * 0.5, "integrator": "rk4", "step": 1e-3, "output_interval": 5e-3}
+    result = machine({**sections, "simulation": run}).simulate(verify=verify)
+    kinetic = 0.5 * 10.0 * (0.1 * omega) ** 2
+    assert result.trust.energy_scale == pytest.approx(kinetic * (4 * cycles if verify else 1), rel=1e-3)
+    assert result.trust.verdict == "green"
+
+
 def test_what_had_no_part_in_a_run_is_said():
     """A block that 60 N do not move, an event that is never met, an input that nothing reads."""
     sections = slide(60)

@@ -25,11 +25,11 @@ OPENING_WORK = 1e5  # times the work of the loads over what closed joints are op
 POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
 
 RULES = {
-    "energy_scale": "the largest of: the kinetic energy, the change of potential energy, the work of external forces, the dissipated "
-    "energy. For a machine at rest the scale has lower limits: 1e-9 of the largest potential energy; 1e-9 (or the tolerance, at rest with "
-    "chosen steps) of the largest load, without dampers, and the weight, times the size, and of the kinetic energy of moving by the size "
-    "during the run; 1e5 times the work of these loads over the opening of the joints, if this is at most 1e-12 of the size. There is no "
-    "fixed number of joules: if all energies are zero, an error of zero is the fraction zero",
+    "energy_scale": "the largest of: the kinetic energy, the change of potential energy, the work of external forces (in a verified run "
+    "what goes in and comes out), the dissipated energy. For a machine at rest the scale has lower limits: 1e-9 of the largest potential "
+    "energy; 1e-9 (or the tolerance, at rest with chosen steps) of the largest load, without dampers, and the weight, times the size, and "
+    "of the kinetic energy of moving by the size during the run; 1e5 times the work of these loads over the opening of the joints, if this "
+    "is at most 1e-12 of the size. There is no fixed number of joules: if all energies are zero, an error of zero is the fraction zero",
     "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
     "If all of them are one point, the larger of: the diagonal of the box around its path, and twice the largest radius of gyration. If "
     "both are missing (a point mass, or one that moves by less than 1e-9 of what its loads would move it), 1 m by convention. "
@@ -185,6 +185,13 @@ def largest_energy(result: Readable, size: float, opening: float = 0.0, at_rest:
     ]
     kind, value = max(candidates, key=lambda each: each[1])
     return value, kind
+
+
+def work_to_and_fro(result: Readable) -> float:
+    """The work of external forces [J] that went into the machine and out of it, as far as frames show it."""
+    if "external_work" not in result.variables:
+        return 0.0
+    return float(np.nansum(np.abs(np.diff(result.array("external_work")))))
 
 
 def largest_mechanical_energy(result: Readable) -> float:

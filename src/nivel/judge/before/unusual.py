@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any, Final
 
@@ -40,6 +40,17 @@ HOLLOW: Final = 0.9
 # Bodies of machines are shorter [m] and lighter [kg].
 LONGEST: Final = 100.0
 HEAVIEST: Final = 1e6
+# Keys that act by another one alone, in all kinds that have both.
+_EFFICIENCIES: Final = ("volumetric_efficiency", "mechanical_efficiency")
+BELONGS_TO: Final = {
+    "critical_ratio": ("sonic_conductance",),
+    "damping_ratio": ("frequency",),
+    "discharge_coefficient": ("diameter", "area", "notches"),
+    "friction_model": ("friction",),
+    "friction_transition_speed": ("friction",),
+    "nominal_pressure": _EFFICIENCIES,
+    "nominal_speed": _EFFICIENCIES,
+}
 
 # Ropes of steel break at 1 to 3 % of strain, those of fibres at 3 to 30 %, and work at less than half of it.
 STRAIN: Final = 0.1
@@ -65,6 +76,29 @@ def remarks(machine: MachineRecord) -> Iterator[Finding]:
     if machine.hydraulics:
         yield from nivel.judge.before.circuits.circuit_remarks(machine.hydraulics)
     yield from _unread(machine)
+    for section in SECTIONS:
+        for element in getattr(machine, section):
+            yield from _idle(element, f"{section}.{element.name}")
+
+
+def _idle(element: Record, place: str) -> Iterator[Finding]:
+    """Keys that were given and have no effect, since what they belong to was not."""
+    fields, given = type(element).model_fields, element.model_fields_set
+    for key in given & BELONGS_TO.keys():
+        others = [each for each in BELONGS_TO[key] if each in fields]
+        if others and given.isdisjoint(others):
+            message = f"`{key}` has no effect without {' or '.join(f'`{each}`' for each in others)}; leave it out"
+            yield Finding(f"{place}.{key}", message)
+    if getattr(element, "type", "") == "rate-limit" and {"time_constant", "sample_time"} <= given:
+        yield Finding(f"{place}.time_constant", "`time_constant` has no effect with a `sample_time`; leave it out")
+    for name in given:
+        value = getattr(element, name)
+        held = (
+            value.items() if isinstance(value, Mapping) else enumerate(value if isinstance(value, tuple) else (value,))
+        )
+        for at, each in held:
+            if isinstance(each, Record):
+                yield from _idle(each, f"{place}.{name}" if each is value else f"{place}.{name}.{at}")
 
 
 def _unread(machine: MachineRecord) -> Iterator[Finding]:

@@ -24,6 +24,7 @@ from nivel.results.scales import (
     largest_energy,
     largest_mechanical_energy,
     speed_of_rest,
+    work_to_and_fro,
 )
 from nivel.results.trust import Item, Threshold, number, quantity
 
@@ -77,6 +78,8 @@ def look_at_balance(run: Motion) -> Energy:
     slowest = speed_of_rest(result, scales.size)
     if run.kinetic_energy > max(scale, kinetic_energy_of_rest(result, slowest)):
         scale, kind = run.kinetic_energy, "largest kinetic energy"
+    if isinstance(run, Run) and run.second is not None and scale < (passed := work_to_and_fro(result)) < math.inf:
+        scale, kind = passed, "work of external forces to and fro"
     found = None if error.value < BALANCE.green * scale else unresolved_force(result, error.value)
     if found is None:
         return Energy(error.value, error.time, scale, kind)

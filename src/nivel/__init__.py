@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from nivel.api import load as load
     from nivel.api import open_result as open_result
     from nivel.api import sweep as sweep
+    from nivel.elements import circuits as hydraulics
+    from nivel.elements import control as control
+    from nivel.elements import forces as forces
     from nivel.elements.forces.actuators import Motor as Motor
     from nivel.elements.forces.actuators import Servo as Servo
     from nivel.elements.forces.actuators import Stop as Stop
@@ -136,6 +139,13 @@ _HOME = {
     "load_study": "nivel.studies",
 }
 
+# rooms of records: forces, components of circuits, blocks of the control
+_ROOMS = {
+    "control": "nivel.elements.control",
+    "forces": "nivel.elements.forces",
+    "hydraulics": "nivel.elements.circuits",
+}
+
 __all__ = [
     "AssemblySettings",
     "Baumgarte",
@@ -187,6 +197,10 @@ __all__ = [
     "Torque",
     "TorsionalSpringDamper",
     "TransmissionLoss",
+    "control",
+    "export_page",
+    "forces",
+    "hydraulics",
     "import_model",
     "load",
     "load_study",
@@ -213,9 +227,23 @@ provide(
 
 
 def __getattr__(name: str) -> Any:
+    if name in _ROOMS:
+        return import_module(_ROOMS[name])
     if name not in _HOME:
-        raise AttributeError(f"module 'nivel' has no attribute '{name}'", name=name, obj=sys.modules[__name__])
+        hint = _hint(name) if name[:1].isupper() else ""
+        raise AttributeError(f"module 'nivel' has no attribute '{name}'{hint}", name=name, obj=sys.modules[__name__])
     return getattr(import_module(_HOME[name]), name)
+
+
+def _hint(name: str) -> str:
+    """Where a record stands that `nivel` itself does not have; the records of all forces for `Force`, and so on."""
+    for room, kind in (("forces", "Force"), ("hydraulics", "Component"), ("control", "Block")):
+        records = dir(__getattr__(room))
+        if name in records:
+            return f"; write `nivel.{room}.{name}`"
+        if name == kind:
+            return f"; there are, in `nivel.{room}`, {', '.join(records)}"
+    return ""
 
 
 def __dir__() -> list[str]:

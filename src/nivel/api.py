@@ -118,6 +118,8 @@ class Machine(Model):
         assembly: AssemblySettings | Mapping[str, Any] | None = None,
         simulation: SimulationSettings | Mapping[str, Any] | None = None,
         description: str = "",
+        surroundings: Sequence[Any] = (),
+        left_out: Sequence[str] = (),
     ) -> None:
         sections = {
             "bodies": bodies,
@@ -134,6 +136,8 @@ class Machine(Model):
             "control": control,
             "sensors": sensors,
             "events": events,
+            "surroundings": surroundings,
+            "left_out": left_out,
         }
         given: dict[str, Any] = {section: tuple(records) for section, records in sections.items()}
         given |= {} if assembly is None else {"assembly": assembly}

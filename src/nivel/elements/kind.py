@@ -104,6 +104,23 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
         """The records of all kinds."""
         return [kind.record for kind in self.values()]
 
+    def record_named(self, name: str) -> Any:
+        """The record whose class has this name: an attribute of its room. Raises AttributeError with all names."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        for module, file in self._files.items():
+            if f"class {name}(" in file.read_text("utf-8"):
+                return getattr(import_module(module), name)
+        records = {record.__name__: record for record in self.records}
+        if name not in records:
+            raise AttributeError(f"no {self._noun} `{name}`; there are {', '.join(sorted(records))}", name=name)
+        return records[name]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the classes of all records."""
+        return [record.__name__ for record in self.records]
+
     def register(self, kind: KindT) -> None:
         """Let machines have a kind that is not of the package. Raises ValueError where its word is taken."""
         if kind.type in self:

@@ -39,13 +39,16 @@ def _signals(component: Component) -> Iterator[str]:
 
 def _waits(machine: MachineRecord, path: str) -> bool:
     """Whether a signal follows the time, samples or the motion: what acts on a circuit is not back within a step."""
-    symbol = find_symbol(path, machine)
-    if symbol.section != "control":
-        return symbol.section in (*MOVING, "states")
-    block = next(each for each in machine.control if each.name == symbol.name)
-    present = [part.function for part in block.parts if part.role == "signal"]
-    inner = [each for function in present if not isinstance(function, float | int) for each in function.signals]
-    return all(_waits(machine, each) for each in inner)
+    blocks, open_paths = {block.name: block for block in machine.control}, [path]
+    while open_paths:
+        symbol = find_symbol(open_paths.pop(), machine)
+        if symbol.section != "control" and symbol.section not in (*MOVING, "states"):
+            return False
+        # blocks may follow each other, and their own parts: each is looked at once
+        if symbol.section == "control" and (block := blocks.pop(symbol.name, None)) is not None:
+            present = [part.function for part in block.parts if part.role == "signal"]
+            open_paths += [each for function in present for each in signals_of(function)]
+    return True
 
 
 def only_modes_are_stiff(machine: MachineRecord) -> bool:

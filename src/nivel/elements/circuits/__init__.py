@@ -1,6 +1,6 @@
 """Components of hydraulic and pneumatic circuits, a file for each family of kinds."""
 
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.kind import ComponentKind
@@ -18,3 +18,11 @@ def record_of(word: object) -> type[Component] | None:
     """The record of components of a type; None where there are none."""
     kind = COMPONENTS.get(str(word))
     return None if kind is None else kind.record
+
+
+def __getattr__(name: str) -> type[Any]:
+    return COMPONENTS.record_named(name)
+
+
+def __dir__() -> list[str]:
+    return sorted(COMPONENTS.names)

@@ -1,6 +1,6 @@
 """Control: blocks that compute signals, continuous or sampled."""
 
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from nivel.elements.kind import Kind, Kinds, OneOf
 from nivel.machine.control.block import Block
@@ -11,3 +11,11 @@ if TYPE_CHECKING:
     ControlBlock = Block
 else:
     ControlBlock = Annotated[Block, OneOf(BLOCKS)]
+
+
+def __getattr__(name: str) -> type[Any]:
+    return BLOCKS.record_named(name)
+
+
+def __dir__() -> list[str]:
+    return sorted(BLOCKS.names)

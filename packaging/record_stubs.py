@@ -1,0 +1,34 @@
+"""Stubs of the rooms of records, so that editors and type checkers know every record: `nivel.hydraulics.Pump`."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Final
+
+from nivel.elements.circuits import COMPONENTS
+from nivel.elements.control import BLOCKS
+from nivel.elements.forces import FORCES
+
+ROOMS: Final = {"forces": FORCES, "circuits": COMPONENTS, "control": BLOCKS}
+OTHERS: Final = {"circuits": ("Fluid", "Gas")}  # records of rooms that are no kinds of an element
+HEAD: Final = """# Written by `python packaging/write_settings.py` from the records. Do not edit.
+# fmt: off
+# ruff: noqa
+"""
+
+
+def stub(room: str) -> str:
+    """The text of `nivel/elements/ROOM/__init__.pyi`: what its module says, and its records."""
+    module = import_module(f"nivel.elements.{room}")
+    source = Path(str(module.__file__)).read_text(encoding="utf-8").partition("\n\ndef __getattr__")[0]
+    records = [*ROOMS[room].records, *(getattr(module, name) for name in OTHERS.get(room, ()))]
+    lines = sorted(f"from {record.__module__} import {record.__name__} as {record.__name__}" for record in records)
+    return "\n".join((HEAD + source.rstrip(), "", *lines, ""))
+
+
+def write_stubs() -> None:
+    """Write the stubs of all rooms."""
+    for room in ROOMS:
+        module = import_module(f"nivel.elements.{room}")
+        Path(str(module.__file__)).with_suffix(".pyi").write_text(stub(room), encoding="utf-8")

@@ -15,6 +15,7 @@ OTHERS: Final = {"circuits": ("Fluid", "Gas")}  # records of rooms that are no k
 HEAD: Final = """# Written by `python packaging/write_settings.py` from the records. Do not edit.
 # fmt: off
 # ruff: noqa
+# pyright: reportOptionalMemberAccess=false
 """
 
 

@@ -1,4 +1,4 @@
-"""What a machine file says, Python says: every record is an attribute of `nivel` or of one of its rooms, and makes the same machine."""
+"""Records in Python: each is an attribute of `nivel` or of one of its rooms, and together they make the machine that a file says."""
 
 import inspect
 import sys

@@ -1,6 +1,7 @@
 # Written by `python packaging/write_settings.py` from the records. Do not edit.
 # fmt: off
 # ruff: noqa
+# pyright: reportOptionalMemberAccess=false
 """Components of hydraulic and pneumatic circuits, a file for each family of kinds."""
 
 from typing import TYPE_CHECKING, Annotated, Any, Final

@@ -1,6 +1,7 @@
 # Written by `python packaging/write_settings.py` from the records. Do not edit.
 # fmt: off
 # ruff: noqa
+# pyright: reportOptionalMemberAccess=false
 """Control: blocks that compute signals, continuous or sampled."""
 
 from typing import TYPE_CHECKING, Annotated, Any, Final

@@ -1,6 +1,7 @@
 # Written by `python packaging/write_settings.py` from the records. Do not edit.
 # fmt: off
 # ruff: noqa
+# pyright: reportOptionalMemberAccess=false
 """Forces: what loads bodies by their state, by time or by signals, without taking a freedom away."""
 
 from typing import TYPE_CHECKING, Annotated, Any, Final

@@ -1,4 +1,4 @@
-"""What is made late: modules that are imported when one of their names is first used, the only place of such imports, functions of rooms
+"""Late making: modules that are imported when one of their names is first used, the only place of such imports, functions of rooms
 above, and the methods of dataclasses.
 
 A function that needs a heavy or optional module, or one that few runs need, writes its name in full, `scipy.linalg.expm(A)`, with

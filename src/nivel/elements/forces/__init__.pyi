@@ -40,5 +40,6 @@ from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
 from nivel.elements.forces.springs import SpringDamper as SpringDamper
 from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
+from nivel.elements.forces.tyre import Tyre as Tyre
 from nivel.machine.forces.contact import Contact as Contact
 from nivel.machine.forces.contacts import Contacts as Contacts

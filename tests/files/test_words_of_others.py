@@ -106,7 +106,7 @@ MISTAKES = {
         "`angle` of a revolute",
     ),
     "joint of markers i and j": ("bodies: [ground, rod]", "i: a, j: b", 10, "write `bodies: [FIRST, SECOND]`"),
-    "tyre": ("type: force", "type: tyre", 12, "`{type: rolling, …}`"),
+    "tyre": ("type: force", "type: pacejka", 12, "`{type: rolling, …}`"),
     "STEP(TIME, …)": (
         "vector: [1, 0, 0]",
         "vector: ['STEP(TIME, 0, 0, 1, 1)', 0, 0]",

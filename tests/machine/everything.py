@@ -418,7 +418,7 @@ EVERYTHING = {
             "friction_work": True,
             "surface_velocity": ["0.1*time", "1 mm/s", 0],
             "surface_spin": "2 rpm",
-            "heights": {"size": ["4 m", 2], "function": "0.1*x^2", "points": [5, 3]},
+            "heights": {"size": ["4 m", 2], "function": "0.1*x^2", "points": [5, 3], "roughness": "C", "seed": 2},
         },
         {
             "name": "helper",
@@ -451,7 +451,8 @@ EVERYTHING = {
             "trail": [0.17, 0.18],
             "trail_zero": [0.2, 0.21],
             "trail_end": [0.3, 0.4],
-            "grip": 0.9,
+            "heights": {"size": [4, 2], "roughness": "A"},
+            "grip": "if(y > 1, 0.3, 0.9)",
             "rolling_resistance": 0.015,
             "rolling_share": 0.4,
         },

@@ -283,6 +283,7 @@ CASES = {
                                       more={"inputs": {"lever": LEVER}}),
     "tyre": Case(TYRE, ("c", "", [-0.5, 0.9, 0.1]), True),
     "tyre on a body": Case({**TYRE, "plane": "eye", "grip": 0.5}, ("c", "b", [0.05, 0.02, 0.15]), True),
+    "tyre on heights": Case({**TYRE, "heights": HILLS, "grip": "0.6 + 0.3*sin(x + 2*y + time)"}, ("c", "", [-0.5, 0.9, 0.4]), True),
     "tyre, off the ground": Case(TYRE, ("c", "", [-0.5, 0.9, 1.4]), False),
     "hand": Case({"type": "hand", "pull": "0.8 + 0.1*time", "body_number": 1, "point": [0.1, -0.2, 0.3], "towards": ["time", 1, "tip.x"]}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),

@@ -137,6 +137,10 @@ def _contact(force: Contact, scene: Scene) -> Changes:
 
 
 def _tyre(force: Tyre, scene: Scene) -> Changes:
+    if force.heights is not None and scene.placement.mirrored:
+        raise NotRepresentableError("ground with `heights` cannot be mirrored; write the mirrored heights out")
+    if isinstance(force.grip, _FUNCTIONS) and scene.placement.turns:
+        raise NotRepresentableError("a tyre whose `grip` is a function in a rotated part is not supported")
     return {"wheel": scene.end(force.wheel), "plane": scene.end(force.plane, POLAR_Z)}
 
 

@@ -152,16 +152,17 @@ def _belts(machine: MachineRecord) -> Iterator[dict[str, Any]]:
 
 def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:
     """Ground whose height varies, as a mesh, and the body that it belongs to; the same ground of several contacts once."""
-    contacts = [each for each in machine.forces if isinstance(each, Contact) and each.heights is not None]
+    contacts = [each for each in machine.forces if getattr(each, "heights", None) is not None]
     if not contacts:
         return
     drawn: set[tuple[str, str]] = set()
     builder = SystemBuilder(machine)
     names = [*(body.name for body in machine.bodies), "ground"]
     for force in contacts:
-        if force.heights is not None and force.plane is not None:
-            m, markers = builder.end(force.plane), builder.markers
-            vertices, triangles = ground_surface(force.heights)
+        plane, heights = getattr(force, "plane", None), getattr(force, "heights", None)
+        if heights is not None and plane is not None:
+            m, markers = builder.end(plane), builder.markers
+            vertices, triangles = ground_surface(heights)
             surface = surface_text(vertices @ markers.frame[m].T + markers.position[m], triangles)
             name = names[markers.body[m]]
             if (name, surface) not in drawn:

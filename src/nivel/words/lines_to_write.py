@@ -142,10 +142,10 @@ LINES: Final = (
         "a function of arguments is written in one line: `functions: {NAME(x): 2*x + 1}`",
     ),
     Line(
-        "tyre, tire, magic formula, pacejka",
+        "tire, magic formula, pacejka, tmeasy",
         "spring-damper",
-        "there is no tyre; a wheel that does not slip is a joint, `{type: rolling, …}`; one that may bounce and slide touches a plane, "
-        "`{type: contact, body: BODY, plane: MARKER, stiffness: 2e5, exponent: 1, restitution: 0.5}`",
+        "a tyre is `{type: tyre, wheel: MARKER, plane: MARKER, radius: 0.3, width: 0.2, nominal_load: 4e3}`; a wheel that does not slip "
+        "is a joint, `{type: rolling, …}`",
     ),
     Line(
         "aerodynamic, aero, drag, lift, wind, magnetic, user, user force, custom, electrostatic, sfosub",

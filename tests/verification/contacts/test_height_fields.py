@@ -164,7 +164,7 @@ def test_heights_of_files(tmp_path):
         (b"", "values: [[1, 2, 3], [1, 2, 3], [1, 2, 3]], unit: 1 mm", "`unit` is the length of one unit of a `file`"),
         (b"1,2,3\n1,2,3\n1,2,3\n", "file: ground.csv, points: [5, 5]", "`points` belongs to a `function`"),
         (b"", "function: 0.1*x, points: 41", "write `points: [41, 41]`"),
-        (b"", "unit: 1 m", "`values`, a `file` or a `function` must be given"),
+        (b"", "unit: 1 m", "`values`, a `file`, a `function` or a `roughness` must be given"),
     ],
 )
 def test_what_is_wrong_with_heights_is_said(tmp_path, content, given, said):

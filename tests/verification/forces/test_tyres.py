@@ -10,6 +10,7 @@ from scipy.linalg import expm
 import nivel
 from nivel.elements.forces.tyre import ACROSS, ALONG, CARCASS_TIME, SOFTER, TyreRow, fluidities, over_slip
 from nivel.errors import SolveError
+from nivel.machine.forces.height_field import HeightField
 from simulating import G, machine
 
 P, R, C, W = 4e3, 0.315, 190e3, 0.195
@@ -51,7 +52,7 @@ def test_curves_go_through_their_points_without_corners():
 def numbers():
     """The row of the guessed tyre."""
     row = TyreRow(output=0, wheel=0, plane=0, stretch=[0] * 4, radius=R, width=W, load=P, c=C, d=400.0, cx=1e5, dx=400.0, cy=1e5,
-                  dy=400.0, grip=1.0, rolling=0.0, rolling_share=0.375, trail=[0.1] * 6,
+                  dy=400.0, friction=0, rolling=0.0, rolling_share=0.375, trail=[0.1] * 6,
                   along=[v * (P if "slip" not in k else 1) for k, pair in ALONG.items() for v in pair],
                   across=[v * (P if "slip" not in k else 1) for k, pair in ACROSS.items() for v in pair])  # fmt: skip
     return np.array(row.numbers)
@@ -70,8 +71,11 @@ def test_slips_together_have_the_ellipse_of_peaks_and_slide_along_their_velocity
         assert fluidities(n, 1.0, 0.1, v, none) == pytest.approx((1.0 / x[4], 1.0 / y[4]), rel=1e-13)
 
 
-def sled(turn=0.0, gravity=(0, 0, -G), locked=True, speed=0.0, rolling=0.0, forces=None, mass=1600.0, **simulation):
+def sled(
+    turn=0.0, gravity=(0, 0, -G), locked=True, speed=0.0, rolling=0.0, forces=None, heights=None, grip=1.0, **simulation
+):
     """A body on four tyres at its corners, its centre of mass on the road: no load is transferred. Locked wheels are one with it."""
+    mass = 1600.0
     sag = mass / 4 * -gravity[2] / C
     r = R - (1 - 0.375 * sag * C / P) * sag
     bodies, joints, markers, tyres = {}, {}, {"road": {"body": "ground", "axis": [0, 0, 1]}}, {}
@@ -85,7 +89,9 @@ def sled(turn=0.0, gravity=(0, 0, -G), locked=True, speed=0.0, rolling=0.0, forc
                                "angular_velocity": [0, speed / r, 0]}  # fmt: skip
             joints[f"j{k}"] = {"type": "revolute", "bodies": ["sled", f"w{k}"], "point": at, "axis": axle}
             markers[f"m{k}"] = {"body": f"w{k}", "axis": axle}
-        tyres[f"t{k}"] = {**TYRE, "wheel": f"m{k}", "rolling_resistance": rolling}
+        tyres[f"t{k}"] = {**TYRE, "wheel": f"m{k}", "rolling_resistance": rolling, "grip": grip}
+        if heights is not None:
+            tyres[f"t{k}"]["heights"] = heights
     bodies["sled"] = {"mass": mass, "inertia": [900.0, 900.0, 1500.0], "velocity": [speed, 0, 0]}
     return machine({"gravity": list(gravity), "bodies": bodies, "joints": joints, "markers": markers,
                     "forces": {**tyres, **(forces or {})}, "simulation": {"step": 1e-3, **simulation}})  # fmt: skip
@@ -163,6 +169,48 @@ def test_a_car_that_steers_to_the_other_side_moves_in_the_mirror():
     one, other = left.array("position")[:, 0], right.array("position")[:, 0]
     assert np.abs(one[:, 1]).max() > 0.5
     np.testing.assert_allclose(one * [1, -1, 1], other, atol=1e-9)
+
+
+def test_a_road_has_the_spectrum_of_its_class_and_another_seed_another_road():
+    """Mean over lines of the one-sided spectrum: G₀ (n/n₀)⁻², 256e-6 m³ of class C at 0.1 cycles/m (ISO 8608:1995, table C.1)."""
+    made = {
+        seed: HeightField(size=(100.0, 4.0), points=(2001, 41), roughness="C", seed=seed).heights for seed in (1, 2)
+    }
+    step = 100.0 / 2000
+    power = 2.0 * np.mean(np.abs(np.fft.rfft(made[1], axis=1)) ** 2, axis=0) * step / 2001
+    n = np.fft.rfftfreq(2001, step)
+    there = n > 0.011
+    # half of the lines that repeat: their mean varies by chance, and not its mean over the waves
+    share = power[there] / (256e-6 * (n[there] / 0.1) ** -2.0)
+    assert np.mean(share) == pytest.approx(1.0, abs=0.05)
+    assert np.abs(made[1] - made[2]).max() > 0.01
+    # slopes of lines beside each other are alike, and not those of both sides of the road
+    slopes = np.diff(made[1], axis=1)
+    near, far = (np.mean(slopes[0] * slopes[k]) / np.mean(slopes[0] ** 2) for k in (1, 40))
+    assert near > 0.3
+    assert abs(far) < 0.1
+
+
+def test_on_heights_energy_is_kept_and_on_a_ramp_of_heights_the_tyre_is_that_of_the_ramp():
+    hills = {"size": [60.0, 20.0], "function": "0.04*sin(0.8*x)*cos(0.5*y)", "points": [241, 81]}
+    run = sled(locked=False, speed=8.0, duration=3.0, heights=hills).simulate(verify=False)
+    assert np.ptp(run.array("position")[:, -1, 2]) > 0.05
+    assert np.abs(run.array("energy_error")).max() < 1e-6 * 0.5 * 1600.0 * 64.0
+    flat, ramp = (
+        sled(gravity=slope(0.1), duration=1.0, **more).simulate(verify=False).array("position")[-1, 0]
+        for more in ({}, {"heights": {"size": [50.0, 50.0], "values": [[0.0] * 3] * 3}})
+    )
+    np.testing.assert_allclose(flat, ramp, atol=1e-12)
+
+
+def test_wheels_on_ice_slide_where_it_lies():
+    """Grip 0.2 for y > 0: the retarding force of both sides, and the yaw that splits them."""
+    run = sled(speed=10.0, duration=0.5, grip="if(y > 0, 0.2, 1)").simulate(verify=False)
+    q = 1600.0 * G / 4 / P
+    forces = [np.abs(run.array(f"force.t{k}.longitudinal")[-1]) for k in range(4)]
+    assert forces[0] < 0.25 * forces[1]
+    assert forces[1] == pytest.approx(curve(ALONG, q)[4], rel=0.05)
+    assert run.array("angular_velocity")[-1, 0, 2] < -0.1
 
 
 SIDE, FRONT, REAR, YAW, SPEED, STEERED = 1600.0, 1.2, -1.5, 2000.0, 20.0, 2e-4  # kg, m, m, kg m², m/s, rad

@@ -161,7 +161,7 @@ def run_entries(plan: Plan) -> list[Entry]:
     """What a run takes."""
     methods = plan.methods
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
-    if any(getattr(force, "heights", None) is not None for force in methods.machine.forces):
+    if any(force.type == "contact" and force.heights is not None for force in methods.machine.forces):
         modules.append(HEIGHT_WAY)
     path = methods.path
     if methods.machine.is_flexible:

@@ -35,15 +35,20 @@ from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, 
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus
+from nivel.kernels.forces.height_field import numbers_of, surface
 from nivel.kernels.forces.wrench import add_force_at, add_torque
+from nivel.kernels.record import function
+from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
-from nivel.kernels.record.record import record_at
+from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.placement import marker_frame
+from nivel.machine.forces.height_field import HeightField
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
+from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength, Quantity, listed
 from nivel.native.function import leaf
 
@@ -53,6 +58,7 @@ if TYPE_CHECKING:
 
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
 PositiveDamping = Annotated[OneNumber, Quantity("damping", positive=True)]
+Grip = Annotated[OneFunction, varying("number", local=("x", "y"))]
 TwoForces = Annotated[TwoNumbers[PositiveForce], BeforeValidator(listed)]
 TwoShares = Annotated[TwoNumbers[PositiveNumber], BeforeValidator(listed)]
 
@@ -63,8 +69,11 @@ STICKS, SLIDES, SLOW = (
     0.1,
 )  # shares of the sliding force, and a speed [m/s], between which a bristle is elastic and slides
 ROLLED, ROLL_TIME = 0.01, 0.05  # [m] of rolling that stretch the rolling resistance, and d/c of it [s]
+LEAST_GRIP = 1e-3
 MOST_LOAD, LEAST_LOAD = 3.0, 1e-6  # of the nominal load: curves end there, and a tyre with less has left the ground
 SKEW = 0.2  # sine of the angle between axle and joint beyond which one of them is taken for a slip
+TOUCHES = 4  # times that the place of the patch on heights is sought
+NEAR = 0.1  # of the radius, from the middle of the patch to where heights are taken before and behind it
 FLAT = 0.1  # cosine of camber of a wheel that lies rather than rolls
 # A guess by the nominal load P: the passenger-car tyre of Rill 2012, 3.5, at P and 2 P; forces by P, its carcass by the vertical stiffness
 ALONG = {
@@ -143,6 +152,8 @@ class Tyre(ForceElement):
         Output("camber", "rad", "angle of the axle above the plane"),
         Output("deflection", "m", "vertical deflection"),
         Output("slip_loss", "W", "power lost in patch and carcass"),
+        Output("place_x", "m", "place of the patch along the x axis of the plane's marker"),
+        Output("place_y", "m", "place of the patch along its y axis"),
     )
     turns: ClassVar[bool] = True
     inequalities: ClassVar[Inequalities] = (
@@ -157,6 +168,9 @@ class Tyre(ForceElement):
     type: Literal["tyre"] = "tyre"
     wheel: MarkerPlace = Field(description="marker on the wheel: its point is the centre, its z axis the axle")
     plane: MarkerPlace = Field(description="marker: its point lies in the plane, its z axis points out of it")
+    heights: Maybe[OneRecord[HeightField]] = Field(
+        default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
+    )
     radius: PositiveLength = Field(description="of the tyre without load")
     width: PositiveLength = Field(description="of the patch")
     nominal_load: PositiveForce = Field(description="to which the first numbers of the curves belong")
@@ -171,7 +185,10 @@ class Tyre(ForceElement):
     )
     trail_zero: TwoShares = Field(default=(0.2, 0.22), description="lateral slip at which the trail is zero")
     trail_end: TwoShares = Field(default=(0.35, 0.4), description="lateral slip from which on it is zero again")
-    grip: PositiveNumber = Field(default=1.0, description="factor of peak and sliding forces and of their slips")
+    grip: Grip = Field(
+        default=1.0,
+        description="factor of peak and sliding forces and of their slips; a function, of the place `x`, `y` too",
+    )
     rolling_resistance: NotNegativeNumber = Field(default=0.01, description="force by load")
     rolling_share: NotNegativeNumber = Field(
         default=0.375, description="of the deflection that the rolling radius does not follow, at the nominal load"
@@ -208,6 +225,8 @@ class Tyre(ForceElement):
                 )
 
     def problems(self) -> Iterator[Problem]:
+        if isinstance(self.grip, int | float) and self.grip < LEAST_GRIP:
+            yield Problem(("grip",), f"a number of {LEAST_GRIP:g} or more was expected, got {self.grip:g}")
         for name, guess in (("along", ALONG), ("across", ACROSS)):
             for each in getattr(self, name).problems_with(self.nominal_load, guess):
                 yield Problem((name, *each.place), each.message)
@@ -224,11 +243,17 @@ class Tyre(ForceElement):
 
 
 class TyreRow(Row):
-    """Markers WHEEL and PLANE, states of four stretches; vertical, carcass and curves: slope, peak slip, peak, sliding slip, sliding."""
+    """Markers WHEEL and PLANE, states of four stretches; vertical, carcass and curves: slope, peak slip, peak, sliding slip, sliding.
+
+    FRICTION : the function of the grip, whose value is in GRIP. GROUND : which tyre of the family has the HEIGHTS of the ground, or NONE
+    where it is flat.
+    """
 
     output: int
     wheel: int
     plane: int
+    ground: int = NONE
+    friction: int
     stretch: Sequence[int] = several(4)
     radius: float
     width: float
@@ -239,12 +264,13 @@ class TyreRow(Row):
     dx: float
     cy: float
     dy: float
-    grip: float
+    grip: float = 1.0
     rolling: float
     rolling_share: float
     along: Sequence[float] = several(10)
     across: Sequence[float] = several(10)
     trail: Sequence[float] = several(6)
+    heights: Sequence[float] = several(default=())
 
 
 @leaf
@@ -386,6 +412,50 @@ def rolling(n, load, roll, v_t, z):
     return force, u, d * u * u + a * force * force
 
 
+@leaf
+def plane_under(heights, A, r, centre, y, radius, width):
+    """(normal, point) of the plane in which a tyre stands on ground with heights, whose marker has the axes A and the point r.
+
+    Under the patch, where the disc comes to the ground, heights and slopes are means of four places: NEAR of the radius before and behind,
+    and half of the width on either side. The plane is the tangent of the mean height there and turns about the patch, so that it keeps
+    energy.
+    """
+    c = minus(centre, r)
+    a, b, z = axis(A, 0), axis(A, 1), axis(A, 2)
+    c0, c1, c2 = dot(a, c), dot(b, c), dot(z, c)
+    y0, y1, y2 = dot(a, y), dot(b, y), dot(z, y)
+    px, py = c0, c1
+    for _ in range(TOUCHES):
+        h, gx, gy, _, _, _ = surface(heights, px, py)
+        # of the normal (-g, 1)/size: what it has along the axle, and across that
+        size = np.sqrt(1.0 + gx * gx + gy * gy)
+        n0, n1, n2 = -gx / size, -gy / size, 1.0 / size
+        tilt = n0 * y0 + n1 * y1 + n2 * y2
+        arm = (n0 * (c0 - px) + n1 * (c1 - py) + n2 * (c2 - h)) / maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt)
+        px, py = c0 - arm * (n0 - tilt * y0), c1 - arm * (n1 - tilt * y1)
+    level = root(y0 * y0 + y1 * y1)
+    if real(level) > 0.0:
+        y0, y1 = y0 / level, y1 / level
+    h, gx, gy = 0.0 * px, 0.0 * px, 0.0 * px
+    for k in range(4):
+        before = NEAR * radius * (1.0 - k) if k in (0, 2) else 0.0
+        aside = 0.5 * width * (2.0 - k) if k in (1, 3) else 0.0
+        own = surface(heights, px + before * y1 + aside * y0, py - before * y0 + aside * y1)
+        h, gx, gy = h + 0.25 * own[0], gx + 0.25 * own[1], gy + 0.25 * own[2]
+    size = np.sqrt(1.0 + gx * gx + gy * gy)
+    normal = (
+        (z[0] - gx * a[0] - gy * b[0]) / size,
+        (z[1] - gx * a[1] - gy * b[1]) / size,
+        (z[2] - gx * a[2] - gy * b[2]) / size,
+    )
+    point = (
+        r[0] + px * a[0] + py * b[0] + h * z[0],
+        r[1] + px * a[1] + py * b[1] + h * z[1],
+        r[2] + px * a[2] + py * b[2] + h * z[2],
+    )
+    return normal, point
+
+
 @family
 def apply(machine, number, t):
     """Forces of all tyres, on wheels and planes, and rates of their stretches."""
@@ -397,14 +467,18 @@ def apply(machine, number, t):
         i, j, first, own = index[TyreRow.WHEEL], index[TyreRow.PLANE], index[TyreRow.OUTPUT], index[TyreRow.STRETCH :]
         wheel, road = markers.body[i], markers.body[j]
         normal, y, centre = axis(markers.A[j], 2), axis(markers.A[i], 2), markers.r[i]
+        ground = markers.r[j, 0], markers.r[j, 1], markers.r[j, 2]
+        if index[TyreRow.GROUND] != NONE:
+            heights = elements.number[elements.span[number, 0] + index[TyreRow.GROUND], TyreRow.HEIGHTS :]
+            normal, ground = plane_under(heights, markers.A[j], ground, centre, y, n[TyreRow.RADIUS], n[TyreRow.WIDTH])
         cx, dx, cy, dy = n[TyreRow.CX], n[TyreRow.DX], n[TyreRow.CY], n[TyreRow.DY]
         rate = elements.state_rate
         z, rolled = (elements.state[own[0]], elements.state[own[1]], elements.state[own[2]]), elements.state[own[3]]
-        out = record.outputs.value[first : first + 11]
+        out = record.outputs.value[first : first + 13]
         # from the centre to the patch d, across the axle in the plane of the axle and the normal; x, a: along and across in the plane
         tilt = dot(normal, y)
         upright = np.sqrt(maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt))
-        loaded = dot(normal, minus(centre, markers.r[j])) / upright
+        loaded = dot(normal, minus(centre, ground)) / upright
         deflection = n[TyreRow.RADIUS] - loaded
         x = cross(y, normal)
         x = x[0] / upright, x[1] / upright, x[2] / upright
@@ -429,9 +503,15 @@ def apply(machine, number, t):
         load = maximum((elastic + n[TyreRow.D] * sinking) / upright, 0.0 * tilt)
         control.stored[0] += 0.5 * (cx * z[0] * z[0] + cy * (z[1] * z[1] + z[2] * z[2]))
         control.stored[0] += 0.5 * n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED * rolled * rolled
+        if real(deflection) > 0.0:
+            control.stored[0] += 0.5 * elastic * deflection
+            control.power[1] += (load * upright - elastic) * sinking
         q = load / n[TyreRow.LOAD]
         for m in range(11):
             out[m] = 0.0 * tilt
+        place = minus(p, markers.r[j])
+        out[11], out[12] = dot(axis(markers.A[j], 0), place), dot(axis(markers.A[j], 1), place)
+        n[TyreRow.GRIP] = maximum(evaluate_function(machine, index[TyreRow.FRICTION], t), LEAST_GRIP + 0.0 * tilt)
         if real(deflection) <= 0.0 or real(q) < LEAST_LOAD or real(tilt * tilt) > 1.0 - FLAT * FLAT:
             rate[own[0]] -= cx / dx * z[0]
             rate[own[1]] -= cy / dy * z[1]
@@ -442,8 +522,6 @@ def apply(machine, number, t):
             control.power[1] += loss
             out[9], out[10] = deflection, loss
             continue
-        control.stored[0] += 0.5 * elastic * deflection
-        control.power[1] += (load * upright - elastic) * sinking
         q = minimum(q, MOST_LOAD + 0.0 * q)
         stays = n[TyreRow.ROLLING_SHARE] * minimum(q, 2.0 + 0.0 * q)
         r = n[TyreRow.RADIUS] - (1.0 - stays) * deflection
@@ -501,8 +579,17 @@ def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
         StateFact(f"{force.name}.{word}", "m", f"stretch of {force.name} {text}", 0.0, 1e-3, follows=True)
         for word, text in words
     ]
+    first = add_outputs(builder, force)
+    # tyres on the same heights share the numbers of the first one
+    others = [each for each in builder.machine.forces if isinstance(each, Tyre)]
+    ground = (
+        NONE if force.heights is None else next(k for k, each in enumerate(others) if each.heights == force.heights)
+    )
+    mine = force.heights is not None and others[ground] is force
     row = TyreRow(
-        output=add_outputs(builder, force),
+        ground=ground,
+        heights=numbers_of(force.heights.heights, force.heights.size) if mine and force.heights is not None else (),
+        output=first,
         wheel=wheel,
         plane=plane,
         stretch=[builder.own_state(fact) for fact in facts],
@@ -515,7 +602,9 @@ def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
         dx=carcass["along"][1],
         cy=carcass["across"][0],
         dy=carcass["across"][1],
-        grip=force.grip,
+        friction=builder.function(
+            force.grip, {"x": (function.OUTPUT, first + 11, 0), "y": (function.OUTPUT, first + 12, 0)}
+        ),
         rolling=force.rolling_resistance,
         rolling_share=force.rolling_share,
         trail=[*force.trail, *force.trail_zero, *force.trail_end],

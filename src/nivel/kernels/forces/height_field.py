@@ -6,10 +6,15 @@ the grid the heights of its border go on.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.native.function import leaf, part
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 # numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes, one of the second
 # derivative along any line by the squares of meshes [m]; then the heights, row by row along x, with one more on each side
@@ -24,6 +29,20 @@ STEPS, HALVINGS, SETTLED = 40, 12, 1e-11
 SEARCHES, CLOSER = 8, 30
 # roundings of a squared distance, in units in the last place of what it is formed from
 ROUNDINGS = 8.0 * 2.2e-16
+
+
+def numbers_of(heights: NDArray[Any], size: tuple[float, float]) -> list[float]:
+    """The numbers of heights (rows along y, heights along x) [m]: around the grid the parabolas through its outer heights go on."""
+    least, most = heights.min(), heights.max()
+    bound = 0.5 * (least + most) + 0.5 * OVERSHOOT * (most - least)
+    rows, columns = heights.shape
+    padded = np.zeros((rows + 2, columns + 2))
+    padded[1:-1, 1:-1] = heights
+    padded[1:-1, 0], padded[1:-1, -1] = heights[:, :3] @ [3.0, -3.0, 1.0], heights[:, -3:] @ [1.0, -3.0, 3.0]
+    padded[0], padded[-1] = [3.0, -3.0, 1.0] @ padded[1:4], [1.0, -3.0, 3.0] @ padded[-4:-1]
+    along = np.abs(np.diff(padded[1:-1], 2, axis=1)) + np.abs(np.diff(padded[:, 1:-1], 2, axis=0))
+    bend = CUBIC * (along + 2.0 * np.abs(np.diff(np.diff(padded, axis=0), axis=1))[1:, 1:]).max()
+    return [float(columns), float(rows), *size, float(bound), float(bend), *padded.ravel().tolist()]
 
 
 @leaf

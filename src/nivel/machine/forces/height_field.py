@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import Annotated, Any, Final
+from random import Random
+from typing import Annotated, Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from pydantic import BeforeValidator, ValidationInfo
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
 from nivel.machine.laws.time_function import check_varying
-from nivel.machine.units.arithmetic import evaluate, render
+from nivel.machine.units.arithmetic import PLACE, evaluate, render
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import (
     Length,
@@ -41,7 +42,7 @@ from nivel.machine.units.tree import (
 
 FEWEST, MOST = 3, 250_000  # heights along a side, and in all
 POINTS: Final = (101, 101)
-PLACE: Final = ("x", "y")
+LONGEST_WAVE: Final = 0.011  # cycles/m
 NAMES: Final = "the place on the plane has the names `x` and `y` [m], as in `0.1*(x^2 + y^2)`"
 
 
@@ -100,22 +101,30 @@ class HeightField(Checked):
         default=None, description="height [m] as an expression of `x` and `y` [m]"
     )
     points: TwoNumbers[Whole] = Field(
-        default=POINTS, description="of a `function`: numbers of heights along x and along y"
+        default=POINTS, description="of a `function` or of `roughness` alone: numbers of heights along x and along y"
     )
+    roughness: Maybe[Literal["A", "B", "C", "D", "E", "F", "G", "H"]] = Field(
+        default=None, description="class of ISO 8608 of what is added to the heights along every line"
+    )
+    seed: Whole = Field(default=1, description="of the `roughness`: another number is another road of the same class")
 
     def problems(self) -> Iterator[Problem]:
         if self.file is None and self.unit != 1.0:
             yield superfluous(
                 "unit", "is the length of one unit of a `file`; write lengths of heights with their units"
             )
-        if self.function is not None:
+        if self.roughness is None and self.seed != 1:
+            yield superfluous("seed", "belongs to a `roughness`, and none is given")
+        if self.function is not None or (self.roughness is not None and self.values is None and self.file is None):
             yield from self._problems_of_function()
             return
         if self.points != POINTS:
             yield superfluous("points", "belongs to a `function`; rows of heights have their own number")
         if self.values is None:
             if self.file is None:
-                yield Problem((), "`values`, a `file` or a `function` must be given: `function: 0.1*x^2`")
+                yield Problem(
+                    (), "`values`, a `file`, a `function` or a `roughness` must be given: `function: 0.1*x^2`"
+                )
             else:
                 yield Problem(("file",), f"the file `{self.file}` was not read; in Python give `values`")
             return
@@ -133,6 +142,8 @@ class HeightField(Checked):
         if min(self.points) < FEWEST or self.points[0] * self.points[1] > MOST:
             yield Problem(("points",), f"at least {FEWEST} are needed along each side, and at most {MOST} in all")
             return
+        if self.function is None:
+            return
         try:
             self.heights  # noqa: B018 : whether the function has a value everywhere
         except ExpressionError as problem:
@@ -141,9 +152,13 @@ class HeightField(Checked):
     @property
     def heights(self) -> NDArray[np.float64]:
         """(rows along y, heights along x) [m]. Raises ExpressionError where a function has no value."""
-        if self.function is None:
-            return np.array(self.values, dtype=float)
-        return _values_of(self.function, self.size, (int(self.points[0]), int(self.points[1])))
+        if self.function is not None:
+            out = _values_of(self.function, self.size, (int(self.points[0]), int(self.points[1])))
+        elif self.values is not None:
+            out = np.array(self.values, dtype=float)
+        else:
+            out = np.zeros((int(self.points[1]), int(self.points[0])))
+        return out if self.roughness is None else out + _rough(self.roughness, int(self.seed), self.size, out.shape)
 
     @property
     def greatest_curvature(self) -> float:
@@ -156,6 +171,33 @@ class HeightField(Checked):
             inner = slope[1:-1] if axis == 0 else slope[:, 1:-1]
             found = max(found, float(np.max(bend / (1.0 + inner**2) ** 1.5)))
         return found
+
+
+@lru_cache(maxsize=16)
+def _rough(grade: str, seed: int, size: tuple[float, float], shape: tuple[int, int]) -> NDArray[np.float64]:
+    """Heights [m] with the one-sided spectrum G(n) = G₀ (n/n₀)⁻² of ISO 8608 along x on each line, n₀ = 0.1 cycles/m, G₀ = 16e-6 m³ of
+    class A and four times as much of each one below.
+
+    Along and across as of an isotropic surface, whose spectrum falls with the cube of the wave number: of waves with n along x the share
+    between two numbers across is n²/2 times the difference of u/(n² √(n² + u²)). Phases are random, amplitudes are not. From 0.011
+    cycles/m on.
+    """
+    rows, columns = 2 * shape[0], shape[1]  # half of what repeats across
+    steps = size[1] / (shape[0] - 1), size[0] / (columns - 1)
+    across, along = np.fft.fftfreq(rows, steps[0])[:, None], np.fft.rfftfreq(columns, steps[1])[None, 1:]
+    half = 0.5 / (rows * steps[0])
+    share = [0.5 * u / np.sqrt(along**2 + u**2) for u in (across - half, across + half)]
+    share = share[1] - share[0]
+    level = 16e-6 * 4.0 ** "ABCDEFGH".index(grade) * (along / 0.1) ** -2.0 * (along >= LONGEST_WAVE)
+    power = share / share.sum(axis=0) * level / (columns * steps[1])
+    power[:, -1] *= columns % 2  # the shortest wave of an even number has no phase
+    phases = Random(seed)
+    turns = np.array([[phases.random() for _ in range(along.shape[1])] for _ in range(rows)])
+    waves = np.zeros((rows, columns // 2 + 1), dtype=complex)
+    waves[:, 1:] = np.sqrt(0.5 * power) * np.exp(2j * np.pi * turns) * (rows * columns)
+    out = np.fft.irfft2(waves, s=(rows, columns))[: shape[0]]
+    out.setflags(write=False)
+    return out
 
 
 @lru_cache(maxsize=16)

@@ -50,7 +50,15 @@ from nivel.machine.units.unit import UNITS, UnknownUnitError, unit
 RESERVED: Final = frozenset({TIME, LOOKUP, *LOGICAL, *CONSTANTS, *FUNCTIONS})
 FREE_CONSTANTS: Final = frozenset({"e"})  # names that parameters and arguments of functions may take over
 NOT_FOR_PARAMETERS: Final = RESERVED - FREE_CONSTANTS
-LOCAL_SYMBOLS: Final = ("length", "angle", "value", "depth", "rate")  # where a law may use them they are signals
+PLACE: Final = ("x", "y")  # on ground
+LOCAL_SYMBOLS: Final = (
+    "length",
+    "angle",
+    "value",
+    "depth",
+    "rate",
+    *PLACE,
+)  # where a law may use them they are signals
 
 
 def given(value: SupportsFloat) -> float:

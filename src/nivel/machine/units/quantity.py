@@ -18,7 +18,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from nivel.lazy import dataclass
 from nivel.machine.given import OneNumber, ThreeNumbers
-from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind, evaluate, given
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, PLACE, bind, evaluate, given
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
@@ -77,7 +77,7 @@ def bound_tree(text: str, parameters: Parameters, local: Collection[str] = ()) -
     try:
         return bind(parse(text), parameters, local)
     except UnknownNameError as problem:
-        if problem.name not in LOCAL_SYMBOLS:
+        if problem.name not in LOCAL_SYMBOLS or problem.name in PLACE:
             raise
         raise ExpressionError(f"{problem} (only the `law` of a spring knows its `{problem.name}`)") from None
 

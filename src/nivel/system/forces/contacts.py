@@ -19,6 +19,7 @@ from nivel.kernels.forces import (
     contact_law,
     friction_work,
     ground_contact,
+    height_field,
     height_pose,
     hull_contact,
     round_contact,
@@ -39,7 +40,6 @@ from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import ExpressionError
 from nivel.system.builder import SystemBuilder
-from nivel.system.forces.height_fields import numbers_of_heights
 from nivel.system.forces.hulls import hull_of, part_of, polytope_of, row_of
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 
@@ -136,7 +136,7 @@ def _over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:
     assert force.heights is not None
     kind, count, size = _ground_shape(bodies[0], _corners_of_parts)
     work = [0.0] * (ground_contact.GROUND - contact_law.NUMBERS)
-    numbers = [*work, *numbers_of_heights(force.heights)]
+    numbers = [*work, *height_field.numbers_of(force.heights.heights, force.heights.size)]
     return Points(count, _ball(bodies[0]), [kind, contact_law.NUMBERS + len(numbers)], numbers + size)
 
 

@@ -1,4 +1,4 @@
-"""Ground whose height varies in numbers for its kernel, and as triangles."""
+"""Ground whose height varies: the contacts on it, and its triangles."""
 
 from __future__ import annotations
 
@@ -6,28 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.forces import ground_contact
-from nivel.kernels.forces.height_field import CUBIC, OVERSHOOT
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import Elements
 from nivel.machine.bodies.surface import Triangles
 from nivel.machine.forces.height_field import HeightField
 
 Array = NDArray[np.float64]
-
-
-def numbers_of_heights(field: HeightField) -> list[float]:
-    """Numbers of `nivel.kernels.forces.height_field`: around the grid the parabolas through its outer heights go on."""
-    heights = field.heights
-    least, most = heights.min(), heights.max()
-    bound = 0.5 * (least + most) + 0.5 * OVERSHOOT * (most - least)
-    rows, columns = heights.shape
-    padded = np.zeros((rows + 2, columns + 2))
-    padded[1:-1, 1:-1] = heights
-    padded[1:-1, 0], padded[1:-1, -1] = heights[:, :3] @ [3.0, -3.0, 1.0], heights[:, -3:] @ [1.0, -3.0, 3.0]
-    padded[0], padded[-1] = [3.0, -3.0, 1.0] @ padded[1:4], [1.0, -3.0, 3.0] @ padded[-4:-1]
-    along = np.abs(np.diff(padded[1:-1], 2, axis=1)) + np.abs(np.diff(padded[:, 1:-1], 2, axis=0))
-    bend = CUBIC * (along + 2.0 * np.abs(np.diff(np.diff(padded, axis=0), axis=1))[1:, 1:]).max()
-    return [float(columns), float(rows), *field.size, float(bound), float(bend), *padded.ravel().tolist()]
 
 
 def rows_over_heights(elements: Elements) -> tuple[int, int]:

@@ -184,7 +184,7 @@ class Frames:
 def passed_over(run: Run) -> Iterator[Contradiction]:
     """Contacts with ground that has heights, into which steps of fixed size go deeper than at any of their ends."""
     elements = run.prepared.motion.system.record.elements
-    names = [force.name for force in run.machine.forces if getattr(force, "heights", None) is not None]
+    names = [force.name for force in run.machine.forces if force.type == "contact" and force.heights is not None]
     first, last = rows_over_heights(elements)
     for name, numbers in zip(names, elements.number[first:last], strict=True):
         missed, seen = float(numbers[ground_contact.MISSED]), max(float(numbers[ground_contact.SEEN]), 0.0)

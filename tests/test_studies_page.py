@@ -21,7 +21,11 @@ from nivel.studies import load_study
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-EXAMPLES = sorted((ROOT / "examples" / "studies").glob("*.yaml"))
+EXAMPLES = sorted(
+    path
+    for path in (ROOT / "examples" / "studies").glob("*.yaml")
+    if "\noptimise:" not in path.read_text(encoding="utf-8")
+)
 
 
 def first_cells(heading):

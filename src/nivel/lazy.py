@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     import rich.table
     import rich.text
     import scipy
+    import scipy.integrate
     import scipy.interpolate
     import scipy.io
     import scipy.linalg
@@ -201,6 +202,7 @@ if TYPE_CHECKING:
     import nivel.results.analyses.linear_sweep
     import nivel.results.analyses.mechanism
     import nivel.results.analyses.mode_motion
+    import nivel.results.analyses.vibration
     import nivel.results.beams
     import nivel.results.comparison_table
     import nivel.results.frames.circuit_balance

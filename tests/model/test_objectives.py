@@ -2,6 +2,7 @@
 
 import json
 from math import pi, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from nivel.errors import ModelError
 from nivel.files import parse_machine
 
 G = 9.81
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 BLOCK = """
 format: 1
 bodies: {block: {mass: 2, inertia: [1, 1, 1]}}
@@ -192,6 +194,13 @@ optimise: {output: frequency, maximise: true}
     assert found.dataset.attrs["computed"] == "linearise"
     assert found.dataset.frequency.attrs["units"] == "Hz"
     assert json.loads(found.dataset.attrs["trust"])
+
+
+def test_mounts_of_the_example_sag_as_far_as_they_may():
+    """f = √(g/δ)/(2π), k = m g/(4 δ)."""
+    found = nivel.load_study(EXAMPLES / "studies" / "pump-mounts.yaml").optimise()
+    assert found.values["parameters.stiffness"] == pytest.approx(80.0 * G / (4.0 * 0.008), rel=1e-6)
+    assert found.outputs["frequency"] == pytest.approx(sqrt(G / 0.008) / (2.0 * pi), rel=1e-6)
 
 
 @pytest.mark.parametrize(

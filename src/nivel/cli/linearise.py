@@ -10,7 +10,7 @@ import click
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.options import separated
 from nivel.errors import Fault, ModelError
-from nivel.lazy import nivel
+from nivel.lazy import nivel, replace
 from nivel.settings import LineariseSettingsDict
 
 if TYPE_CHECKING:
@@ -38,9 +38,21 @@ MOST = 1000  # values of a parameter
 @click.option(
     "--verify", "with_others", is_flag=True, help="With --over: also vibrations with other elements of beams."
 )
+@click.option(
+    "--psd",
+    multiple=True,
+    metavar="INPUT=LEVEL|FILE",
+    help="Response to random vibration: one-sided power spectral density of an input, a level ('0.01 N^2/Hz': white noise) or a table "
+    "(CSV) with a column `frequency [Hz]`. May be repeated.",
+)
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write an animation of mode N.")
 def command(
-    order: Order, over: str | None, orders: tuple[str, ...] | None, with_others: bool, shown: tuple[int, ...]
+    order: Order,
+    over: str | None,
+    orders: tuple[str, ...] | None,
+    with_others: bool,
+    psd: tuple[str, ...],
+    shown: tuple[int, ...],
 ) -> None:
     """Linearise the equations of motion of MACHINE about a state.
 
@@ -49,6 +61,8 @@ def command(
     Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
     if over is not None:
+        if psd:
+            raise ModelError(Fault("", 0, 0, "linearise.psd", "is of one model, and --over makes many"))
         if with_others and "verify" in order.settings:
             raise ModelError(Fault("", 0, 0, "linearise.verify", "--verify and --no-verify contradict each other"))
         _sweep(order, over, read_orders(orders), verify=with_others)
@@ -57,6 +71,10 @@ def command(
         raise ModelError(Fault("", 0, 0, "linearise.verify", "belongs to --over; without it models are verified"))
     if orders is not None:
         raise ModelError(Fault("", 0, 0, "linearise.orders", "belongs to --over, and no parameter is given"))
+    spectra = {name: level for name, _, level in (each.partition("=") for each in psd)}
+    if faulty := [name for name, level in spectra.items() if not level.strip()]:
+        said = f"an input and its level or table were expected, as `{faulty[0] or 'floor'}=0.01`"
+        raise ModelError(Fault("", 0, 0, "linearise.psd", said))
     machine = order.load()
     name = f"{machine.name}-linear.nc"
     target, _ = order.files(name)
@@ -65,7 +83,10 @@ def command(
         nivel.files.target.check_target(page, "page", force=order.force, sources=[Path(order.machine)])
 
     def compute(listener: Listener) -> LinearModel:
-        model = machine.linearise(**order.settings, listener=listener)
+        settings = {"inputs": tuple(spectra), **order.settings} if spectra else order.settings
+        model = machine.linearise(**settings, listener=listener)
+        if spectra:
+            model = replace(model, random=model.random_response(spectra))
         for number, page in pages.items():
             model.mode(number).export_scene(page)
         return model
@@ -123,6 +144,14 @@ def read_orders(words: tuple[str, ...] | None) -> list[float]:
         ) from None
 
 
+def _of_random(model: LinearModel) -> list[str]:
+    """Root mean squares of the outputs."""
+    if model.random is None:
+        return []
+    rows = zip(model.outputs, model.random.rms.values, model.output_units, strict=True)
+    return [f"rms of {name}: {value:.6g} {units}" for name, value, units in rows]
+
+
 def _said(model: LinearModel) -> list[str]:
     judged = ("stable" if model.stable else "unstable") if model.steady else "not judged"
     modes = model.modes if model.steady else ()
@@ -132,6 +161,7 @@ def _said(model: LinearModel) -> list[str]:
         *model.notes,
         *(f"mode {mode.number}: {nivel.results.analyses.linear_model.mode_in_words(mode)}" for mode in modes[:SHOWN]),
         *([f"and {len(modes) - SHOWN} more in the data"] if len(modes) > SHOWN else []),
+        *_of_random(model),
         *(model.sampled.words if model.sampled is not None else ()),
         *(f"pole {pole.number}: {pole.words}" for pole in poles[:SHOWN]),
         f"trust: {model.trust.told}",

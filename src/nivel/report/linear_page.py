@@ -13,6 +13,7 @@ from nivel.report.plots import Line, curves, points, unit_circle
 from nivel.report.story import trusted
 from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 from nivel.results.analyses.linear_sweep import TURN, LinearSweep
+from nivel.results.analyses.vibration import squared
 
 MOST_MODES: Final = 60
 MOST_CURVES: Final = 8
@@ -31,6 +32,7 @@ def linear_html(model: LinearModel) -> str:
         beyond=max(0, len(model.modes) - MOST_MODES),
         plane=_plane(model),
         bode=_bode(model),
+        random=_random(model),
         sampled=_sampled(model),
         matrices=_matrices(model),
     )
@@ -94,6 +96,22 @@ def _bode(model: LinearModel) -> list[tuple[str, str]]:
             )
         )
     return out
+
+
+def _random(model: LinearModel) -> dict[str, Any] | None:
+    """Densities of the response to spectra, and root mean squares."""
+    found = model.random
+    if found is None:
+        return None
+    f, units = found.frequency.values, dict(zip(model.outputs, model.output_units, strict=True))
+    lines = [
+        Line(f"{name} [{squared(units[name])}/Hz]", f, found.psd.values[:, j])
+        for j, name in enumerate(model.outputs[:MOST_CURVES])
+    ]
+    given = [Line(str(name), f, found.input_psd.values[:, k]) for k, name in enumerate(found.input.values)]
+    rows = [(name, f"{value:.6g}", units[name]) for name, value in zip(model.outputs, found.rms.values, strict=True)]
+    titles = ("frequency [Hz]", "power spectral density")
+    return {"rows": rows, "plots": [curves(each, *titles, log_x=True, log_y=True) for each in (lines, given)]}
 
 
 def _sampled(model: LinearModel) -> dict[str, Any] | None:

@@ -331,6 +331,28 @@ class Result(Tabulated):
         return nivel.results.frames.loads.cycles(self, name, repeating=repeating)
 
     @checked_arguments
+    def shock_response_spectrum(
+        self, name: str, frequencies: Sequence[float], *, damping: float = 0.05
+    ) -> xarray.DataArray:
+        """Largest absolute acceleration of oscillators of these natural frequencies [Hz] and this damping ratio, whose base has the
+        acceleration `name`; during the history and one period after it, in which the base has none."""
+        return nivel.results.analyses.vibration.shock_response_spectrum(self, name, frequencies, damping)
+
+    @checked_arguments
+    def waterfall(self, name: str, *, resolution: float) -> xarray.DataArray:
+        """Amplitudes of a signal over time [s] and frequency [Hz], `resolution` [Hz] apart, by Hann's windows of 1/resolution. A vibration
+        of one frequency and amplitude a has a. Frequencies go up to half of that of the frames."""
+        return nivel.results.analyses.vibration.waterfall(self, name, resolution)
+
+    @checked_arguments
+    def orders(self, name: str, angle: str, *, resolution: float = 0.1, most: float = 10.0) -> xarray.DataArray:
+        """Order analysis: amplitudes of a signal over revolutions of `angle` and orders up to `most`, multiples of its speed, `resolution`
+        apart, by Hann's windows of 1/resolution revolutions at equal angles; `speed` [rad/s] is a coordinate.
+
+        Raises ModelError for an angle that turns back."""
+        return nivel.results.analyses.vibration.orders(self, name, angle, resolution, most)
+
+    @checked_arguments
     def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
         """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""
         return nivel.results.analyses.mechanism.coupler_curve(self, body, position)

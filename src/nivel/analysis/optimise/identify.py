@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations
 from nivel.analysis.optimise.table import nothing_found, table_of
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.sweep.outputs import Found, another_measure, at_times, units_of
+from nivel.analysis.sweep.outputs import Found, at_times, units_of
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass, replace, scipy
+from nivel.machine.study.any_quantity import another_measure
 from nivel.model import Model
 from nivel.results.result import Result
 

@@ -9,11 +9,11 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.analysis.optimise.identify import Signal
-from nivel.analysis.sweep.outputs import another_measure
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
+from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.study.output import SCALAR
 from nivel.words.wording import shown
 

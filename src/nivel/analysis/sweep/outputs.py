@@ -12,10 +12,8 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.study import AtEvent, AtTime, EventTime, FinalValue, Output, PythonOutput, ScalarOutput
-from nivel.machine.study.any_quantity import dimension_of
+from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.study.output import SCALAR, said_output
-from nivel.machine.units.dimension import described, without_angle
-from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.curve import Curve, curve, curve_of
@@ -256,19 +254,6 @@ def _check_limits(output: Output, units: str) -> None:
         limit = getattr(output, key)
         if limit is not None and (wrong := another_measure(limit, units)):
             raise ModelError(Fault.at(key, wrong))
-
-
-def another_measure(quantity: Any, units: str) -> str:
-    """What is wrong where a quantity measures something else than a number in `units`; a number without a unit fits every one."""
-    if (its := dimension_of(quantity)) is None:
-        return ""
-    try:
-        wanted = dimension_of(f"1 {units.replace(' ', '*')}" if units not in ("", "1") else "1")
-    except ExpressionError:
-        return ""
-    if without_angle(wanted) == without_angle(its):
-        return ""
-    return f"`{quantity}` is {described(its)}; the number is in {units or 'no unit'}"
 
 
 @cache

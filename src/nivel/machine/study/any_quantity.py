@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, WithJsonSchema
 
-from nivel.machine.units.dimension import Dimension, described
+from nivel.machine.units.dimension import Dimension, described, without_angle
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
@@ -66,3 +66,16 @@ def unlike(values: Iterable[Any]) -> tuple[int, str] | None:
             return at, f"`{value}` is {described(its)}, but `{first[0]}` is {described(first[1])}"
         first = first or (str(value), its)
     return None
+
+
+def another_measure(quantity: Any, units: str) -> str:
+    """What is wrong where a quantity measures something else than a number in `units`; a number without a unit fits every one."""
+    if (its := dimension_of(quantity)) is None:
+        return ""
+    try:
+        wanted = dimension_of(f"1 {units.replace(' ', '*')}" if units not in ("", "1") else "1")
+    except ExpressionError:
+        return ""
+    if without_angle(wanted) == without_angle(its):
+        return ""
+    return f"`{quantity}` is {described(its)}; the number is in {units or 'no unit'}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -86,6 +86,7 @@ class LinearModel(Tabulated):
     where they do. remarks : on what the states are. trust : the trust report.
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
     sampled : the machine with its sampled controllers, None without any; A and its eigenvalues are those between samples.
+    random : the response to spectra that was asked for, as `random_response` has it.
     """
 
     name: str
@@ -118,6 +119,7 @@ class LinearModel(Tabulated):
     posed: Any = None
     no_modes: str = ""
     sampled: SampledModel | None = None
+    random: Any = None
     trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
     @property
@@ -226,6 +228,28 @@ class LinearModel(Tabulated):
         response.coords["frequency"].attrs["units"] = "Hz"
         return response
 
+    def transmissibility(
+        self, reference: str, input: str = "", frequencies: Sequence[float] | Array | None = None
+    ) -> xarray.DataArray:
+        """Responses of all outputs to `input` (the only one) over that of the output `reference`: complex, (frequency [Hz], output).
+
+        Raises ModelError without inputs or outputs, for names that are none, and at the frequency of an undamped vibration.
+        """
+        return nivel.results.analyses.vibration.transmissibility(self, reference, input, frequencies)
+
+    def random_response(
+        self, psd: Mapping[str, Any] | str | PathLike[str], frequencies: Sequence[float] | Array | None = None
+    ) -> xarray.Dataset:
+        """Response to independent random inputs: `psd` (frequency [Hz], output), one-sided, and `rms` (output).
+
+        psd : one-sided power spectral densities of inputs by name [unit²/Hz]: a level, which is white noise at all frequencies;
+        (frequencies, levels), between which logarithms are straight; a table (CSV, MAT, Parquet) with a column `frequency`; or one table
+        with a column for each input. Mean squares are integrals over the band to 1e-10, of white noise the solution of Lyapunov's equation,
+        infinite where an output sees the input at once. Raises ModelError where inputs or units do not fit, and where the model is not
+        stable or what is excited has no damping.
+        """
+        return nivel.results.analyses.vibration.random_response(self, psd, frequencies)
+
     def to_xarray(self) -> xarray.Dataset:
         """Everything, with names and units."""
         of_states, doubled = {"units": ", ".join(self.state_units)}, ("state", "state_")
@@ -249,6 +273,11 @@ class LinearModel(Tabulated):
                 "pole_real": (("pole",), self.sampled.poles.real, {"units": "1"}),
                 "pole_imag": (("pole",), self.sampled.poles.imag, {"units": "1"}),
             }
+        if self.random is not None:
+            values |= {
+                f"random_{name}": (tuple(f"random_{dim}" for dim in each.dims), each.values, each.attrs)
+                for name, each in self.random.data_vars.items()
+            }
         rates = (name.removesuffix(".rate") for name in self.states if name.endswith(".rate"))
         free = list(rates)[: len(self.M)]
         coordinates = {
@@ -261,6 +290,8 @@ class LinearModel(Tabulated):
         }
         if self.sampled is not None:
             coordinates |= {"sampled_state": list(self.sampled.states), "sampled_state_": list(self.sampled.states)}
+        if self.random is not None:
+            coordinates |= {f"random_{dim}": self.random[dim].values for dim in self.random.dims}
         facts: dict[str, Any] = {
             "machine": self.name,
             "about": self.about,
@@ -310,6 +341,7 @@ class LinearModel(Tabulated):
             "headline": self.trust.headline,
             "trust": json.loads(self.trust.to_json()),
             "sampled": None if self.sampled is None else self.sampled.summary(),
+            "rms": {} if self.random is None else dict(zip(self.outputs, self.random.rms.values.tolist(), strict=True)),
             "notes": list(self.notes),
             "structural_zeros": list(self.structural_zeros),
             "modes": [

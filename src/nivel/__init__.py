@@ -13,200 +13,56 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nivel.lazy import provide
 
 __version__ = "0.2.0"
 
-if TYPE_CHECKING:
-    from nivel.api import Machine as Machine
-    from nivel.api import import_model as import_model
-    from nivel.api import load as load
-    from nivel.api import open_result as open_result
-    from nivel.api import sweep as sweep
-    from nivel.elements import circuits as hydraulics
-    from nivel.elements import control as control
-    from nivel.elements import forces as forces
-    from nivel.elements.forces.actuators import Motor as Motor
-    from nivel.elements.forces.actuators import Servo as Servo
-    from nivel.elements.forces.actuators import Stop as Stop
-    from nivel.elements.forces.bushing import Bushing as Bushing
-    from nivel.elements.forces.drive_lines import Brake as Brake
-    from nivel.elements.forces.drive_lines import Clutch as Clutch
-    from nivel.elements.forces.drive_lines import Freewheel as Freewheel
-    from nivel.elements.forces.drive_lines import TransmissionLoss as TransmissionLoss
-    from nivel.elements.forces.friction import Friction as Friction
-    from nivel.elements.forces.loads import PairForce as PairForce
-    from nivel.elements.forces.loads import PointForce as PointForce
-    from nivel.elements.forces.loads import Torque as Torque
-    from nivel.elements.forces.ropes import Rope as Rope
-    from nivel.elements.forces.shafts import BeltDrive as BeltDrive
-    from nivel.elements.forces.shafts import Shaft as Shaft
-    from nivel.elements.forces.spring_node import SpringNode as SpringNode
-    from nivel.elements.forces.spring_series import SpringSeries as SpringSeries
-    from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
-    from nivel.elements.forces.springs import SpringDamper as SpringDamper
-    from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
-    from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
-    from nivel.errors import ModelError as ModelError
-    from nivel.errors import NivelError as NivelError
-    from nivel.errors import SolveError as SolveError
-    from nivel.live.opening import export_page as export_page
-    from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
-    from nivel.machine.beams.beam import Beam as Beam
-    from nivel.machine.bodies.body import Body as Body
-    from nivel.machine.control.block import Block as Block
-    from nivel.machine.core.marker import Marker as Marker
-    from nivel.machine.forces.contact import Contact as Contact
-    from nivel.machine.joints.coupling import Belt as Belt
-    from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
-    from nivel.machine.joints.coupling import Gear as Gear
-    from nivel.machine.joints.coupling import LinearCoupling as LinearCoupling
-    from nivel.machine.joints.coupling import Rack as Rack
-    from nivel.machine.joints.driver import Driver as Driver
-    from nivel.machine.joints.joint import Joint as Joint
-    from nivel.machine.laws.time_function import Expression as Expression
-    from nivel.machine.laws.time_function import PythonLaw as PythonLaw
-    from nivel.machine.laws.time_function import Table as Table
-    from nivel.machine.machine_record import MachineRecord as MachineRecord
-    from nivel.machine.settings.run import Baumgarte as Baumgarte
-    from nivel.machine.settings.run import SimulationSettings as SimulationSettings
-    from nivel.machine.signals.event import Event as Event
-    from nivel.machine.signals.input import Input as Input
-    from nivel.machine.signals.sensor import Sensor as Sensor
-    from nivel.machine.signals.state import State as State
-    from nivel.results.comparison import Comparison as Comparison
-    from nivel.results.result import Result as Result
-    from nivel.studies import load_study as load_study
-
-_HOME = {
-    "Machine": "nivel.api",
-    "export_page": "nivel.live.opening",
-    "import_model": "nivel.api",
-    "load": "nivel.api",
-    "open_result": "nivel.api",
-    "sweep": "nivel.api",
-    "ModelError": "nivel.errors",
-    "NivelError": "nivel.errors",
-    "SolveError": "nivel.errors",
-    "AssemblySettings": "nivel.machine.assembly_settings",
-    "Baumgarte": "nivel.machine.settings.run",
-    "Beam": "nivel.machine.beams.beam",
-    "Belt": "nivel.machine.joints.coupling",
-    "Block": "nivel.machine.control.block",
-    "Body": "nivel.machine.bodies.body",
-    "Bushing": "nivel.elements.forces.bushing",
-    "Contact": "nivel.machine.forces.contact",
-    "Driver": "nivel.machine.joints.driver",
-    "Event": "nivel.machine.signals.event",
-    "Expression": "nivel.machine.laws.time_function",
-    "BeltDrive": "nivel.elements.forces.shafts",
-    "Brake": "nivel.elements.forces.drive_lines",
-    "Clutch": "nivel.elements.forces.drive_lines",
-    "Freewheel": "nivel.elements.forces.drive_lines",
-    "Shaft": "nivel.elements.forces.shafts",
-    "TransmissionLoss": "nivel.elements.forces.drive_lines",
-    "Friction": "nivel.elements.forces.friction",
-    "FunctionCoupling": "nivel.machine.joints.coupling",
-    "Gear": "nivel.machine.joints.coupling",
-    "Input": "nivel.machine.signals.input",
-    "Joint": "nivel.machine.joints.joint",
-    "JointSpringDamper": "nivel.elements.forces.springs",
-    "LinearCoupling": "nivel.machine.joints.coupling",
-    "MachineRecord": "nivel.machine.machine_record",
-    "Marker": "nivel.machine.core.marker",
-    "Motor": "nivel.elements.forces.actuators",
-    "PairForce": "nivel.elements.forces.loads",
-    "PointForce": "nivel.elements.forces.loads",
-    "PythonLaw": "nivel.machine.laws.time_function",
-    "Rack": "nivel.machine.joints.coupling",
-    "Rope": "nivel.elements.forces.ropes",
-    "Sensor": "nivel.machine.signals.sensor",
-    "Servo": "nivel.elements.forces.actuators",
-    "SimulationSettings": "nivel.machine.settings.run",
-    "SpringDamper": "nivel.elements.forces.springs",
-    "SpringNode": "nivel.elements.forces.spring_node",
-    "SpringSeries": "nivel.elements.forces.spring_series",
-    "State": "nivel.machine.signals.state",
-    "Stop": "nivel.elements.forces.actuators",
-    "Table": "nivel.machine.laws.time_function",
-    "Torque": "nivel.elements.forces.loads",
-    "ThreeAxisSpring": "nivel.elements.forces.springs",
-    "TorsionalSpringDamper": "nivel.elements.forces.springs",
-    "Comparison": "nivel.results.comparison",
-    "Result": "nivel.results.result",
-    "load_study": "nivel.studies",
+# the names of each module; `packaging/write_settings.py` writes them into a stub, for editors and type checkers
+_NAMES = {
+    "nivel.api": "Machine import_model load open_result sweep",
+    "nivel.elements.forces.actuators": "Motor Servo Stop",
+    "nivel.elements.forces.bushing": "Bushing",
+    "nivel.elements.forces.drive_lines": "Brake Clutch Freewheel TransmissionLoss",
+    "nivel.elements.forces.friction": "Friction",
+    "nivel.elements.forces.loads": "PairForce PointForce Torque",
+    "nivel.elements.forces.ropes": "Rope",
+    "nivel.elements.forces.shafts": "BeltDrive Shaft",
+    "nivel.elements.forces.spring_node": "SpringNode",
+    "nivel.elements.forces.spring_series": "SpringSeries",
+    "nivel.elements.forces.springs": "JointSpringDamper SpringDamper ThreeAxisSpring TorsionalSpringDamper",
+    "nivel.errors": "ModelError NivelError SolveError",
+    "nivel.live.opening": "export_page",
+    "nivel.machine.assembly_settings": "AssemblySettings",
+    "nivel.machine.beams.beam": "Beam",
+    "nivel.machine.bodies.body": "Body",
+    "nivel.machine.control.block": "Block",
+    "nivel.machine.core.marker": "Marker",
+    "nivel.machine.forces.contact": "Contact",
+    "nivel.machine.joints.coupling": "Belt FunctionCoupling Gear LinearCoupling Rack",
+    "nivel.machine.joints.driver": "Driver",
+    "nivel.machine.joints.joint": "Joint",
+    "nivel.machine.laws.time_function": "Expression PythonLaw Table",
+    "nivel.machine.machine_record": "MachineRecord",
+    "nivel.machine.settings.run": "Baumgarte SimulationSettings",
+    "nivel.machine.signals.event": "Event",
+    "nivel.machine.signals.input": "Input",
+    "nivel.machine.signals.sensor": "Sensor",
+    "nivel.machine.signals.state": "State",
+    "nivel.results.comparison": "Comparison",
+    "nivel.results.result": "Result",
+    "nivel.studies": "load_study",
 }
-
 # rooms of records: forces, components of circuits, blocks of the control
 _ROOMS = {
     "control": "nivel.elements.control",
     "forces": "nivel.elements.forces",
     "hydraulics": "nivel.elements.circuits",
 }
+_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
 
-__all__ = [
-    "AssemblySettings",
-    "Baumgarte",
-    "Beam",
-    "Belt",
-    "BeltDrive",
-    "Block",
-    "Body",
-    "Brake",
-    "Bushing",
-    "Clutch",
-    "Comparison",
-    "Contact",
-    "Driver",
-    "Event",
-    "Expression",
-    "Freewheel",
-    "Friction",
-    "FunctionCoupling",
-    "Gear",
-    "Input",
-    "Joint",
-    "JointSpringDamper",
-    "LinearCoupling",
-    "Machine",
-    "MachineRecord",
-    "Marker",
-    "ModelError",
-    "Motor",
-    "NivelError",
-    "PairForce",
-    "PointForce",
-    "PythonLaw",
-    "Rack",
-    "Result",
-    "Rope",
-    "Sensor",
-    "Servo",
-    "Shaft",
-    "SimulationSettings",
-    "SolveError",
-    "SpringDamper",
-    "SpringNode",
-    "SpringSeries",
-    "State",
-    "Stop",
-    "Table",
-    "ThreeAxisSpring",
-    "Torque",
-    "TorsionalSpringDamper",
-    "TransmissionLoss",
-    "control",
-    "export_page",
-    "forces",
-    "hydraulics",
-    "import_model",
-    "load",
-    "load_study",
-    "open_result",
-    "sweep",
-]
+__all__ = sorted((*_HOME, *_ROOMS))  # noqa: PLE0605
 
 
 # functions that results call and that stand in rooms above them
@@ -247,4 +103,4 @@ def _hint(name: str) -> str:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return __all__

@@ -1,0 +1,67 @@
+# Written by `python packaging/write_settings.py` from the records. Do not edit.
+# fmt: off
+# ruff: noqa
+# pyright: reportOptionalMemberAccess=false
+
+from nivel.api import Machine as Machine
+from nivel.api import import_model as import_model
+from nivel.api import load as load
+from nivel.api import open_result as open_result
+from nivel.api import sweep as sweep
+from nivel.elements import circuits as hydraulics
+from nivel.elements import control as control
+from nivel.elements import forces as forces
+from nivel.elements.forces.actuators import Motor as Motor
+from nivel.elements.forces.actuators import Servo as Servo
+from nivel.elements.forces.actuators import Stop as Stop
+from nivel.elements.forces.bushing import Bushing as Bushing
+from nivel.elements.forces.drive_lines import Brake as Brake
+from nivel.elements.forces.drive_lines import Clutch as Clutch
+from nivel.elements.forces.drive_lines import Freewheel as Freewheel
+from nivel.elements.forces.drive_lines import TransmissionLoss as TransmissionLoss
+from nivel.elements.forces.friction import Friction as Friction
+from nivel.elements.forces.loads import PairForce as PairForce
+from nivel.elements.forces.loads import PointForce as PointForce
+from nivel.elements.forces.loads import Torque as Torque
+from nivel.elements.forces.ropes import Rope as Rope
+from nivel.elements.forces.shafts import BeltDrive as BeltDrive
+from nivel.elements.forces.shafts import Shaft as Shaft
+from nivel.elements.forces.spring_node import SpringNode as SpringNode
+from nivel.elements.forces.spring_series import SpringSeries as SpringSeries
+from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
+from nivel.elements.forces.springs import SpringDamper as SpringDamper
+from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
+from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
+from nivel.errors import ModelError as ModelError
+from nivel.errors import NivelError as NivelError
+from nivel.errors import SolveError as SolveError
+from nivel.live.opening import export_page as export_page
+from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
+from nivel.machine.beams.beam import Beam as Beam
+from nivel.machine.bodies.body import Body as Body
+from nivel.machine.control.block import Block as Block
+from nivel.machine.core.marker import Marker as Marker
+from nivel.machine.forces.contact import Contact as Contact
+from nivel.machine.joints.coupling import Belt as Belt
+from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
+from nivel.machine.joints.coupling import Gear as Gear
+from nivel.machine.joints.coupling import LinearCoupling as LinearCoupling
+from nivel.machine.joints.coupling import Rack as Rack
+from nivel.machine.joints.driver import Driver as Driver
+from nivel.machine.joints.joint import Joint as Joint
+from nivel.machine.laws.time_function import Expression as Expression
+from nivel.machine.laws.time_function import PythonLaw as PythonLaw
+from nivel.machine.laws.time_function import Table as Table
+from nivel.machine.machine_record import MachineRecord as MachineRecord
+from nivel.machine.settings.run import Baumgarte as Baumgarte
+from nivel.machine.settings.run import SimulationSettings as SimulationSettings
+from nivel.machine.signals.event import Event as Event
+from nivel.machine.signals.input import Input as Input
+from nivel.machine.signals.sensor import Sensor as Sensor
+from nivel.machine.signals.state import State as State
+from nivel.results.comparison import Comparison as Comparison
+from nivel.results.result import Result as Result
+from nivel.studies import load_study as load_study
+
+__version__: str
+__all__ = ['AssemblySettings', 'Baumgarte', 'Beam', 'Belt', 'BeltDrive', 'Block', 'Body', 'Brake', 'Bushing', 'Clutch', 'Comparison', 'Contact', 'Driver', 'Event', 'Expression', 'Freewheel', 'Friction', 'FunctionCoupling', 'Gear', 'Input', 'Joint', 'JointSpringDamper', 'LinearCoupling', 'Machine', 'MachineRecord', 'Marker', 'ModelError', 'Motor', 'NivelError', 'PairForce', 'PointForce', 'PythonLaw', 'Rack', 'Result', 'Rope', 'Sensor', 'Servo', 'Shaft', 'SimulationSettings', 'SolveError', 'SpringDamper', 'SpringNode', 'SpringSeries', 'State', 'Stop', 'Table', 'ThreeAxisSpring', 'Torque', 'TorsionalSpringDamper', 'TransmissionLoss', 'control', 'export_page', 'forces', 'hydraulics', 'import_model', 'load', 'load_study', 'open_result', 'sweep']

@@ -3,6 +3,7 @@
 import ast
 import json
 import os
+import pickle
 import resource
 import signal
 import subprocess
@@ -18,11 +19,14 @@ import xarray
 from click.testing import CliRunner
 
 import nivel
+from lanes import tail
 from nivel.analysis.progress.journal import Journal, count_finished
 from nivel.cli import main
 from nivel.errors import ModelError, SolveError
 from nivel.files.target import write_file, written
+from nivel.flexible.body.body_file import read_body
 from nivel.studies import load_study
+from patience import PATIENCE
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="processes that end anywhere")
 MACHINE = """
@@ -310,6 +314,58 @@ def test_after_thirty_kills_at_random_places_the_table_is_that_of_one_run(comman
     done = subprocess.run([*words, "--resume"], check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert same(command, f"whole-{target.name}", target.name)
+
+
+TOYS = """
+import sys
+sys.path.insert(0, {folder!r})
+import toy_entries as toys
+from nivel.analysis.plan import compilation
+from nivel.cli import main
+compilation.all_entries = lambda: [toys.squares, toys.sine, toys.twice, toys.scale, toys.fill, toys.made]
+main(["warmup"])
+"""
+
+
+@pytest.mark.parametrize("finished", tail(range(6), [2]))
+def test_after_a_kill_warmup_compiles_what_was_not_finished(finished, tmp_path):
+    """The process and its workers end as so many of six entries are there."""
+    code = TOYS.format(folder=str(Path(__file__).parents[1] / "native"))
+    words = [sys.executable, "-c", code]
+    surroundings = os.environ | {"NIVEL_CACHE_DIR": str(tmp_path)}
+    process = subprocess.Popen(words, env=surroundings, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    until = time.monotonic() + PATIENCE
+    while len(list(tmp_path.glob("objects/*.o"))) < finished and process.poll() is None and time.monotonic() < until:
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGKILL)
+    assert "Traceback" not in process.communicate()[1]
+    kept = {path: path.read_bytes() for path in tmp_path.glob("objects/*.o")}
+    again = subprocess.run(words, env=surroundings, capture_output=True, text=True, check=True)
+    assert f"{6 - len(kept)} of 6 entries compiled" in again.stderr
+    assert "damaged" not in again.stderr
+    assert all(path.read_bytes() == content for path, content in kept.items())
+
+
+@pytest.mark.parametrize("number", tail(range(30), [0, 1]))
+def test_a_reduction_that_is_killed_leaves_a_whole_body_or_none(number, tmp_path):
+    """At random places; what is there after that is the body of one run."""
+
+    def content(name):
+        return pickle.dumps(read_body(tmp_path / name))
+
+    model = Path(__file__).parents[2] / "examples" / "flexible" / "pendulum-bar.yaml"
+    words = [sys.executable, "-m", "nivel", "reduce", str(model), "--no-report", "--quiet", "--force", "-o"]
+    begin = time.monotonic()
+    subprocess.run([*words, tmp_path / "whole.nc"], check=True)
+    took = time.monotonic() - begin
+    process = subprocess.Popen([*words, tmp_path / "bar.nc"], stderr=subprocess.PIPE, text=True)
+    time.sleep(took * np.random.default_rng(number).uniform(0.5, 1.1))
+    process.kill()
+    assert "Traceback" not in process.communicate()[1]
+    found = sorted(path.name for path in tmp_path.iterdir() if not path.name.startswith("."))
+    assert all(content(name) == content("whole.nc") for name in found)
+    subprocess.run([*words, tmp_path / "bar.nc"], check=True)
+    assert content("bar.nc") == content("whole.nc")
 
 
 def test_a_search_that_goes_on_in_python_computes_nothing_twice(folder, monkeypatch):

@@ -23,7 +23,7 @@ from nivel.files.target import Space, check_target, reason_of, status, written
 from nivel.integrate.loop.sink import Header
 from nivel.native.store import whole
 from nivel.results.frames.contents import Contents, MemoryContents, name_in_file, resolved, shape_of
-from nivel.results.frames.stored import StoredContents, opened
+from nivel.results.frames.stored import StoredContents
 from nivel.results.result import Result
 from nivel.system.layout import Variable
 
@@ -36,6 +36,8 @@ HEADER = 256 * 1024  # bytes
 LAST_WORDS = 32 * 1024  # bytes kept free, so that a file that cannot grow any more can still say why
 INDEX = 4096  # bytes
 NO_ROOM = "Free some space, write elsewhere (--out), or keep fewer frames (--output-interval)."
+MOST_KEPT = 16 * 1024 * 1024  # bytes of frames that are also kept in memory, so that they need not be read back
+CONVENTIONS = "CF-1.11"
 COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
 
 
@@ -54,10 +56,13 @@ class Store:
         self._space: Space | None = None
         self._chunks = 0  # bytes of one chunk of every variable, with what HDF5 needs to find it
         self._variables: list[tuple[Variable, tuple[int, ...]]] = []
+        self._header: Header | None = None
+        self._kept: list[NDArray[np.float64]] | None = []  # frames that were taken; None where they are many
         check_target(self.path, "result file", force=force)
 
     def begin(self, header: Header) -> None:
         """Create all variables and attributes, then let readers in."""
+        self._header, self._kept = header, []
         variables, coordinates = resolved(header)
         self._variables = [(variable, shape_of(variable, coordinates)) for variable in variables.values()]
         try:
@@ -96,6 +101,9 @@ class Store:
         self._file.flush()
         _append(self._file["time"], frames[:, 0])
         self._file.flush()
+        if self._kept is not None:
+            self._kept.append(frames.copy())
+            self._kept = self._kept if sum(each.nbytes for each in self._kept) <= MOST_KEPT else None
 
     def _refuse_foreign(self) -> None:
         """Raise SolveError where another run has put its file in the place of this one, which it must not touch."""
@@ -128,7 +136,15 @@ class Store:
 
     def result(self) -> Result:
         """What was written so far; the run may go on."""
-        return Result(StoredContents(self.path))
+        return Result(self._contents({}))
+
+    def _contents(self, attributes: Attributes) -> StoredContents:
+        """What the file holds; `attributes` replace those of the header."""
+        if self._kept is None or self._header is None:
+            return StoredContents(self.path)
+        frames = np.concatenate([np.empty((0, self._header.layout.width)), *self._kept])
+        both = {**self._header.attributes, "Conventions": CONVENTIONS, **attributes}
+        return StoredContents.of(self.path, MemoryContents(self._header, frames, both))
 
     def close(self, attributes: Attributes) -> Result:
         """Rewrite the file in its final form; `attributes` (`outcome`, `trust`, …) replace those of the header."""
@@ -136,19 +152,19 @@ class Store:
             raise RuntimeError("a sink must begin before it gives a result")
         self._refuse_foreign()
         self._finish()
-        rewrite(self.path, attributes)
-        return Result(StoredContents(self.path))
+        rewrite(self.path, attributes, self._contents({}))
+        return Result(self._contents(attributes))
 
 
-def rewrite(path: Path, attributes: Attributes) -> None:
-    """Replace the file at `path`, which nobody writes, by its final form, in one atomic step.
+def rewrite(path: Path, attributes: Attributes, contents: StoredContents | None = None) -> None:
+    """Replace the file at `path`, which nobody writes, by its final form, in one atomic step. contents : of that file, where known.
 
     When this fails, for instance because the disk is full, the file stays as it was, with the new attributes if they
     find place.
     """
     try:
         with whole(path) as draft:
-            _write_final(path, draft, attributes)
+            _write_final(contents or StoredContents(path), draft, attributes)
     except OSError as error:
         _note(path, attributes)
         raise _not_compressed(path, reason_of(error)) from error
@@ -177,21 +193,19 @@ def _note(path: Path, attributes: Attributes) -> None:
         space.close()
 
 
-def _write_final(source_path: Path, path: Path, attributes: Attributes) -> None:
-    source = StoredContents(source_path)
+def _write_final(source: StoredContents, path: Path, attributes: Attributes) -> None:
     variables = [(variable, shape_of(variable, source.coordinates)) for variable in source.variables.values()]
     count, both = source.frame_count, {**source.attributes, **attributes}
-    with opened(source_path) as old:
-        new = h5py.File(path, "w", libver=("v108", "v108"), locking="best-effort", track_order=True)
-        space = Space(path, new)
-        try:
-            space.ensure(_header_size(both))
-            _write_header(new, variables, source.coordinates, both, count, _final_chunks)
-            for name in ("time", *source.variables):
-                _copy(old[name_in_file(name)], new[name_in_file(name)], count, space)
-        finally:
-            new.flush()
-            space.close()
+    new = h5py.File(path, "w", libver=("v108", "v108"), locking="best-effort", track_order=True)
+    space = Space(path, new)
+    try:
+        space.ensure(_header_size(both))
+        _write_header(new, variables, source.coordinates, both, count, _final_chunks)
+        for name in ("time", *source.variables):
+            _copy(source, name, new[name_in_file(name)], space)
+    finally:
+        new.flush()
+        space.close()
 
 
 def _write_header(
@@ -204,7 +218,7 @@ def _write_header(
 ) -> None:
     """Attributes, coordinates and variables of `count` empty frames; `layout(shape, count)` gives their storage."""
     file.attrs.update(attributes)
-    file.attrs["Conventions"] = "CF-1.11"
+    file.attrs["Conventions"] = CONVENTIONS
     scales = {
         "time": file.create_dataset("time", (count,), "f8", maxshape=(None,), fillvalue=np.nan, **layout((), count))
     }
@@ -252,13 +266,13 @@ def _append(dataset: Any, block: NDArray[np.float64]) -> None:
     dataset[start:] = block
 
 
-def _copy(old: Any, new: Any, count: int, space: Space) -> None:
+def _copy(source: StoredContents, name: str, new: Any, space: Space) -> None:
     """In parts of whole chunks: a long run need not fit in memory."""
-    for start in range(0, count, FINAL_ROWS):
-        stop = min(start + FINAL_ROWS, count)
-        block = old[start:stop]
+    for start in range(0, source.frame_count, FINAL_ROWS):
+        part = slice(start, start + FINAL_ROWS)
+        block = source.read(name, (part,))
         space.ensure(block.nbytes + FINAL_CHUNK)
-        new[start:stop] = block
+        new[part] = block
 
 
 def _header_size(attributes: Attributes) -> int:

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.results.frames.contents import check_format, name_in_file, name_of, written_by_newer
+from nivel.lazy import replace
+from nivel.results.frames.contents import MemoryContents, check_format, name_in_file, name_of, written_by_newer
 from nivel.results.frames.json_forms import FORMS, misshapen, strangers
 from nivel.system.layout import Variable
 
@@ -75,8 +76,10 @@ class StoredContents:
     """Contents of a result file. The file is open only while something is read, so results can be kept and pickled.
 
     The number of frames is that of the moment of opening: all variables have at least these frames, whatever a writer
-    was doing.
+    was doing. What this process has just written need not be read: see `of`.
     """
+
+    _memory: MemoryContents | None = None
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -98,6 +101,21 @@ class StoredContents:
                 self._understand(file)
             except DAMAGE as error:
                 raise ModelError(f"{path} is damaged and cannot be read: {error}{written_by_newer(written)}") from None
+
+    @classmethod
+    def of(cls, path: Path, memory: MemoryContents) -> StoredContents:
+        """Those of a file that holds what is in memory."""
+        made = cls.__new__(cls)
+        made.path, made.frame_count, made._memory = path, memory.frame_count, memory
+        made.attributes, made.coordinates = memory.attributes, memory.coordinates
+        counts = {name: each.columns.stop - each.columns.start for name, each in memory.variables.items()}
+        made.variables = {
+            name: replace(each, columns=slice(0, counts[name])) for name, each in memory.variables.items()
+        }
+        return made
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_memory": None}
 
     def _understand(self, file: h5py.File) -> None:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
@@ -127,6 +145,8 @@ class StoredContents:
             raise ValueError("it has positions and lacks the attribute `scene`, which says of what")
 
     def read(self, name: str, where: tuple[slice | int, ...] = ()) -> NDArray[np.float64]:
+        if self._memory is not None:
+            return self._memory.read(name, where)
         frames, rest = (where[0], where[1:]) if where else (slice(None), ())
         frames = range(self.frame_count)[frames]
         index = slice(frames.start, frames.stop, frames.step) if isinstance(frames, range) else frames

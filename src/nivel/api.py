@@ -29,10 +29,7 @@ from nivel.machine.joints.driver import Driver
 from nivel.machine.joints.joint import Joint
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.compare import COMMON, Axes
 from nivel.machine.settings.run import SimulationSettings
-from nivel.machine.settings.sweep import SweepSettings
-from nivel.machine.settings.values import POSITIONS
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
@@ -68,6 +65,7 @@ if TYPE_CHECKING:
     from nivel.c_library.writer import Files
     from nivel.fmu.writer import Unit
     from nivel.judge.before.check import Check
+    from nivel.machine.settings.sweep import SweepSettings
     from nivel.methods import StaticCoordinates
     from nivel.native.entry import Entry
     from nivel.results.analyses.configuration_curve import ConfigurationCurve, JointPath
@@ -468,8 +466,9 @@ class Machine(Model):
         Raises ModelError where values or names are not known, or no variant can be run.
         """
         given = _given(settings)
-        own = {name: given.pop(name) for name in SweepSettings.model_fields if name in given}
-        return _sweep([self.with_settings(given)], values, SweepSettings(**own), listener)
+        record = nivel.machine.settings.sweep.SweepSettings
+        own = {name: given.pop(name) for name in record.model_fields if name in given}
+        return _sweep([self.with_settings(given)], values, record(**own), listener)
 
     @checked_arguments
     def batch(
@@ -786,9 +785,10 @@ class Machine(Model):
 
         positions : so many each way, default 361. Raises ModelError where other motions are not driven.
         """
+        most = positions or nivel.machine.settings.values.POSITIONS
         settings = nivel.machine.settings.kinematics.kinematics_settings(
             self.record,
-            {"drive": coordinate, "end": 0.0, "positions": positions or POSITIONS, "coordinates": coordinates},
+            {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates},
         )
         nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
         with self._faults_in_file():
@@ -1026,8 +1026,9 @@ class Machine(Model):
         if repeat < 1:
             raise ModelError(Fault.at("repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
         asked = _given(settings)
-        axes = Axes(**{key: value for key, value in asked.items() if key in Axes.model_fields})
-        given = {key: value for key, value in asked.items() if key in COMMON}
+        words = nivel.machine.settings.compare
+        axes = words.Axes(**{key: value for key, value in asked.items() if key in words.Axes.model_fields})
+        given = {key: value for key, value in asked.items() if key in words.COMMON}
         chosen = self.with_settings(given)
         grid = nivel.analysis.compare.compare_grid.lay_out(chosen.record, axes, given)
         nivel.analysis.compare.compare_grid.compile_grid(chosen.record, grid, listener)
@@ -1082,7 +1083,7 @@ def sweep(
     """As `Machine.sweep`, of machines that a function makes: ``nivel.sweep(make_crane, {"length": [4, 5, 6]})`` calls
     ``make_crane(length=4)`` and so on. Every machine runs by its own settings.
     """
-    return _sweep(make, values, SweepSettings(**_given(settings)), listener)
+    return _sweep(make, values, nivel.machine.settings.sweep.SweepSettings(**_given(settings)), listener)
 
 
 def _sweep(

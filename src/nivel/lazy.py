@@ -148,10 +148,14 @@ if TYPE_CHECKING:
     import nivel.exchange.urdf_writer
     import nivel.extras
     import nivel.files
+    import nivel.files.assembly
+    import nivel.files.collada_file
+    import nivel.files.convex_parts
     import nivel.files.fmu_file
     import nivel.files.input_table
     import nivel.files.reader
     import nivel.files.sources
+    import nivel.files.step_file
     import nivel.files.study_file
     import nivel.files.target
     import nivel.flexible.body.body_file
@@ -182,10 +186,12 @@ if TYPE_CHECKING:
     import nivel.looks.circuit.power_flow
     import nivel.machine.core.orientation
     import nivel.machine.core.record
+    import nivel.machine.settings.compare
     import nivel.machine.settings.inverse
     import nivel.machine.settings.kinematics
     import nivel.machine.settings.linearise
     import nivel.machine.settings.statics
+    import nivel.machine.settings.sweep
     import nivel.machine.settings.values
     import nivel.machine.units.quantity
     import nivel.machine.uses.hydraulic_uses

@@ -6,14 +6,13 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from html import escape
 from os import PathLike
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
 from nivel.errors import Fault, ModelError
-from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
 from nivel.files.outline import Known
 from nivel.files.reader import Origin
 from nivel.files.scope import FileNames, read_known, read_name_notes, read_names
@@ -22,7 +21,7 @@ from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
 from nivel.judge.before.unusual import remarks
-from nivel.lazy import dataclass, replace
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -42,6 +41,9 @@ from nivel.machine.signals.state import State
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word
+
+if TYPE_CHECKING:
+    from nivel.files.assembly import Assembly
 
 Element = TypeVar("Element", bound=Record)
 
@@ -331,10 +333,10 @@ class Model(Elements):
 
         placing : `position`, `orientation`, `mirror`, `prefix` (default the name and `_`), as in a machine file.
         """
-        assembly = Assembly(file="part", **{"prefix": f"{name}_", **placing})
+        assembly = nivel.files.assembly.Assembly(file="part", **{"prefix": f"{name}_", **placing})
         try:
-            made = elements_of(part.record, assembly)
-        except NotRepresentableError as error:
+            made = nivel.files.assembly.elements_of(part.record, assembly)
+        except nivel.files.assembly.NotRepresentableError as error:
             raise ModelError(Fault.at(name, str(error))) from None
         more = {section: (*getattr(self.record, section), *records) for section, records in made.items() if records}
         return self._edited(more)

@@ -13,13 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.files.collada_file import ColladaError, collada_surface
-from nivel.files.convex_parts import convex_parts
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources, beside, read_bytes
-from nivel.files.step_file import KINDS as STEP_KINDS
-from nivel.files.step_file import step_solids
 from nivel.files.tree import Path, Tree
+from nivel.lazy import nivel
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
@@ -66,7 +63,8 @@ def read_meshes(tree: Tree, sources: Sources) -> None:
 
 
 def _is_step(shape: dict[str, Any]) -> bool:
-    return shape.get("type", "mesh") == "mesh" and str(shape.get("file", "")).lower().endswith(STEP_KINDS)
+    is_mesh, name = shape.get("type", "mesh") == "mesh", str(shape.get("file", "")).lower()
+    return is_mesh and name.endswith(nivel.files.step_file.KINDS)
 
 
 def _read_part(tree: Tree, place: Path, shape: dict[str, Any]) -> None:
@@ -74,7 +72,7 @@ def _read_part(tree: Tree, place: Path, shape: dict[str, Any]) -> None:
     file = beside(tree.file_of(place), str(shape["file"]))
     part, body = shape.pop("part", None), tree.data["bodies"][place[1]] if place[0] == "bodies" else {}
     try:
-        solids = {each.name: each for each in step_solids(file)}
+        solids = {each.name: each for each in nivel.files.step_file.step_solids(file)}
     except ModelError as error:
         tree.report((*place, "file"), error.faults[0].message)
         tree.broken.add(place[:2])
@@ -126,7 +124,7 @@ def read_mesh(file: str | FilePath, **given: Any) -> Mesh:
     try:
         surface = surface_text(*parse(read_bytes(file), str(file)))
         if given.get("convex_parts", 1) > 1:
-            given["parts"] = convex_parts(surface, given["convex_parts"])
+            given["parts"] = nivel.files.convex_parts.convex_parts(surface, given["convex_parts"])
         return Mesh(file=str(file), surface=surface, **given)
     except NotReadError as problem:
         raise ModelError(f"{file}: {problem}") from None
@@ -138,7 +136,7 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
     readers: dict[str, Callable[[], tuple[Any, Any]]] = {
         ".stl": lambda: _stl(content),
         ".obj": lambda: _obj(content),
-        ".dae": lambda: collada_surface(content),
+        ".dae": lambda: nivel.files.collada_file.collada_surface(content),
         ".gltf": lambda: _gltf(_json(content), {}, file),
         ".glb": lambda: _glb(content, file),
     }
@@ -146,7 +144,7 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
         raise NotReadError(f"a mesh in {', '.join(KINDS)} was expected")
     try:
         vertices, triangles = readers[kind]()
-    except ColladaError as problem:
+    except nivel.files.collada_file.ColladaError as problem:
         raise NotReadError(str(problem)) from None
     except DAMAGE:
         raise NotReadError("the file is damaged, or not what its name says") from None

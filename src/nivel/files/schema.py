@@ -5,11 +5,11 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any
 
-from nivel.files.assembly import Assembly
 from nivel.files.body_files import KEY as MASS_PROPERTIES
 from nivel.files.include import Include
 from nivel.files.outline import FORMAT
 from nivel.files.rotors import KEY as ROTOR_INERTIA
+from nivel.lazy import nivel
 from nivel.machine.core.record import Record
 from nivel.machine.laws.time_function import CURVE
 from nivel.machine.machine_record import MachineRecord
@@ -25,7 +25,8 @@ def schema() -> dict[str, Any]:
     """
     machine = deepcopy(MachineRecord.model_json_schema(by_alias=True, mode="validation"))
     definitions, properties = machine["$defs"], machine["properties"]
-    included, assembly = _definition(Include, definitions), _definition(Assembly, definitions)
+    included = _definition(Include, definitions)
+    assembly = _definition(nivel.files.assembly.Assembly, definitions)
     definitions["Body"]["properties"][MASS_PROPERTIES] = {"type": "string", "description": "file with mass and inertia"}
     definitions["Mesh"]["properties"]["part"] = {"type": "string", "description": "name of a solid of a STEP file"}
     definitions["Joint"]["properties"][ROTOR_INERTIA] = {

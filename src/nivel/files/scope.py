@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path as FilePath
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from nivel.errors import Fault, ModelError
-from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
 from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
 from nivel.files.convex_parts import divide_meshes
@@ -28,7 +27,7 @@ from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
 from nivel.files.sticking_heaps import divide_heaps
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.lazy import dataclass, replace
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions
@@ -39,6 +38,9 @@ from nivel.machine.units.quantity import FAULT, FunctionFault
 from nivel.machine.units.shared_names import name_notes
 from nivel.machine.units.tree import Number, Parameters, Signal
 from nivel.machine.uses.references import SECTIONS
+
+if TYPE_CHECKING:
+    from nivel.files.assembly import Assembly
 
 MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressions that use them
 Elements = dict[str, dict[str, Record]]
@@ -81,7 +83,7 @@ def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str
     """The names in a machine file that can be read without fault. Values in SI units."""
     tree, values = _tree_of(text, file, sources, overrides, None)
     entries = section_of(tree, "assemblies").items()
-    assemblies = {name: read_assembly(tree, name, given, values) for name, given in entries}
+    assemblies = {name: nivel.files.assembly.read_assembly(tree, name, given, values) for name, given in entries}
     return FileNames(
         {name: each.value for name, each in values.items() if isinstance(each, Number)},
         {name: assembly for name, assembly in assemblies.items() if assembly is not None},
@@ -119,7 +121,7 @@ def _tree_of(
     check_sections(tree)
     if user is not None:
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
-        given_parameters(tree, *user)
+        nivel.files.assembly.given_parameters(tree, *user)
     add_rotors(tree)
     read_meshes(tree, sources)
     divide_meshes(tree)
@@ -139,9 +141,11 @@ def _expanded(tree: Tree, parameters: Parameters, sources: Sources) -> Elements:
     """The elements that the assemblies of `tree` make. Faults go to `tree.faults`."""
     made: Elements = {section: {} for section in SECTIONS}
     for name, given in (tree.data.pop("assemblies", None) or {}).items():
-        assembly = read_assembly(tree, name, given, parameters)
+        assembly = nivel.files.assembly.read_assembly(tree, name, given, parameters)
         part = None if assembly is None else _part(tree, name, assembly, sources)
-        elements = None if assembly is None or part is None else made_by(tree, name, assembly, part)
+        elements = (
+            None if assembly is None or part is None else nivel.files.assembly.made_by(tree, name, assembly, part)
+        )
         if elements is None:
             tree.unread.add(prefix_of(name, given))
             continue

@@ -6,12 +6,14 @@ import base64
 import hashlib
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Final
 
 from nivel.files.target import keep_sources, write_file
+from nivel.native.store import folder, read, write
 from nivel.results.result import Result
 from nivel.view.package import compressed_text
 from nivel.view.playback import ALONE, Budget, playback
@@ -73,7 +75,15 @@ def _alone(title: str, policy: str, **texts: str) -> str:
 
 @cache
 def _compressed(name: str) -> str:
-    return compressed_text(built(name).encode())
+    """A built file as text for a page; kept beside the machine code, where there is room for it."""
+    content = built(name).encode()
+    path = folder() / f"{name}-{hashlib.sha256(content).hexdigest()[:24]}"
+    kept = read(path)
+    if kept is None:
+        kept = compressed_text(content).encode()
+        with suppress(OSError):
+            write(path, kept)
+    return kept.decode()
 
 
 def _document(title: str, body: str, head: str) -> str:

@@ -101,7 +101,7 @@ def friction_tables(
         lam=np.zeros(row_count),
         anchor=np.zeros(count),
         jacobian=np.zeros((count, count)),
-        work=np.zeros((9, count)),
+        work=np.zeros((11, count)),
     )
 
 

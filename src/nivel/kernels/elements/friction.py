@@ -53,8 +53,10 @@ ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD, REST = 7, 8, 9, 10, 11, 12
 BACKWARD, LEVER = 13, 14
 
 # rows of `work`, besides those of `nivel.kernels.elements.patch`; SLIDES: whether a friction with stiction is asked to hold, as it slid in
-# the accepted state is not, or cannot; WANTED: efforts of patches
+# the accepted state is not, or cannot; WANTED: efforts of patches. ACTIVE: numbers of all frictions but those of patches where nothing
+# touches, of which the first COUNTED is how many there are. DEFECT, AHEAD and CHANGE are in their order.
 DEFECT, AHEAD, CHANGE, SLIDES, WANTED = 0, 1, 2, 3, 4
+ACTIVE, COUNTED = 9, 10
 HOLDS, SLID, CANNOT = 0.0, 1.0, 2.0
 
 # Gauss–Seidel sweeps, then Newton steps, then anchored ones, then, where there are patches, sweeps that are anchored more; efforts agree to
@@ -108,16 +110,30 @@ def is_apart(record, k):
 
 
 @stage
-def all_apart(record):
-    """Whether all frictions are of patches where nothing touches; then none has an effort."""
-    friction = record.friction
+def note_active(record):
+    """Note the frictions that act, and that those of patches where nothing touches have no effort. Returns how many act."""
+    friction, count = record.friction, 0
     for k in range(friction.columns.shape[0]):
-        if not is_apart(record, k):
-            return False
-    for k in range(friction.columns.shape[0]):
-        friction.force[k], friction.anchor[k] = 0.0, 0.0
-        friction.work[PROPOSED, k], friction.work[RESTING, k] = 0.0, 0.0
-    return True
+        if is_apart(record, k):
+            friction.force[k], friction.anchor[k] = 0.0, 0.0
+            friction.work[PROPOSED, k], friction.work[RESTING, k] = 0.0, 0.0
+        else:
+            friction.work[ACTIVE, count] = k
+            count += 1
+    friction.work[COUNTED, 0] = count
+    return count
+
+
+@stage
+def active_count(friction):
+    """How many frictions act."""
+    return np.int64(friction.work[COUNTED, 0])
+
+
+@stage
+def acting(friction, a):
+    """Number of the a-th friction that acts."""
+    return np.int64(friction.work[ACTIVE, a])
 
 
 @stage
@@ -126,12 +142,9 @@ def respond(machine):
     record = record_at(machine)
     friction, saddle = record.friction, record.saddle
     width, rows = saddle.z.shape[1], saddle.b.shape[0]
-    for k in range(friction.columns.shape[0]):
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
         change, response = friction.change[k], friction.response[k]
-        if is_apart(record, k):
-            for row in range(response.shape[0]):
-                response[row] = 0.0
-            continue
         for body in range(change.shape[0]):
             for i in range(width):
                 change[body, i] = 0.0
@@ -152,12 +165,12 @@ def respond(machine):
             row, body = saddle.block[n, 0], saddle.block[n, 3]
             for i in range(width):
                 change[body, i] -= saddle.W[n, i] * saddle.b[row]
-    for k in range(friction.columns.shape[0]):
-        for other in range(friction.columns.shape[0]):
-            apart = is_apart(record, k) or is_apart(record, other)
-            friction.S[k, other] = 0.0 if apart else along(machine, k, friction.change[other])
-        if not is_apart(record, k):
-            friction.mass[k] = 1.0 / max(friction.S[k, k], friction.mass[k] / BOUND, 1e-300)
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
+        for b in range(active_count(friction)):
+            other = acting(friction, b)
+            friction.S[k, other] = along(machine, k, friction.change[other])
+        friction.mass[k] = 1.0 / max(friction.S[k, k], friction.mass[k] / BOUND, 1e-300)
 
 
 @stage
@@ -168,10 +181,8 @@ def start(machine):
     rows = constraints.C.shape[0]
     for row in range(rows):
         friction.lam[row] = constraints.lam[row]
-    for k in range(friction.columns.shape[0]):
-        if is_apart(record, k):
-            friction.free[k] = 0.0
-            continue
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
         total = -constraints.gamma[rows + k]
         for n in range(friction.block[k, 0], friction.block[k, 1]):
             for i in range(saddle.z.shape[1]):
@@ -186,7 +197,8 @@ def superpose(machine):
     friction, lam = record.friction, record.constraints.lam
     for row in range(lam.shape[0]):
         total = friction.lam[row]
-        for k in range(friction.columns.shape[0]):
+        for a in range(active_count(friction)):
+            k = acting(friction, a)
             total += friction.response[k, row] * friction.force[k]
         lam[row] = total
 
@@ -357,7 +369,8 @@ def holding(machine, k, tau, anchor):
     record = record_at(machine)
     friction, rate = record.friction, record.coordinates.rate[record.friction.columns[k, COORDINATE]]
     acceleration = friction.free[k] + rate / tau
-    for other in range(friction.columns.shape[0]):
+    for b in range(active_count(friction)):
+        other = acting(friction, b)
         if other != k:
             acceleration += friction.S[k, other] * friction.force[other]
     wanted = (anchor * friction.anchor[k] - acceleration / yielding(friction, k)) / (1.0 + anchor)
@@ -371,7 +384,8 @@ def lack_of_patch(machine, k, a, tau, anchor):
     friction, rate = record.friction, record.coordinates.rate[record.friction.columns[k + a, COORDINATE]]
     last = k + np.int64(friction.columns[k, COUNT])
     total = -friction.free[k + a] - rate / tau
-    for other in range(friction.columns.shape[0]):
+    for b in range(active_count(friction)):
+        other = acting(friction, b)
         if other < k or other >= last:
             total -= friction.S[k + a, other] * friction.force[other]
         else:
@@ -437,10 +451,11 @@ def residual(machine, anchor, r):
     friction = record.friction
     superpose(machine)
     largest, worst, scale = 0.0, 0, 0.0
-    for k in range(friction.columns.shape[0]):
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
         wanted = effort(machine, k, record.control.stick[0], anchor)
-        r[k] = wanted - friction.force[k]
-        size = np.abs(r[k])
+        r[a] = wanted - friction.force[k]
+        size = np.abs(r[a])
         if not size <= largest:
             largest, worst = size, k
         scale = max(scale, np.abs(wanted), np.abs(friction.force[k]))
@@ -452,7 +467,8 @@ def sweep(machine, anchor):
     """One Gauss–Seidel sweep: each friction takes the effort that the others' leave it."""
     record = record_at(machine)
     friction = record.friction
-    for k in range(friction.columns.shape[0]):
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
         if friction.columns[k, MODEL] == PATCH:
             if friction.columns[k, FIRST] == k:
                 want_patch(machine, k, record.control.stick[0], anchor, True)
@@ -498,17 +514,18 @@ def find_change(machine, anchor, scale):
     returns the largest defect before it."""
     record = record_at(machine)
     friction = record.friction
-    n = friction.columns.shape[0]
-    r, ahead, d, J = friction.work[DEFECT], friction.work[AHEAD], friction.work[CHANGE], friction.jacobian
+    n = active_count(friction)
+    r, ahead, d, J = friction.work[DEFECT, :n], friction.work[AHEAD], friction.work[CHANGE], friction.jacobian
     before, _, _ = residual(machine, anchor, r)
-    for j in range(n):
+    for b in range(n):
+        j = acting(friction, b)
         kept = friction.force[j]
         delta = 1e-7 * (np.abs(kept) + scale) + 1e-30
         friction.force[j] = kept + delta
         residual(machine, anchor, ahead)
         friction.force[j] = kept
-        for k in range(n):
-            J[k, j] = (ahead[k] - r[k]) / delta
+        for a in range(n):
+            J[a, b] = (ahead[a] - r[a]) / delta
     eliminate(J, r, d)
     return before
 
@@ -519,8 +536,8 @@ def settle_slopes(machine, scale):
     friction = record_at(machine).friction
     for _ in range(SETTLING):
         find_change(machine, 0.0, scale)
-        for k in range(friction.columns.shape[0]):
-            friction.force[k] += friction.work[CHANGE, k]
+        for a in range(active_count(friction)):
+            friction.force[acting(friction, a)] += friction.work[CHANGE, a]
     superpose(machine)
 
 
@@ -529,18 +546,18 @@ def newton(machine, anchor, scale):
     """One Newton step for effort(F) = F, halved while it does not help."""
     record = record_at(machine)
     friction = record.friction
-    n = friction.columns.shape[0]
+    n = active_count(friction)
     ahead, d = friction.work[AHEAD], friction.work[CHANGE]
     before = find_change(machine, anchor, scale)
     share = 1.0
     for _ in range(6):
-        for k in range(n):
-            friction.force[k] += share * d[k]
+        for a in range(n):
+            friction.force[acting(friction, a)] += share * d[a]
         largest, _, _ = residual(machine, anchor, ahead)
         if largest < before:
             return
-        for k in range(n):
-            friction.force[k] -= share * d[k]
+        for a in range(n):
+            friction.force[acting(friction, a)] -= share * d[a]
         share *= 0.5
     sweep(machine, anchor)
 
@@ -549,8 +566,8 @@ def newton(machine, anchor, scale):
 def has_patches(record):
     """Whether a friction is of a patch."""
     friction = record.friction
-    for k in range(friction.columns.shape[0]):
-        if friction.columns[k, MODEL] == PATCH:
+    for a in range(active_count(friction)):
+        if friction.columns[acting(friction, a), MODEL] == PATCH:
             return True
     return False
 
@@ -655,7 +672,8 @@ def choose(machine):
     these are."""
     record = record_at(machine)
     friction, more = record.friction, 0
-    for k in range(friction.columns.shape[0]):
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
         if not has_fall(friction, k):
             continue
         if friction.work[SLIDES, k] == SLID and turns_back(record, k):
@@ -672,14 +690,15 @@ def propose(machine):
     """Leave what an accepted step would keep: the efforts of what slides."""
     record = record_at(machine)
     friction = record.friction
-    for k in range(friction.columns.shape[0]):
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
         if has_fall(friction, k):
             count = np.int64(friction.columns[k, COUNT]) if friction.columns[k, MODEL] == PATCH else 1
             slides = friction.work[SLIDES, k] != HOLDS and is_beyond(machine, k)
-            resting = not slides and not is_apart(record, k) and rests(machine, k)
-            for a in range(k, k + count):
-                friction.work[PROPOSED, a] = friction.force[a] if slides else 0.0
-                friction.work[RESTING, a] = 1.0 if resting else 0.0
+            resting = not slides and rests(machine, k)
+            for i in range(k, k + count):
+                friction.work[PROPOSED, i] = friction.force[i] if slides else 0.0
+                friction.work[RESTING, i] = 1.0 if resting else 0.0
 
 
 @stage
@@ -757,13 +776,14 @@ def apply(machine, number, t):
     """
     record = record_at(machine)
     friction, saddle, control = record.friction, record.saddle, record.control
-    count = friction.columns.shape[0]
-    if all_apart(record):
+    count = note_active(record)
+    if count == 0:
         return OK
     find_capacities(machine, t)
     respond(machine)
     start(machine)
-    for k in range(count):
+    for a in range(count):
+        k = acting(friction, a)
         friction.anchor[k] = friction.force[k]
         friction.work[SLIDES, k] = SLID if slid(friction, k) else HOLDS
     largest, worst, scale = iterate(machine)
@@ -773,14 +793,13 @@ def apply(machine, number, t):
     if not largest <= ENOUGH * scale:
         control.failure[0] = worst
         return FRICTION_DIVERGES
-    for k in range(count):
+    for a in range(count):
+        k = acting(friction, a)
         force = friction.force[k]
         report(machine, k, force)
         if friction.columns[k, MODEL] == LUGRE and relaxation(machine, k) * control.stick[1] > FASTEST:
             control.failure[0] = k
             return BRISTLE_TOO_FAST
-        if is_apart(record, k):
-            continue
         for body in range(saddle.z.shape[0]):
             for i in range(saddle.z.shape[1]):
                 saddle.z[body, i] += force * friction.change[k, body, i]

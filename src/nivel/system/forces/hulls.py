@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +62,13 @@ def hull_of(body: Touching, part: int | None = None) -> Hull:
 
 def hull_of_points(points: Array) -> Hull:
     """The convex hull of points (n, 3) [m] of a body. Raises QhullError where they lie in a plane."""
+    return _hull_of(np.ascontiguousarray(points, dtype=float).tobytes())
+
+
+@lru_cache(maxsize=1000)
+def _hull_of(content: bytes) -> Hull:
+    """The same of the bytes of the points: every contact of a solid asks for its hull, and so do checks of each run."""
+    points = np.frombuffer(content).reshape(-1, 3)
     found = scipy.spatial.ConvexHull(points)
     corners = points[found.vertices]
     middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
@@ -119,11 +127,8 @@ def _prism(cylinder: Cylinder) -> Array:
 
 def _distinct(normals: Array) -> Array:
     """The normals of all faces, of coplanar triangles once."""
-    kept: list[Array] = []
-    for normal in normals:
-        if not any(np.abs(normal - known).max() <= FLAT for known in kept):
-            kept.append(normal)
-    return np.array(kept)
+    alike = np.abs(normals[:, None] - normals[None, :]).max(axis=2) <= FLAT
+    return np.asarray(normals[~np.tril(alike, -1).any(axis=1)])
 
 
 def _edges(corners: Array, faces: Array) -> NDArray[np.int64]:

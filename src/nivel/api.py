@@ -884,17 +884,19 @@ class Machine(Model):
         """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
         `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
 
-        coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
+        coordinates : relative (default where there are joints) or absolute. Contacts, and friction of joints that sticks, have no part in
+        them: `left_out` names them. Raises ModelError where the machine cannot be assembled.
         """
         with self._faults_in_file():
-            refuse(nivel.judge.before.analyses.not_smooth(self.record))
-            refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_SAMPLES))
-            plain, chosen = nivel.analysis.plan.equations_only.neutral(self.record, coordinates or "auto")
+            record, left_out = nivel.analysis.plan.equations_only.without_sticking(self.record)
+            refuse(nivel.judge.before.analyses.not_smooth(record))
+            refuse(nivel.judge.before.refusals.faults_of(record, nivel.judge.before.analyses.OF_SAMPLES))
+            plain, chosen = nivel.analysis.plan.equations_only.neutral(record, coordinates or "auto")
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.linear_entries(methods), listener)
         with self._faults_in_file():
             return nivel.analysis.inverse.mechanics.Mechanics(
-                plain, nivel.analysis.run.prepared_state.at_start(methods)
+                plain, nivel.analysis.run.prepared_state.at_start(methods), left_out
             )
 
     @checked_arguments

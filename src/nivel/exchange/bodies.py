@@ -160,21 +160,26 @@ def offset(mechanism: Mechanism, groups: dict[str, Group]) -> None:
         if each.mimic is None or other is None or each.kind not in ("revolute", "translational"):
             continue
         wanted = each.mimic[1] * other.placed + each.mimic[2]
-        way = wanted - each.placed
-        if not way:
-            continue
-        axis = each.axes[0] / np.linalg.norm(each.axes[0])
-        turned = elementary_turn(axis, way) if each.kind == "revolute" else np.eye(3)
-        shift = each.point - turned @ each.point if each.kind == "revolute" else way * axis
-        motion = Frame(turned, shift)
-        beyond = set(carried(mechanism, groups, each))
-        for name in beyond:
-            mechanism.links[name].place = motion @ mechanism.links[name].place
-        for other in mechanism.connections:
-            if other is not each and other.bodies[0] in beyond:
-                other.point = motion.axes @ other.point + motion.origin
-                other.axes = tuple(motion.axes @ axis for axis in other.axes)
-        each.placed = wanted
+        move_to(mechanism, groups, each, wanted)
+
+
+def move_to(mechanism: Mechanism, groups: dict[str, Group], each: Connection, wanted: float) -> None:
+    """Place what a revolute or translational joint carries where its coordinate is `wanted`."""
+    way = wanted - each.placed
+    if not way:
+        return
+    axis = each.axes[0] / np.linalg.norm(each.axes[0])
+    turned = elementary_turn(axis, way) if each.kind == "revolute" else np.eye(3)
+    shift = each.point - turned @ each.point if each.kind == "revolute" else way * axis
+    motion = Frame(turned, shift)
+    beyond = set(carried(mechanism, groups, each))
+    for name in beyond:
+        mechanism.links[name].place = motion @ mechanism.links[name].place
+    for other in mechanism.connections:
+        if other is not each and other.bodies[0] in beyond:
+            other.point = motion.axes @ other.point + motion.origin
+            other.axes = tuple(motion.axes @ axis for axis in other.axes)
+    each.placed = wanted
 
 
 def elementary_turn(axis: Array, angle: float) -> Array:

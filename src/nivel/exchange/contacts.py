@@ -1,4 +1,8 @@
-"""Contacts of a mechanism in the data of a machine file: a marker with a shape for each solid that touches, a force for each pair."""
+"""Contacts of a mechanism in the data of a machine file: a marker with a shape for each solid that touches, a force for each pair.
+
+URDF and SDF name no pairs: there solids of different models touch, and links of a model where it says so (`self_collide`), but for those
+that a joint connects. A point whose surface has no stiffness sinks by SINK under the weight of the model, damped critically.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ import numpy as np
 
 from nivel.exchange.bodies import Group, marker_frame
 from nivel.exchange.looks import Drawing, NotFoundError
-from nivel.exchange.mechanism import WORLD, Array, Frame, Look, Mechanism, Solid, Touch
+from nivel.exchange.mechanism import WORLD, Array, Frame, Look, Mechanism, Solid, Surface, Touch
 from nivel.exchange.translation import Names, number, triple, turn
 from nivel.lazy import scipy
 from nivel.machine.core.record import GROUND
@@ -16,6 +20,12 @@ from nivel.machine.core.record import GROUND
 ROUND: Final = ("sphere", "capsule", "ellipsoid")
 CORNERS: Final = 48  # of the hull of a mesh: of two hulls the faces are compared in pairs
 FEET: Final = 4  # points on which a flat side stands, each with the stiffness of a point
+SINK: Final = 0.5e-3  # [m]
+HARD: Final = 1e10  # [N/m]: a stiffness from here on stands for a rigid surface
+GRAVITY: Final = 9.81  # [m/s²] where the model has no weight
+LEFT: Final = "collision geometry; a contact is a force of type `contact`"
+RIGID: Final = f"contacts of rigid surfaces sink by {SINK * 1e3:g} mm under the weight of the model on one point, damped critically"
+BELOW: Final = "a ground is put below the lowest point of the model"
 SOFT: Final = (
     "contacts are springs that sink as deep as those of the model under a steady load, damped as they are there"
 )
@@ -25,6 +35,8 @@ def contacts_of(
     mechanism: Mechanism, groups: dict[str, Group], names: Names, drawing: Drawing
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Markers with the shapes that touch, and forces."""
+    if mechanism.solids and not mechanism.touches:
+        _pair(mechanism, groups, drawing)
     markers: dict[str, Any] = {}
     forces: dict[str, Any] = {}
     areas: dict[str, float] = {}
@@ -37,9 +49,109 @@ def contacts_of(
             continue
         force = _force(touch, pair, [names.name("marker", solid.name) for solid in pair], areas)
         forces[names.new(f"{touch.first}_{touch.second}", "force")] = force
-    if forces:
+    if forces and mechanism.format == "MJCF":
         mechanism.notes.change(SOFT)
     return markers, forces
+
+
+def add_solid(
+    mechanism: Mechanism, given: str, link: str, look: Look | str, surface: Surface, model: str, line: int
+) -> None:
+    """Add what a <collision> of a link is, or note that it is not read."""
+    if isinstance(look, str):
+        mechanism.notes.leave(f"collision geometry {f'<{look}>' if look else 'without a shape'}", link, line, acts=True)
+        return
+    owner = link or model or "world"
+    base = given if given.startswith(owner) else f"{owner}_{given}"
+    name, count = base, 2
+    while name in mechanism.solids:
+        name, count = f"{base}_{count}", count + 1
+    mechanism.solids[name] = Solid(name, link, look, surface, model)
+
+
+def _pair(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> None:
+    """Add the pairs of solids that may touch, and the ground."""
+    moving = [each for each in mechanism.solids.values() if groups[each.link].first != WORLD]
+    if mechanism.stands and moving:
+        lowest = min(_lowest(each, mechanism, drawing) for each in moving)
+        place = Frame(origin=np.array([0.0, 0.0, lowest]))
+        mechanism.solids["ground_plane"] = Solid("ground_plane", WORLD, Look("plane", place))
+        mechanism.notes.change(f"{BELOW}: at z = {lowest:.4g} m")
+    ends_of = [[groups[name].first for name in each.bodies] for each in mechanism.connections]
+    joined = {frozenset(each) for each in ends_of}
+    for name in (
+        name for name, each in mechanism.links.items() if each.inertial is None
+    ):  # between the axes of a joint
+        near = {end for each in ends_of if name in each for end in each}
+        joined |= {frozenset((one, other)) for one in near for other in near}
+    masses = _masses(mechanism)
+    solids = list(mechanism.solids.values())
+    for k, first in enumerate(solids):
+        for second in solids[k + 1 :]:
+            ends = {groups[first.link].first, groups[second.link].first}
+            same = first.apart_from != "" and first.apart_from == second.apart_from
+            if len(ends) == 1 or same or {first.look.kind, second.look.kind} == {"plane"}:
+                continue
+            if WORLD not in ends and frozenset(ends) in joined:
+                continue
+            mechanism.touches.append(_touch_of(first, second, masses, mechanism))
+    if moving and not mechanism.touches:
+        mechanism.notes.leave("collision geometry that has nothing to touch", ", ".join(each.name for each in moving))
+
+
+def _touch_of(first: Solid, second: Solid, masses: dict[str, float], mechanism: Mechanism) -> Touch:
+    surfaces = (first.surface, second.surface)
+    soft = [each.stiffness for each in surfaces if each.stiffness is not None and 0.0 < each.stiffness < HARD]
+    inverse = sum(1.0 / masses[each.link] for each in (first, second) if masses.get(each.link))
+    mass = 1.0 / inverse if inverse else 1.0
+    gravity = float(np.linalg.norm(mechanism.gravity)) or GRAVITY
+    stiffness = 1.0 / sum(1.0 / each for each in soft) if soft else mass * gravity / SINK
+    if not soft:
+        mechanism.notes.change(RIGID)
+    given = max(each.damping or 0.0 for each in surfaces)
+    damping = max(given, 2.0 * float(np.sqrt(stiffness * mass))) / (mass * gravity)
+    return Touch(first.name, second.name, min(each.friction for each in surfaces), stiffness, damping)
+
+
+def _masses(mechanism: Mechanism) -> dict[str, float]:
+    """[kg] of each link with all that joints connect it with, but for the ground."""
+    near: dict[str, set[str]] = {name: set() for name in mechanism.links}
+    for first, second in (each.bodies for each in mechanism.connections if WORLD not in each.bodies):
+        near[first].add(second)
+        near[second].add(first)
+    masses: dict[str, float] = {}
+    for name in mechanism.links:
+        found, pending = {name}, [name]
+        while pending and name not in masses:
+            more = near[pending.pop()] - found
+            found, pending = found | more, [*pending, *more]
+        given = (mechanism.links[each].inertial for each in found)
+        total = sum(each.mass for each in given if each is not None)
+        masses |= {each: total for each in found if each not in masses}
+    return masses
+
+
+def _lowest(solid: Solid, mechanism: Mechanism, drawing: Drawing) -> float:
+    """[m] least height of a solid where its link stands; infinite where its mesh is not found."""
+    look, frame = solid.look, mechanism.links[solid.link].place @ solid.look.place
+    down, sizes = -frame.axes[2], np.array(look.sizes)
+    match look.kind:
+        case "sphere":
+            reach = sizes[0]
+        case "box":
+            reach = 0.5 * np.abs(down) @ sizes
+        case "ellipsoid":
+            reach = np.linalg.norm(sizes * down)
+        case "cylinder":
+            reach = sizes[0] * np.hypot(down[0], down[1]) + 0.5 * sizes[1] * abs(down[2])
+        case "capsule":
+            reach = sizes[0] + 0.5 * sizes[1] * abs(down[2])
+        case _:
+            try:
+                reach = (_hull(look, drawing) @ down).max()
+            except (NotFoundError, scipy.spatial.QhullError):
+                return np.inf
+    return float(frame.origin[2] - reach)
 
 
 def _force(touch: Touch, pair: list[Solid], markers: list[str], areas: dict[str, float]) -> dict[str, Any]:

@@ -101,8 +101,8 @@ def _following(each: Connection, other: Connection, coordinate: float) -> float:
     return each.placed + sum(factor * way**k for k, factor in enumerate(each.follows[1]))
 
 
-def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> None:
-    """Put start values into the data of joints: as given, within the limits, and as joints follow each other."""
+def start_values(mechanism: Mechanism) -> dict[str, float]:
+    """Coordinates of joints at the start by name: as given, within the limits, and as joints follow each other."""
     starts: dict[str, float] = {}
     for each in mechanism.connections:
         if each.mimic is not None or each.follows is not None or not each.coordinate:
@@ -120,6 +120,11 @@ def starts_of(mechanism: Mechanism, names: Names, joints: dict[str, Any]) -> Non
         elif each.follows is not None and each.follows[0] in starts:
             other = next(joint for joint in mechanism.connections if joint.name == each.follows[0])
             starts[each.name] = _following(each, other, starts[other.name])
+    return starts
+
+
+def add_starts(mechanism: Mechanism, starts: dict[str, float], names: Names, joints: dict[str, Any]) -> None:
+    """Put start values into the data of joints, unless links stand there already."""
     if all(starts[each.name] == each.placed for each in mechanism.connections if each.name in starts):
         return
     for each in mechanism.connections:  # all of them: the assembly would move those that are left open

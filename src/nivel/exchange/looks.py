@@ -17,8 +17,10 @@ from nivel.exchange.mechanism import Array, Frame, Link, Look
 from nivel.exchange.translation import Notes, number, triple, turn
 from nivel.files.mesh_file import KINDS, NotReadError, parse
 from nivel.files.sources import read_bytes
+from nivel.files.xml_source import Document, Element
 from nivel.lazy import dataclass, field
 from nivel.machine.bodies.surface import Triangles
+from nivel.machine.core.placement import frame_from_axes
 
 ALONG: Final = 1e-9  # by which an axis may miss that of the body
 PARENTS: Final = 4  # folders above that of the model which may be a package
@@ -28,6 +30,40 @@ ROUND: Final = 24  # facets of round solids that lie askew
 
 class NotFoundError(Exception):
     """Why a mesh is not drawn, in words."""
+
+
+def look_of(given: Element, at: Frame, colour: str, document: Document, default: float) -> Look | str:
+    """The solid of a <visual> or <collision> of URDF or SDF, or the word for one that is not read. default : of sizes that are missing."""
+    geometry = given.first("geometry")
+    solid = geometry.children[0] if geometry is not None and geometry.children else None
+    if solid is None:
+        return ""
+
+    def size(key: str, *usual: float) -> tuple[float, ...]:
+        """Numbers of an attribute, or of an element of this name."""
+        inner = solid.first(key)
+        return document.numbers(solid if inner is None else inner, key if inner is None else "", usual)
+
+    common: dict[str, Any] = {"place": at, "colour": colour, "line": given.line}
+    match solid.tag:
+        case "box":
+            return Look("box", sizes=size("size", default, default, default), **common)
+        case "cylinder" | "capsule":
+            kind: Any = solid.tag
+            return Look(kind, sizes=(*size("radius", 0.5 * default), *size("length", default)), **common)
+        case "sphere":
+            return Look("sphere", sizes=size("radius", 0.5 * default), **common)
+        case "ellipsoid":
+            return Look("ellipsoid", sizes=size("radii", default, default, default), **common)
+        case "mesh":
+            x, y, z = size("scale", 1.0, 1.0, 1.0)
+            uri = solid.first("uri")
+            file = solid.get("filename") if uri is None else uri.text.strip()
+            return Look("mesh", file=file, scale=(x, y, z), **common)
+        case "plane":
+            normal = frame_from_axes(np.array(size("normal", 0.0, 0.0, 1.0)))
+            return Look("plane", **common | {"place": at @ Frame(normal)})
+    return solid.tag
 
 
 @dataclass
@@ -57,6 +93,8 @@ class Drawing:
     def _shape(self, look: Look, at: Frame, name: str) -> dict[str, Any]:
         if look.kind == "mesh":
             return self._mesh(look, at)
+        if look.kind == "plane":
+            raise NotFoundError("a plane without ends")
         if look.surface is not None:
             return self.surface(name, look.surface, at)
         if not all(0.0 < size < 1e6 for size in look.sizes):

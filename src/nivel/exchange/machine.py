@@ -16,11 +16,12 @@ from nivel.exchange.bodies import (
     inertia_about,
     lumped,
     marker_frame,
+    move_to,
     offset,
     possible,
 )
 from nivel.exchange.contacts import contacts_of
-from nivel.exchange.joint_forces import actuated, coupling_of, forces_of, starts_of
+from nivel.exchange.joint_forces import actuated, add_starts, coupling_of, forces_of, start_values
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
 from nivel.exchange.translation import Names, Translation, number, refuse, triple, turn
@@ -39,6 +40,11 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     refuse(faults)
     names, groups = Names(), groups_of(mechanism)
     offset(mechanism, groups)
+    starts = start_values(mechanism)
+    if _is_tree(mechanism, groups) and _has_free_root(mechanism, groups):  # which the assembly would turn
+        for each in mechanism.connections:
+            if each.name in starts:
+                move_to(mechanism, groups, each, starts[each.name])
     data: dict[str, Any] = {"name": _title(mechanism.name)}
     bodies, looks_of_ground = _bodies(mechanism, groups, names, drawing, faults, file)
     joints = {
@@ -49,7 +55,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     refuse(faults)
     if not bodies:
         refuse([Fault(file, 1, 1, "", "nothing in this model moves: every link is fixed to the ground")])
-    starts_of(mechanism, names, joints)
+    add_starts(mechanism, starts, names, joints)
     couplings, forces, inputs = {}, {}, {}
     for each in mechanism.connections:
         coupling = coupling_of(each, mechanism, names)
@@ -102,6 +108,12 @@ def _is_tree(mechanism: Mechanism, groups: dict[str, Group]) -> bool:
     """Whether no body is the second of two joints."""
     second = [groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"]
     return len(second) == len(set(second))
+
+
+def _has_free_root(mechanism: Mechanism, groups: dict[str, Group]) -> bool:
+    """Whether a body that carries others is the second of no joint."""
+    second = {groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"}
+    return any(groups[each.bodies[0]].first not in second | {WORLD} for each in mechanism.connections)
 
 
 def _nearly_parallel(mechanism: Mechanism) -> bool:

@@ -136,12 +136,26 @@ class Actuator:
 
 
 @dataclass(frozen=True)
+class Surface:
+    """What a file says of the surface of a solid. stiffness [N/m], damping [N s/m] : of a point, None where it says nothing."""
+
+    friction: float = 1.0
+    stiffness: float | None = None
+    damping: float | None = None
+
+
+@dataclass(frozen=True)
 class Solid:
-    """A solid of a link, or of WORLD, that touches others. look : its kind and place; a `plane` has its normal along z."""
+    """A solid of a link, or of WORLD, that touches others. look : its kind and place; a `plane` has its normal along z.
+
+    apart_from : name of the model whose other solids it does not touch.
+    """
 
     name: str
     link: str
     look: Look
+    surface: Surface = Surface()
+    apart_from: str = ""
 
 
 @dataclass(frozen=True)
@@ -160,7 +174,8 @@ class Mechanism:
     """links by name, and what connects them. gravity : (3,) [m/s²].
 
     sites : further frames, (name, link, frame in the link). lifts : constant forces, (link, point in the link, force in global axes).
-    step : of its simulation [s]. solids, touches : what touches, by name, and pairs of it.
+    step : of its simulation [s]. solids, touches : what touches, by name, and pairs of it. stands : whether a ground is put below what
+    touches and moves.
     """
 
     name: str
@@ -175,6 +190,7 @@ class Mechanism:
     step: float | None = None
     solids: dict[str, Solid] = field(default_factory=dict)
     touches: list[Touch] = field(default_factory=list)
+    stands: bool = False
 
     def roots(self) -> list[str]:
         """Links that are the second of no connection."""

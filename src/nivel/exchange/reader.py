@@ -57,7 +57,7 @@ def read_model(
     density: float | None = None,
 ) -> Translation:
     """The translation of a file of another program. target : the machine file that will be written; default beside the model. density :
-    of solids of a STEP file [kg/m³]. contacts : of an MJCF file: all of the model, those with the ground, or none.
+    of solids of a STEP file [kg/m³]. contacts : all of the model, those with the ground, or none.
 
     Raises ModelError with everything that cannot be read, each with file and line.
     """
@@ -117,9 +117,9 @@ def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts)
         case "mujoco":
             return read_mjcf(Path(file), document, base, contacts)
         case "robot":
-            return read_urdf(document, base)
+            return read_urdf(document, base, contacts)
         case "sdf":
-            return read_sdf(document, base)
+            return read_sdf(document, base, contacts)
     message = f"<{root.tag}> is no model that is read; there are <robot> (URDF), <sdf> and <mujoco> (MJCF)"
     raise ModelError(Fault(file, root.line, root.column, "", message))
 

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
-from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, Link, Look, Mechanism, turned
+from nivel.exchange.contacts import LEFT, add_solid
+from nivel.exchange.looks import look_of
+from nivel.exchange.mechanism import (
+    WORLD,
+    Array,
+    Connection,
+    Frame,
+    Inertial,
+    Link,
+    Look,
+    Mechanism,
+    Surface,
+    turned,
+)
 from nivel.exchange.translation import Notes
 from nivel.exchange.urdf import digits
 from nivel.files.xml_source import Document, Element
@@ -20,7 +33,18 @@ KINDS: Final = {
     "ball": "spherical",
     "universal": "universal",
     "screw": "screw",
+    "revolute2": "revolute",
 }
+KNOWN: Final = (
+    "pose",
+    "link",
+    "joint",
+    "frame",
+    "static",
+    "self_collide",
+    "enable_wind",
+    "allow_auto_disable",
+)
 GRAVITY: Final = (0.0, 0.0, -9.8)
 MODEL: Final = "__model__"
 THE_WORLD: Final = "world"
@@ -91,35 +115,39 @@ def _axes_of(parameters: tuple[float, ...]) -> Array:
     )
 
 
-def read_sdf(document: Document, base: str | None) -> Mechanism:
-    """The mechanism of an SDF document with one model. base : `fixed` welds links that no joint carries to the world; default as the
-    file says. Raises ModelError with all faults."""
+def read_sdf(document: Document, base: str | None, contacts: str = "all") -> Mechanism:
+    """The mechanism of an SDF document. base : `fixed` welds links that no joint carries to the world; default as the file says. contacts :
+    `all`, `floor` (what stands still) or `none`. Raises ModelError with all faults."""
     root, notes = document.root, Notes()
     world = root.first("world") or root
     models = [*root.all("model"), *(world.all("model") if world is not root else ())]
     x, y, z = document.numbers(world.first("gravity"), "", GRAVITY)
-    mechanism = Mechanism(models[0].get("name") if models else "model", "SDF", (x, y, z), notes=notes)
-    if len(models) != 1:
-        document.fault(world, f"{len(models)} models stand here; one is translated: save each in a file of its own")
+    given = world.get("name") if len(models) > 1 else models[0].get("name") if models else ""
+    mechanism = Mechanism(given or "model", "SDF", (x, y, z), notes=notes)
+    if not models:
+        document.fault(world, "there is no <model>")
     if world.first("gravity") is None:
         notes.change("gravity is not given: that of SDF, 9.8 m/s² against the z axis, is written")
+    for model in models:
+        model_of = _Model(
+            model, document, mechanism, f"{model.get('name')}::" if len(models) > 1 else "", _version(root)
+        )
+        model_of.read(base, contacts)
     document.raise_faults()
-    model = models[0]
-    _model(model, document, mechanism, base, _version(root))
-    document.raise_faults()
-    for child in model.children:
-        if child.tag not in (
-            "pose",
-            "link",
-            "joint",
-            "frame",
-            "static",
-            "self_collide",
-            "enable_wind",
-            "allow_auto_disable",
-        ):
-            notes.leave(f"elements <{child.tag}> of the model", child.get("name"), child.line)
+    if contacts != "none":
+        _add_includes(world, mechanism)
+    mechanism.stands = world is root and not any(WORLD in each.bodies for each in mechanism.connections)
     return mechanism
+
+
+def _add_includes(world: Element, mechanism: Mechanism) -> None:
+    """The ground plane of Gazebo, and notes of other files."""
+    for element in world.all("include"):
+        uri = _text(element, "uri")
+        if uri.rstrip("/").endswith("ground_plane"):
+            add_solid(mechanism, "ground_plane", WORLD, Look("plane", Frame()), Surface(), "ground_plane", element.line)
+        elif not uri.rstrip("/").endswith("sun"):
+            mechanism.notes.leave("models that the world includes", uri, element.line, acts=True)
 
 
 def _version(root: Element) -> float:
@@ -129,39 +157,171 @@ def _version(root: Element) -> float:
         return NEWER
 
 
-def _model(model: Element, document: Document, mechanism: Mechanism, base: str | None, version: float) -> None:
-    poses = Poses(document, placed={THE_WORLD: Frame(), "": pose_of(model, document), MODEL: pose_of(model, document)})
-    for element in model.all("link"):
-        if element.get("name") in poses.given:
-            document.fault(element, f"the name `{element.get('name')}` stands twice")
-        poses.add(element.get("name"), element, MODEL)
-    for element in model.all("joint"):
-        name = element.get("name")
-        taken = name in poses.given
-        if name in poses.of_joints or (taken and version >= NEWER):
-            document.fault(element, f"the name `{name}` stands twice")
-        poses.of_joints[name] = f"joint {name}" if taken else name
-        poses.add(poses.of_joints[name], element, _text(element, "child"))
-    for element in model.all("frame"):
-        poses.add(element.get("name"), element, element.get("attached_to") or MODEL)
-    for element in model.all("link"):
-        name = element.get("name")
-        if not name:
-            document.fault(element, '`name="…"` is missing')
-            continue
-        mechanism.links[name] = _link(element, poses, document, mechanism.notes)
-    for element in model.all("joint"):
-        joint = _joint(element, poses, document, mechanism, version)
-        if joint is not None:
-            mechanism.connections.append(joint)
-    static = model.first("static")
-    if base == "fixed" or (static is not None and static.text.strip() in ("true", "1")):
-        for top in mechanism.roots():
-            mechanism.connections.append(Connection(f"{top}_base", "fixed", (WORLD, top), np.zeros(3)))
-    if base == "free":
-        mechanism.connections[:] = [
-            each for each in mechanism.connections if not (each.kind == "fixed" and WORLD in each.bodies)
-        ]
+class _Model:
+    """One model of a document, whose names have a prefix in the mechanism where there are several."""
+
+    def __init__(self, element: Element, document: Document, mechanism: Mechanism, prefix: str, version: float) -> None:
+        home = pose_of(element, document)
+        self.element, self.document, self.mechanism, self.prefix, self.version = (
+            element,
+            document,
+            mechanism,
+            prefix,
+            version,
+        )
+        self.poses = Poses(document, placed={THE_WORLD: Frame(), "": home, MODEL: home})
+        self.attached: dict[str, str] = {}
+
+    def read(self, base: str | None, contacts: str) -> None:
+        """Add links and joints to the mechanism."""
+        model, mechanism, first = self.element, self.mechanism, len(self.mechanism.connections)
+        self._add_poses()
+        for element in model.all("link"):
+            name = element.get("name")
+            if not name:
+                self.document.fault(element, '`name="…"` is missing')
+                continue
+            mechanism.links[self.prefix + name] = _link(element, self.prefix, self.poses, self.document, mechanism)
+            if contacts != "none":
+                self._add_solids(element, contacts)
+            elif next(element.all("collision"), None) is not None:
+                mechanism.notes.leave(LEFT, name, element.line, acts=True)
+        for element in model.all("joint"):
+            mechanism.connections += self._joints(element)
+        self._add_gears()
+        if base == "fixed" or _text(model, "static") in ("true", "1"):
+            carried = {each.bodies[1] for each in mechanism.connections}
+            tops = [name for each in model.all("link") if (name := self.prefix + each.get("name")) not in carried]
+            mechanism.connections += [Connection(f"{top}_base", "fixed", (WORLD, top), np.zeros(3)) for top in tops]
+        if base == "free":
+            mechanism.connections[first:] = [
+                each for each in mechanism.connections[first:] if not (each.kind == "fixed" and WORLD in each.bodies)
+            ]
+        for child in model.children:
+            if child.tag not in KNOWN:
+                acts = child.tag in ("model", "include")
+                mechanism.notes.leave(f"elements <{child.tag}> of the model", child.get("name"), child.line, acts=acts)
+
+    def _add_poses(self) -> None:
+        model, poses, document = self.element, self.poses, self.document
+        for element in model.all("link"):
+            if element.get("name") in poses.given:
+                document.fault(element, f"the name `{element.get('name')}` stands twice")
+            poses.add(element.get("name"), element, MODEL)
+        for element in model.all("joint"):
+            name = element.get("name")
+            taken = name in poses.given
+            if name in poses.of_joints or (taken and self.version >= NEWER):
+                document.fault(element, f"the name `{name}` stands twice")
+            poses.of_joints[name] = f"joint {name}" if taken else name
+            poses.add(poses.of_joints[name], element, _text(element, "child"))
+            self.attached.setdefault(poses.of_joints[name], _text(element, "child"))
+        for element in model.all("frame"):
+            poses.add(element.get("name"), element, element.get("attached_to") or MODEL)
+            self.attached[element.get("name")] = element.get("attached_to")
+
+    def _add_solids(self, element: Element, contacts: str) -> None:
+        link, model = element.get("name"), self.element.get("name")
+        touching = "true" in (_text(self.element, "self_collide"), _text(element, "self_collide"))
+        own = "" if touching and contacts == "all" else model
+        for k, each in enumerate(element.all("collision")):
+            look = look_of(each, pose_of(each, self.document), "", self.document, 1.0)
+            surface, given = each.first("surface"), each.get("name") or f"collision_{k + 1}"
+            add_solid(self.mechanism, given, self.prefix + link, look, self._surface(surface), own, each.line)
+
+    def _surface(self, element: Element | None) -> Surface:
+        friction, contact = _inner(element, "friction", "ode"), _inner(element, "contact", "ode")
+        mu = min(_value(friction, tag, 1.0, self.document) for tag in ("mu", "mu2"))
+        kp, kd = (_value(contact, tag, 0.0, self.document) for tag in ("kp", "kd"))
+        if element is not None and _value(element.first("bounce"), "restitution_coefficient", 0.0, self.document):
+            self.mechanism.notes.leave("restitution of surfaces", self.element.get("name"), element.line, acts=True)
+        return Surface(mu, kp or None, kd or None)
+
+    def _link_of(self, name: str, element: Element, tag: str) -> str:
+        """The link of the mechanism that a joint names, itself or by a frame."""
+        if name == THE_WORLD:
+            return WORLD
+        for _ in range(len(self.attached) + 1):
+            if self.prefix + name in self.mechanism.links or name not in self.attached:
+                break
+            name = self.attached[name]
+        if self.prefix + name not in self.mechanism.links:
+            self.document.fault(element, f"<{tag}>: there is no link `{name}`")
+        return self.prefix + name
+
+    def _joints(self, element: Element) -> list[Connection]:
+        """The joint, or the two that a `revolute2` is."""
+        document, kind = self.document, element.get("type")
+        if kind == "gearbox":
+            return []
+        bodies = (
+            self._link_of(_text(element, "parent"), element, "parent"),
+            self._link_of(_text(element, "child"), element, "child"),
+        )
+        if kind not in KINDS:
+            known = ", ".join((*KINDS, "gearbox"))
+            document.fault(element, f'type="{kind}" cannot be translated; there are {known}')
+        if document.faults:
+            return []
+        name = self.prefix + element.get("name")
+        at = self.poses.place(self.poses.of_joints[element.get("name")])
+        joint = Connection(name, KINDS[kind], bodies, at.origin, line=element.line)
+        axes = [each for each in (element.first("axis"), element.first("axis2")) if each is not None]
+        wanted = {"revolute": 1, "translational": 1, "screw": 1, "universal": 2}.get(joint.kind, 0) + (
+            kind == "revolute2"
+        )
+        if len(axes) < wanted:
+            document.fault(element, f"a {kind} joint needs {'<axis> and <axis2>' if wanted == 2 else '<axis>'}")
+            return []
+        joint.axes = tuple(_direction(each, at, self.poses, document, self.version) for each in axes[:wanted])
+        if joint.kind == "screw":
+            pitch = element.first("screw_thread_pitch")
+            old = _value(element, "thread_pitch", 0.0, document)  # its unit was rad/m, against the sense of the axis
+            joint.pitch = (
+                document.number(pitch, "", 1.0) if pitch is not None else (-2.0 * np.pi / old if old else None)
+            )
+        joints = [joint]
+        if kind == "revolute2":
+            between = f"{name}_between"
+            self.mechanism.links[between] = Link(between, at, line=element.line)
+            second = Connection(
+                f"{name}_2", "revolute", (between, bodies[1]), at.origin, (joint.axes[1],), line=element.line
+            )
+            joint.bodies, joint.axes, joints = (bodies[0], between), (joint.axes[0],), [joint, second]
+        for each, axis in zip(joints, axes, strict=False):
+            if each.coordinate:
+                _add_forces(each, axis, document, self.mechanism.notes, self.prefix)
+        return joints
+
+    def _add_gears(self) -> None:
+        """Gearboxes as joints that follow each other: θ₂ = -ratio θ₁, the angles of child and parent from the body of reference."""
+        for element in (each for each in self.element.all("joint") if each.get("type") == "gearbox"):
+            ends = [self.prefix + _text(element, tag) for tag in ("parent", "child")]
+            home = self.prefix + _text(element, "gearbox_reference_body")
+            at = self.poses.place(self.poses.of_joints[element.get("name")])
+            found: list[tuple[Connection, float]] = []
+            for link, tag in zip(ends, ("axis", "axis2"), strict=True):
+                axis = element.first(tag) or element.first("axis")
+                joints = (each for each in self.mechanism.connections if set(each.bodies) == {home, link})
+                joint = next((each for each in joints if each.coordinate == "angle"), None)
+                if joint is None or axis is None:
+                    continue
+                along = float(_direction(axis, at, self.poses, self.document, self.version) @ joint.axes[0])
+                found.append((joint, np.sign(along) * (1.0 if joint.bodies[0] == home else -1.0)))
+            if len(found) < len(ends) or found[1][0].mimic is not None:
+                self.mechanism.notes.leave(
+                    "gearboxes without two hinges on one body", element.get("name"), element.line, acts=True
+                )
+                continue
+            (first, one), (second, other) = found
+            second.mimic = (first.name, -_value(element, "gearbox_ratio", 1.0, self.document) * one * other, 0.0)
+
+
+def _inner(element: Element | None, *tags: str) -> Element | None:
+    """The element at the end of a way of tags."""
+    for tag in tags:
+        element = element.first(tag) if element is not None else None
+    return element
 
 
 def _text(element: Element | None, tag: str) -> str:
@@ -176,9 +336,9 @@ def _value(element: Element | None, tag: str, default: float, document: Document
     return document.number(child, "", default)
 
 
-def _link(element: Element, poses: Poses, document: Document, notes: Notes) -> Link:
-    name = element.get("name")
-    link = Link(name, poses.place(name), line=element.line)
+def _link(element: Element, prefix: str, poses: Poses, document: Document, mechanism: Mechanism) -> Link:
+    notes, name = mechanism.notes, prefix + element.get("name")
+    link = Link(name, poses.place(element.get("name")), line=element.line)
     inertial = element.first("inertial")
     if inertial is None:
         link.inertial = Inertial(1.0, np.zeros(3), np.eye(3))
@@ -192,70 +352,23 @@ def _link(element: Element, poses: Poses, document: Document, notes: Notes) -> L
         if link.inertial.mass < 0.0:
             document.fault(inertial, f"the mass is {link.inertial.mass:g}; zero or more was expected")
     if _text(element, "gravity") in ("false", "0"):
-        document.fault(element, "a link without gravity cannot be translated; remove <gravity>")
+        lift = -link.inertial.mass * np.array(mechanism.gravity)
+        mechanism.lifts.append((name, link.inertial.centre, lift))
+        notes.change("a link without gravity has a force at its centre of mass", name, element.line)
     for visual in element.all("visual"):
-        look = _look(visual, document, notes, name)
-        if look is not None:
+        material = visual.first("material")
+        diffuse = material.first("diffuse") if material is not None else None
+        parts = 3 if diffuse is not None and len(diffuse.text.split()) == 3 else 4
+        colour = digits(document.numbers(diffuse, "", (0.5,) * parts)) if diffuse is not None else ""
+        look = look_of(visual, pose_of(visual, document), colour, document, 1.0)
+        if isinstance(look, Look):
             link.looks.append(look)
+        elif look:
+            notes.leave(f"looks: geometry <{look}>", name, visual.line)
     for child in element.children:
-        if child.tag == "collision":
-            notes.leave("collision geometry; a contact is a force of type `contact`", name, child.line, acts=True)
-        elif child.tag in ("sensor", "light", "velocity_decay", "audio_source", "projector", "particle_emitter"):
+        if child.tag in ("sensor", "light", "velocity_decay", "audio_source", "projector", "particle_emitter"):
             notes.leave(f"elements <{child.tag}> of links", name, child.line)
     return link
-
-
-def _look(visual: Element, document: Document, notes: Notes, name: str) -> Look | None:
-    geometry, material = visual.first("geometry"), visual.first("material")
-    solid = geometry.children[0] if geometry is not None and geometry.children else None
-    if solid is None:
-        return None
-    colour = material.first("diffuse") if material is not None else None
-    painted = digits(document.numbers(colour, "", (0.5, 0.5, 0.5, 1.0))) if colour is not None else ""
-    common: dict[str, Any] = {"place": pose_of(visual, document), "colour": painted, "line": visual.line}
-    match solid.tag:
-        case "box":
-            return Look("box", sizes=document.numbers(solid.first("size"), "", (1.0, 1.0, 1.0)), **common)
-        case "cylinder" | "capsule":
-            sizes = _value(solid, "radius", 0.5, document), _value(solid, "length", 1.0, document)
-            return Look("cylinder" if solid.tag == "cylinder" else "capsule", sizes=sizes, **common)
-        case "sphere":
-            return Look("sphere", sizes=(_value(solid, "radius", 0.5, document),), **common)
-        case "mesh":
-            x, y, z = document.numbers(solid.first("scale"), "", (1.0, 1.0, 1.0))
-            return Look("mesh", file=_text(solid, "uri"), scale=(x, y, z), **common)
-    notes.leave(f"looks: geometry <{solid.tag}>", name, solid.line)
-    return None
-
-
-def _joint(
-    element: Element, poses: Poses, document: Document, mechanism: Mechanism, version: float
-) -> Connection | None:
-    name, kind = element.get("name"), element.get("type")
-    parent, child = _text(element, "parent"), _text(element, "child")
-    bodies = (WORLD if parent == THE_WORLD else parent), child
-    for each, tag in zip(bodies, ("parent", "child"), strict=True):
-        if each != WORLD and each not in mechanism.links:
-            document.fault(element, f"<{tag}>: there is no link `{each}`")
-    if kind not in KINDS:
-        document.fault(element, f'type="{kind}" cannot be translated; there are {", ".join(KINDS)}')
-    if document.faults:
-        return None
-    at = poses.place(poses.of_joints[name])
-    joint = Connection(name, KINDS[kind], bodies, at.origin, line=element.line)
-    axes = [each for each in (element.first("axis"), element.first("axis2")) if each is not None]
-    wanted = {"revolute": 1, "translational": 1, "screw": 1, "universal": 2}.get(joint.kind, 0)
-    if len(axes) < wanted:
-        document.fault(element, f"a {kind} joint needs {'<axis> and <axis2>' if wanted == 2 else '<axis>'}")
-        return None
-    joint.axes = tuple(_direction(each, at, poses, document, version) for each in axes[:wanted])
-    if joint.kind == "screw":
-        pitch = element.first("screw_thread_pitch")
-        old = _value(element, "thread_pitch", 0.0, document)  # its unit was rad/m, against the sense of the axis
-        joint.pitch = document.number(pitch, "", 1.0) if pitch is not None else (-2.0 * np.pi / old if old else None)
-    if joint.coordinate:
-        _add_forces(joint, axes[0], document, mechanism.notes)
-    return joint
 
 
 def _direction(axis: Element, at: Frame, poses: Poses, document: Document, version: float) -> Array:
@@ -269,7 +382,7 @@ def _direction(axis: Element, at: Frame, poses: Poses, document: Document, versi
     return at.axes @ direction
 
 
-def _add_forces(joint: Connection, axis: Element, document: Document, notes: Notes) -> None:
+def _add_forces(joint: Connection, axis: Element, document: Document, notes: Notes, prefix: str) -> None:
     limit, dynamics = axis.first("limit"), axis.first("dynamics")
     if limit is not None:
         lower, upper = _value(limit, "lower", -np.inf, document), _value(limit, "upper", np.inf, document)
@@ -286,4 +399,4 @@ def _add_forces(joint: Connection, axis: Element, document: Document, notes: Not
     mimic = axis.first("mimic")
     if mimic is not None:
         factor, offset = _value(mimic, "multiplier", 1.0, document), _value(mimic, "offset", 0.0, document)
-        joint.mimic = (mimic.get("joint"), factor, offset - factor * _value(mimic, "reference", 0.0, document))
+        joint.mimic = (prefix + mimic.get("joint"), factor, offset - factor * _value(mimic, "reference", 0.0, document))

@@ -6,7 +6,19 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.exchange.mechanism import WORLD, Connection, Frame, Inertial, Link, Look, Mechanism, turned
+from nivel.exchange.contacts import LEFT, add_solid
+from nivel.exchange.looks import look_of
+from nivel.exchange.mechanism import (
+    WORLD,
+    Connection,
+    Frame,
+    Inertial,
+    Link,
+    Look,
+    Mechanism,
+    Surface,
+    turned,
+)
 from nivel.exchange.translation import Notes
 from nivel.files.xml_source import Document, Element
 
@@ -26,18 +38,25 @@ FOREIGN: Final = {
 }
 
 
-def read_urdf(document: Document, base: str | None) -> Mechanism:
-    """The mechanism of a URDF document. base : `fixed` or `free`; default fixed. Raises ModelError with all faults."""
+def read_urdf(document: Document, base: str | None, contacts: str = "all") -> Mechanism:
+    """The mechanism of a URDF document. base : `fixed` or `free`; default fixed. contacts : `none` leaves them out. Raises ModelError with
+    all faults."""
     root = document.root
     name = root.get("name") or "robot"
     mechanism = Mechanism(name, "URDF", GRAVITY)
     notes = mechanism.notes
-    colours = _materials(root, document)
+    colours, (surfaces, touching) = _materials(root, document), _surfaces(root, document)
     for element in root.all("link"):
         link = _link(element, document, colours, notes)
         if link.name in mechanism.links:
             document.fault(element, f"the name `{link.name}` stands twice")
         mechanism.links[link.name] = link
+        if contacts != "none":
+            own = name if contacts == "floor" or link.name not in touching else ""
+            _add_solids(element, document, mechanism, surfaces.get(link.name, Surface()), own)
+        elif next(element.all("collision"), None) is not None:
+            notes.leave(LEFT, link.name, element.line, acts=True)
+    mechanism.stands = base == "free"
     for child in root.children:
         if child.tag not in ("link", "joint", "material"):
             notes.leave(FOREIGN.get(child.tag, f"elements <{child.tag}>"), child.get("name"), child.line)
@@ -112,12 +131,40 @@ def _link(element: Element, document: Document, colours: dict[str, str], notes: 
     if inertial is not None:
         link.inertial = _inertial(inertial, document)
     for visual in element.all("visual"):
-        look = _look(visual, document, colours, notes, link.name)
-        if look is not None:
+        material = visual.first("material")
+        colour = _colour(material, document) or colours.get(material.get("name") if material is not None else "", "")
+        look = look_of(visual, frame_of(visual, document), colour, document, 0.0)
+        if isinstance(look, Look):
             link.looks.append(look)
-    for collision in element.all("collision"):
-        notes.leave("collision geometry; a contact is a force of type `contact`", link.name, collision.line, acts=True)
+        elif look:
+            notes.leave(f"looks: geometry <{look}>", link.name, visual.line)
     return link
+
+
+def _add_solids(element: Element, document: Document, mechanism: Mechanism, surface: Surface, model: str) -> None:
+    """The collision elements of a link."""
+    link = element.get("name")
+    for k, each in enumerate(element.all("collision")):
+        look = look_of(each, frame_of(each, document), "", document, 0.0)
+        add_solid(mechanism, each.get("name") or f"collision_{k + 1}", link, look, surface, model, each.line)
+
+
+def _surfaces(root: Element, document: Document) -> tuple[dict[str, Surface], set[str]]:
+    """Surfaces of links by name, and the links that touch others of their robot, as <gazebo reference="…"> says."""
+    found: dict[str, Surface] = {}
+    touching = set()
+    for element in root.all("gazebo"):
+        link = element.get("reference")
+        given = {
+            tag: document.number(element.first(tag), "", 0.0)
+            for tag in ("mu1", "mu2", "kp", "kd")
+            if element.first(tag)
+        }
+        friction = min((given[tag] for tag in ("mu1", "mu2") if tag in given), default=1.0)
+        found[link] = Surface(friction, given.get("kp"), given.get("kd"))
+        own = element.first("selfCollide") or element.first("self_collide")
+        touching |= {link} if own is not None and own.text.strip() in ("true", "1") else set()
+    return found, touching
 
 
 def _inertial(element: Element, document: Document) -> Inertial:
@@ -130,29 +177,6 @@ def _inertial(element: Element, document: Document) -> Inertial:
     if np.any(at.axes != np.eye(3)):
         inertia = at.axes @ inertia @ at.axes.T
     return Inertial(value, at.origin, inertia)
-
-
-def _look(visual: Element, document: Document, colours: dict[str, str], notes: Notes, name: str) -> Look | None:
-    geometry, material = visual.first("geometry"), visual.first("material")
-    colour = _colour(material, document) or colours.get(material.get("name") if material is not None else "", "")
-    solid = geometry.children[0] if geometry is not None and geometry.children else None
-    at = frame_of(visual, document)
-    if solid is None:
-        return None
-    common: dict[str, Any] = {"place": at, "colour": colour, "line": visual.line}
-    match solid.tag:
-        case "box":
-            return Look("box", sizes=document.numbers(solid, "size", (0.0, 0.0, 0.0)), **common)
-        case "cylinder" | "capsule":
-            sizes = (document.number(solid, "radius", 0.0), document.number(solid, "length", 0.0))
-            return Look("cylinder" if solid.tag == "cylinder" else "capsule", sizes=sizes, **common)
-        case "sphere":
-            return Look("sphere", sizes=(document.number(solid, "radius", 0.0),), **common)
-        case "mesh":
-            x, y, z = document.numbers(solid, "scale", (1.0, 1.0, 1.0))
-            return Look("mesh", file=solid.get("filename"), scale=(x, y, z), **common)
-    notes.leave(f"looks: geometry <{solid.tag}>", name, solid.line)
-    return None
 
 
 def _place(mechanism: Mechanism, parents: dict[str, Element], document: Document) -> None:

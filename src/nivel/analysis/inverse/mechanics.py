@@ -46,11 +46,11 @@ class Mechanics:
     names : of the independent velocities v (f,), units : of their coordinates. position_names : of the positions q, all of the spanning
     tree; turns that are no joint coordinates are four Euler parameters. start : q at the start. What has the name of a joint coordinate of
     the results is that coordinate; `JOINT.x_from_second` is of a planar joint whose first body the tree carries on the second: x of the
-    first marker's point along the axes of the second marker.
+    first marker's point along the axes of the second marker. left_out : names of contacts and frictions that have no part in it.
     """
 
-    def __init__(self, machine: MachineRecord, moment: Moment) -> None:
-        self._machine, self._moment = machine, moment
+    def __init__(self, machine: MachineRecord, moment: Moment, left_out: tuple[str, ...] = ()) -> None:
+        self._machine, self._moment, self.left_out = machine, moment, left_out
         self._instant = Instant(moment.motion, 0.0, moment.y)
         reduction = self._reduction()
         self._selected = reduction.selected

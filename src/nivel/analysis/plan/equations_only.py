@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 from nivel.analysis.plan.choice import choose_coordinates
+from nivel.elements.forces.friction import Friction
 from nivel.machine.forces.contact import Contact
+from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 
 TRANSITION: Final = 1e-3  # [m/s] where no `friction_transition_speed` is given
@@ -24,6 +26,18 @@ def with_smooth_contacts(machine: MachineRecord) -> MachineRecord:
         for force in machine.forces
     )
     return machine if forces == tuple(machine.forces) else machine.replace(forces=forces)
+
+
+def without_sticking(machine: MachineRecord) -> tuple[MachineRecord, tuple[str, ...]]:
+    """The machine without its contacts and without friction of joints that sticks, and the names of what is left out: their efforts at rest
+    are no function of the state. Raises ModelError where something reads one of them."""
+    left = tuple(
+        force.name
+        for force in machine.forces
+        if isinstance(force, Contact | Contacts) or (isinstance(force, Friction) and force.model == "stiction")
+    )
+    forces = tuple(force for force in machine.forces if force.name not in left)
+    return (machine.replace(forces=forces) if left else machine), left
 
 
 def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -> tuple[MachineRecord, str]:

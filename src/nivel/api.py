@@ -1156,16 +1156,21 @@ def import_model(
     base: Literal["fixed", "free"] | None = None,
     package_paths: Sequence[str | PathLike[str]] = (),
     contacts: Literal["all", "floor", "none"] = "all",
+    keyframe: str | None = None,
 ) -> Machine:
     """The machine that a model of another program describes: a URDF, SDF or MJCF file (MJCF with the extra `robots`).
 
     base : whether the first link is fixed to the ground; default fixed for URDF, else as the model says. package_paths : folders in which
-    meshes at ``package://`` are searched for. contacts : of an MJCF model: all, those with what stands still (`floor`), or none. What
-    is not translated is listed by `nivel import`.
+    meshes at ``package://`` are searched for. contacts : all of the model, those with what stands still (`floor`), or none. keyframe :
+    of an MJCF model, at which the machine starts. What is not translated is listed by `nivel import`.
     Raises ModelError with every fault of the model, each with its line.
     """
     record = nivel.exchange.translated_machine(
-        fspath(path), base=base, package_paths=[Path(fspath(each)) for each in package_paths], contacts=contacts
+        fspath(path),
+        base=base,
+        package_paths=[Path(fspath(each)) for each in package_paths],
+        contacts=contacts,
+        keyframe=keyframe,
     )
     return Machine.from_record(record)
 

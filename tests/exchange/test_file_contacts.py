@@ -66,9 +66,9 @@ def test_feet_carry_the_weight_and_joints_begin_within_their_limits_without_turn
     assert sum(result[f"force.{name}.normal_force"][-1] for name in names) == pytest.approx(5.0 * 9.81, rel=1e-3)
     trunk = result.coordinates["body"].index("trunk")
     np.testing.assert_allclose(result.array("position")[0, trunk], 0.0, atol=1e-12)
-    assert result["joint.hinge.angle"][0] == pytest.approx(0.2)
+    assert result["hinge.angle"][0] == pytest.approx(0.2)
     assert abs(result.array("position")[-1, trunk, 2]) < 0.5e-3
-    # contacts have no part in the matrices: M of the base is m 1 below
+    # contacts have no part in the matrices
     mechanics = machine.mechanics()
     assert set(mechanics.left_out) == set(contacts(path, base="free"))
     assert len(mechanics.names) == 7

@@ -119,8 +119,56 @@ def test_springs_limits_friction_actuators_and_sites(tmp_path):
     assert machine.forces["push"].effort.text == "4.0*push.value"
     assert machine.markers["tip"].position == (0.0, 0.0, 1.0)
     assert machine.bodies["a"].looks[0].colour == "#ff0000"
-    said = "\n".join(read_model(tmp_path / "model.xml").summary())
-    assert "actuators with a state, muscles and gains that are not fixed: oil" in said
+    (state,) = machine.record.states
+    assert (state.name, state.rate.text) == ("oil_activation", "(oil.value - oil_activation.value)/0.1")
+    assert machine.forces["oil"].effort.text == "oil_activation.value"
+
+
+PULLED = """<mujoco><option gravity="0 0 -9.81"/><worldbody><body name="a"><freejoint/><geom size=".1" mass="3" contype="0"/>
+<body name="b" pos=".2 0 0"><joint name="p" axis="0 1 0" ref="10"/><geom type="capsule" fromto="0 0 0 .3 0 0" size=".02" contype="0"/>
+<body name="c" pos=".3 0 0"><joint name="q" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 .3 0 0" size=".02" contype="0"/>
+<body name="d" pos=".3 0 0"><joint name="r" type="slide" axis="1 0 0"/><geom size=".03" contype="0"/></body></body></body></body>
+</worldbody>
+<tendon><fixed name="t" stiffness="30" damping="2" springlength="-0.1 0.2"><joint joint="p" coef="1"/><joint joint="q" coef="-.5"/></fixed>
+<fixed name="u"><joint joint="q" coef="2"/><joint joint="r" coef="3"/></fixed></tendon>
+<actuator><general name="pull" tendon="t" gear="2" biastype="affine" gainprm="4" biasprm="1 -5 -.3"/>
+<position name="hold" joint="r" kp="40" forcerange="-3 1"/>
+<general name="lean" tendon="u" gaintype="affine" gainprm="1 2 .5" biastype="none" ctrlrange="-1 1"/></actuator>
+<keyframe><key name="up" qpos="0 0 .4 1 0 0 0 .5 -.3 .1" ctrl=".7 -.2 5"/></keyframe></mujoco>"""
+
+
+def test_tendons_actuators_and_keyframes_are_those_of_mujoco(tmp_path):
+    """Accelerations of a free body with three joints at a keyframe, for springs, dampers and actuators along sums of coordinates."""
+    path = written(tmp_path, PULLED)
+    model = mj.MjSpec.from_file(str(path)).compile()
+    data = mj.MjData(model)
+    mj.mj_resetDataKeyframe(model, data, 0)
+    data.qvel[6:] = (0.4, -0.7, 0.2)
+    mj.mj_forward(model, data)
+    machine = nivel.import_model(path, keyframe="up")
+    assert {name: each.rest for name, each in machine.inputs.items()} == {"pull": 0.7, "hold": -0.2, "lean": 1.0}
+    mechanics = machine.mechanics()
+    joints = [mechanics.names.index(name) for name in ("p.angle", "q.angle", "r.displacement")]
+    velocity = np.zeros(9)
+    velocity[joints] = data.qvel[6:]
+    places = [mechanics.position_names.index(name) for name in ("p.angle", "q.angle", "r.displacement")]
+    np.testing.assert_allclose(mechanics.start[places], (0.5, -0.3, 0.1), atol=1e-12)
+    found = mechanics.forward_dynamics(mechanics.start, velocity, np.zeros(9))
+    np.testing.assert_allclose(found[joints], data.qacc[6:], rtol=1e-9)
+    with pytest.raises(nivel.ModelError, match=r"no keyframe `down`; there are up"):
+        read_model(path, keyframe="down")
+
+
+def test_sums_of_joints_that_are_equal_are_couplings(tmp_path):
+    """l_t = 2 l_u: p - q/2 - 4 q - 6 r stays zero."""
+    equal = '<equality><tendon name="e" tendon1="t" tendon2="u" polycoef="0 2 0 0 0"/></equality></mujoco>'
+    data = read_model(written(tmp_path, PULLED.replace("</mujoco>", equal))).data
+    assert data["couplings"]["e"] == {
+        "type": "linear",
+        "coordinates": ["p.angle", "q.angle", "r.displacement"],
+        "factors": [1.0, -4.5, -6.0],
+    }
+    assert not [each for each in data.get("left_out", []) if "tendon" in each]
 
 
 def test_joints_follow_each_other_from_where_they_are_placed(tmp_path):

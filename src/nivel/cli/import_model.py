@@ -34,8 +34,9 @@ from nivel.lazy import nivel
     type=click.Choice(["all", "floor", "none"]),
     default="all",
     show_default=True,
-    help="Contacts of an MJCF file: all of the model, those with what stands still, or none.",
+    help="Contacts: all of the model, those with what stands still, or none.",
 )
+@click.option("--keyframe", metavar="NAME", help="Keyframe of an MJCF file at which the machine starts.")
 @click.option(
     "--density", type=float, metavar="KG/M3", help="Density of the solids of a STEP file; default 7850 kg/m³."
 )
@@ -47,6 +48,7 @@ def command(
     base: Literal["fixed", "free"] | None,
     package_paths: tuple[Path, ...],
     contacts: Literal["all", "floor", "none"],
+    keyframe: str | None,
     density: float | None,
     quiet: bool,
     force: bool,
@@ -58,7 +60,13 @@ def command(
     path = Path(target) if target is not None else Path(f"{Path(model).stem}.yaml")
     nivel.files.target.check_target(path, "machine file", force=force, sources=[Path(model)])
     translation = nivel.exchange.read_model(
-        model, base=base, package_paths=package_paths, target=path, contacts=contacts, density=density
+        model,
+        base=base,
+        package_paths=package_paths,
+        target=path,
+        contacts=contacts,
+        density=density,
+        keyframe=keyframe,
     )
     for name, content in translation.files().items():
         mesh = path.parent / name

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any, Final
 
-from nivel.exchange.mechanism import Actuator, Connection, Mechanism
+from nivel.exchange.mechanism import Actuator, Connection, Mechanism, Tendon, Terms
 from nivel.exchange.translation import Names, number
 
 STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
@@ -14,6 +15,7 @@ LARGEST: Final = 1e6  # [rad or m] an end of the way beyond this is none
 
 STOPS: Final = f"limits are stops: their stiffness lets what the joint moves vibrate at {STOP_FREQUENCY:g} Hz, restitution {RESTITUTION:g}"
 FRICTION: Final = "friction of a joint is dry friction with sticking, of the same effort in both directions"
+ENDS: Final = f"limits of tendons are springs, with which what they move vibrates at {STOP_FREQUENCY:g} Hz"
 EFFORT: Final = "limits of effort: give them as `limit` of a motor or servo"
 
 
@@ -80,16 +82,17 @@ def coupling_of(each: Connection, mechanism: Mechanism, names: Names) -> dict[st
 
 
 def _function_coupling(each: Connection, mechanism: Mechanism, names: Names) -> dict[str, Any] | None:
-    """q = placed + a₀ + a₁ d + …, with the way d of the other joint, by Horner's rule."""
+    """q = reference + a₀ + a₁ d + …, with the way d of the other joint, by Horner's rule."""
     assert each.follows is not None
     other = next(joint for joint in mechanism.connections if joint.name == each.follows[0])
     if not other.coordinate or not each.coordinate:
         mechanism.notes.leave("joints that follow a joint without a coordinate", each.name, each.line, acts=True)
         return None
-    way = f"({coordinate_of(other, names)} - {number(other.placed)!r})" if other.placed else coordinate_of(other, names)
+    own, other_own = coordinate_of(other, names), number(other.reference)
+    way = f"({own} - {other_own!r})" if other_own else own
     first, *rest = each.follows[1]
     text = repr(number(rest[-1]))
-    for factor in (*reversed(rest[:-1]), each.placed + first):
+    for factor in (*reversed(rest[:-1]), each.reference + first):
         text = f"{number(factor)!r} + {way}*({text})"
     return {"type": "function", "coordinate": coordinate_of(each, names), "value": text}
 
@@ -97,8 +100,8 @@ def _function_coupling(each: Connection, mechanism: Mechanism, names: Names) -> 
 def _following(each: Connection, other: Connection, coordinate: float) -> float:
     """Coordinate of a joint that follows another one by a polynomial."""
     assert each.follows is not None
-    way = coordinate - other.placed
-    return each.placed + sum(factor * way**k for k, factor in enumerate(each.follows[1]))
+    way = coordinate - other.reference
+    return each.reference + sum(factor * way**k for k, factor in enumerate(each.follows[1]))
 
 
 def start_values(mechanism: Mechanism) -> dict[str, float]:
@@ -132,22 +135,95 @@ def add_starts(mechanism: Mechanism, starts: dict[str, float], names: Names, joi
             joints[names.name("joint", each.name)]["start"] = {each.coordinate: number(starts[each.name])}
 
 
-def actuated(
-    actuator: Actuator, control: str, mechanism: Mechanism, names: Names
-) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The input of an actuator by the name `control`, and its motor."""
-    joint = next(each for each in mechanism.connections if each.name == actuator.joint)
-    coordinate = coordinate_of(joint, names)
-    signal = f"{control}.value"
-    given: dict[str, Any] = {"units": "N m" if joint.coordinate == "angle" else "N"} if actuator.gain == 1.0 else {}
-    if actuator.control is not None:
-        given["range"] = [number(each) for each in actuator.control]
-        signal = f"min(max({signal}, {number(actuator.control[0])!r}), {number(actuator.control[1])!r})"
-    terms = [signal if actuator.gain == 1.0 else f"{number(actuator.gain)!r}*{signal}"]
-    terms += [
-        f"{number(factor)!r}*{symbol}" if symbol else repr(number(factor))
-        for factor, symbol in zip(actuator.bias, ("", coordinate, f"{coordinate}_rate"), strict=True)
+def _length(terms: Terms, mechanism: Mechanism, names: Names, suffix: str = "") -> str:
+    """The length of joints as an expression, or its rate by the suffix `_rate`."""
+    joints = {each.name: each for each in mechanism.connections}
+    parts = [(factor, coordinate_of(joints[name], names) + suffix) for name, factor in terms]
+    text = " + ".join(each if factor == 1.0 else f"{number(factor)!r}*{each}" for factor, each in parts)
+    return (text if len(parts) == 1 else f"({text})").replace("+ -", "- ")
+
+
+def _within(text: str, ends: tuple[float, float] | None) -> str:
+    return text if ends is None else f"min(max({text}, {number(ends[0])!r}), {number(ends[1])!r})"
+
+
+def _sum(factors: Iterable[float], symbols: Iterable[str]) -> str:
+    """Σ factor · symbol, without those of factor zero."""
+    terms = [
+        (symbol if factor == 1.0 and symbol else f"{number(factor)!r}*{symbol}" if symbol else repr(number(factor)))
+        for factor, symbol in zip(factors, symbols, strict=True)
         if factor
     ]
-    motor = {"type": "motor", "coordinate": coordinate, "effort": " + ".join(terms).replace("+ -", "- ")}
-    return given, motor | ({} if actuator.limit is None else {"limit": number(actuator.limit)})
+    return " + ".join(terms).replace("+ -", "- ") or "0"
+
+
+def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Names) -> dict[str, dict[str, Any]]:
+    """Elements of an actuator by the section and the wanted name: its input, named `control`, its activation, and a motor on each joint."""
+    given: dict[str, Any] = (
+        {"range": [number(each) for each in actuator.control]} if actuator.control is not None else {}
+    )
+    if actuator.rest:
+        own = abs(number(actuator.rest))
+        given = ({"range": [-own, own]} if own > 1.0 and not given else given) | {"rest": number(actuator.rest)}
+    out: dict[str, dict[str, Any]] = {"inputs": {control: given}, "states": {}, "forces": {}}
+    signal = _within(f"{control}.value", actuator.control)
+    if actuator.time is not None:
+        state = names.new(f"{actuator.name}_activation", "state")
+        rate = f"({signal} - {state}.value)/{number(actuator.time)!r}" if actuator.time else signal
+        out["states"][state] = {"rate": rate} | ({"start": number(actuator.rest)} if actuator.rest else {})
+        signal = _within(f"{state}.value", actuator.activation)
+    if len(actuator.terms) == 1:  # the numbers are those of the joint
+        (_, factor), *_ = actuator.terms
+        joint = actuator.terms[0][0]
+        scales, terms = (factor, factor**2, factor**2), ((joint, 1.0),)
+    else:
+        factor, scales, terms = 1.0, (1.0, 1.0, 1.0), actuator.terms
+    symbols = ("", _length(terms, mechanism, names), _length(terms, mechanism, names, "_rate"))
+    gain = [a * b for a, b in zip(actuator.gain, scales, strict=True)]
+    bias = [a * b for a, b in zip(actuator.bias, scales, strict=True)]
+    curved = any(gain[1:])
+    force = _sum(
+        (1.0, *bias) if curved else (gain[0], *bias),
+        (f"({_sum(gain, symbols)})*{signal}" if curved else signal, *symbols),
+    )
+    limit = None if actuator.limit is None else sorted(number(each * factor) for each in actuator.limit)
+    same = limit is not None and limit[0] == -limit[1]
+    if limit is not None and not (same and len(terms) == 1):
+        force = _within(force, (limit[0], limit[1]))
+    for joint, part in terms:
+        connection = next(each for each in mechanism.connections if each.name == joint)
+        motor: dict[str, Any] = {"type": "motor", "coordinate": coordinate_of(connection, names)}
+        motor["effort"] = force if part == 1.0 else f"{number(part)!r}*({force})"
+        if limit is not None and same and len(terms) == 1:
+            motor["limit"] = limit[1]
+        out["forces"][actuator.name if len(terms) == 1 else f"{actuator.name}_{joint}"] = motor
+        if gain[0] == 1.0 and not curved and len(terms) == 1:
+            given["units"] = "N m" if connection.coordinate == "angle" else "N"
+    return out
+
+
+def pulled(tendon: Tendon, effective: float, mechanism: Mechanism, names: Names) -> dict[str, Any]:
+    """Motors of a tendon by the wanted name. effective : mass at its length [kg or kg m²]."""
+    length, rate = _length(tendon.terms, mechanism, names), _length(tendon.terms, mechanism, names, "_rate")
+    parts = []
+    for stiffness, ends in (
+        (tendon.stiffness, tendon.free),
+        (effective * (2.0 * math.pi * STOP_FREQUENCY) ** 2, tendon.ends),
+    ):
+        if ends is not None and stiffness:
+            low, high = (number(each) for each in ends)
+            far = f"{length} - {high!r}" if low == high else f"{length} - {_within(length, (low, high))}"
+            parts.append(f"{float(f'{stiffness:.6g}')!r}*({far})".replace("- -", "+ "))
+            if ends is tendon.ends:
+                mechanism.notes.change(ENDS, tendon.name)
+    parts += [f"{number(tendon.damping)!r}*{rate}"] if tendon.damping else []
+    joints = {each.name: each for each in mechanism.connections}
+    return {
+        f"{tendon.name}_{joint}": {
+            "type": "motor",
+            "coordinate": coordinate_of(joints[joint], names),
+            "effort": f"{number(-factor)!r}*({' + '.join(parts)})",
+        }
+        for joint, factor in tendon.terms
+        if parts
+    }

@@ -62,7 +62,7 @@ def look_of(given: Element, at: Frame, colour: str, document: Document, default:
             return Look("mesh", file=file, scale=(x, y, z), **common)
         case "plane":
             normal = frame_from_axes(np.array(size("normal", 0.0, 0.0, 1.0)))
-            return Look("plane", **common | {"place": at @ Frame(normal)})
+            return Look("plane", at @ Frame(normal), colour=colour, line=given.line)
     return solid.tag
 
 

@@ -21,7 +21,15 @@ from nivel.exchange.bodies import (
     possible,
 )
 from nivel.exchange.contacts import contacts_of
-from nivel.exchange.joint_forces import actuated, add_starts, coupling_of, forces_of, start_values
+from nivel.exchange.joint_forces import (
+    actuated,
+    add_starts,
+    coordinate_of,
+    coupling_of,
+    forces_of,
+    pulled,
+    start_values,
+)
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
 from nivel.exchange.translation import Names, Translation, number, refuse, triple, turn
@@ -56,18 +64,34 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     if not bodies:
         refuse([Fault(file, 1, 1, "", "nothing in this model moves: every link is fixed to the ground")])
     add_starts(mechanism, starts, names, joints)
-    couplings, forces, inputs = {}, {}, {}
+    couplings, forces, inputs, states = {}, {}, {}, {}
+    at_joint: dict[str, float] = {}
     for each in mechanism.connections:
         coupling = coupling_of(each, mechanism, names)
         if coupling is not None:
             couplings[names.new(f"{each.name}_mimic", "coupling")] = coupling
         moved = carried(mechanism, groups, each)
         effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
+        at_joint[each.name] = effective + each.armature
         for suffix, force in forces_of(each, names, effective + each.armature, mechanism).items():
             forces[names.new(f"{each.name}_{suffix}", "force")] = force
+    for name, terms in mechanism.sums:
+        of = {each.name: coordinate_of(each, names) for each in mechanism.connections}
+        coupling = {
+            "type": "linear",
+            "coordinates": [of[joint] for joint, _ in terms],
+            "factors": [number(f) for _, f in terms],
+        }
+        couplings[names.new(name, "coupling")] = coupling
     for actuator in mechanism.actuators:
         control = names.name("input", actuator.name)
-        inputs[control], forces[names.new(actuator.name, "force")] = actuated(actuator, control, mechanism, names)
+        made = actuated(actuator, control, mechanism, names)
+        inputs, states = inputs | made["inputs"], states | made["states"]
+        forces |= {names.new(name, "force"): force for name, force in made["forces"].items()}
+    for tendon in mechanism.tendons:
+        effective = 1.0 / sum(factor**2 / max(at_joint[joint], 1e-12) for joint, factor in tendon.terms)
+        made = pulled(tendon, effective, mechanism, names)
+        forces |= {names.new(name, "force"): force for name, force in made.items()}
     for link, point, vector in mechanism.lifts:
         group = groups[link]
         if group.first != WORLD:
@@ -90,6 +114,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         "couplings": couplings,
         "forces": forces,
         "inputs": inputs,
+        "states": states,
     }
     data |= {name: section for name, section in sections.items() if section}
     if _is_tree(mechanism, groups) and _nearly_parallel(mechanism):
@@ -221,7 +246,7 @@ def _inertia(inertial: Inertial) -> Any:
 def _joint(each: Connection, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
     bodies = [GROUND if groups[name].first == WORLD else names.name("body", groups[name].first) for name in each.bodies]
     rotor = {"rotor_inertia": number(each.armature)} if each.armature else {}
-    if each.placed:
+    if each.placed or each.frames is not None:
         return {"type": each.kind, "markers": _joint_markers(each, mechanism, groups, bodies), **rotor}
     out: dict[str, Any] = {"type": each.kind, "bodies": bodies, "point": triple(each.point)}
     if len(each.axes) == 1:
@@ -237,13 +262,26 @@ def _joint_markers(
     each: Connection, mechanism: Mechanism, groups: dict[str, Group], bodies: list[str]
 ) -> list[dict[str, Any]]:
     """The two markers of a joint whose coordinate is not zero where the links stand: z along its axis."""
+    if each.frames is not None:
+        first, second = (
+            (Frame() if name == WORLD else mechanism.links[name].place) @ frame
+            for name, frame in zip(each.bodies, each.frames, strict=True)
+        )
+        return _markers_at((first, second), each, mechanism, groups, bodies)
     first = Frame(frame_from_axes(each.axes[0]), each.point)
     if each.kind == "revolute":
         second = Frame(first.axes @ elementary_turn(np.array([0.0, 0.0, 1.0]), each.placed), each.point)
     else:
         second = Frame(first.axes, each.point + each.placed * first.axes[:, 2])
+    return _markers_at((first, second), each, mechanism, groups, bodies)
+
+
+def _markers_at(
+    frames: tuple[Frame, Frame], each: Connection, mechanism: Mechanism, groups: dict[str, Group], bodies: list[str]
+) -> list[dict[str, Any]]:
+    """Global frames as markers of the two bodies of a joint."""
     out = []
-    for name, body, frame in zip(each.bodies, bodies, (first, second), strict=True):
+    for name, body, frame in zip(each.bodies, bodies, frames, strict=True):
         group = groups[name]
         inside = frame if group.first == WORLD else mechanism.links[group.first].place.inverse @ frame
         out.append({"body": body, "position": triple(inside.origin), **turn(inside.axes)})

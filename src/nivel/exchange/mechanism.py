@@ -93,8 +93,8 @@ class Connection:
     stand.
 
     lower, upper : ends of its way. mimic : name of another joint, factor and offset. follows : name of another joint, and factors a of
-    q = placed + a₀ + a₁ d + a₂ d² + …, d the way of that from its own `placed`. stiffness, free : of a spring. armature : inertia of
-    a rotor at the coordinate [kg m² or kg]. start : of the coordinate.
+    q = reference + a₀ + a₁ d + a₂ d² + …, d the way of that from its own `reference`. stiffness, free : of a spring. armature : inertia of
+    a rotor at the coordinate [kg m² or kg]. start : of the coordinate. frames : in both links, which an open joint brings together.
     """
 
     name: str
@@ -115,6 +115,8 @@ class Connection:
     pitch: float | None = None
     start: float | None = None
     placed: float = 0.0
+    reference: float = 0.0
+    frames: tuple[Frame, Frame] | None = None
     line: int = 0
 
     @property
@@ -123,16 +125,38 @@ class Connection:
         return {"revolute": "angle", "translational": "displacement", "screw": "angle"}.get(self.kind, "")
 
 
+Terms = tuple[tuple[str, float], ...]  # joints by name and their factors f in a length l = Σ f q
+
+
 @dataclass
 class Actuator:
-    """An effort on the coordinate c of a joint: gain · control + bias[0] + bias[1] c + bias[2] ċ, at most `limit`. control : its range."""
+    """A force F = (gain[0] + gain[1] l + gain[2] l̇) a + bias[0] + bias[1] l + bias[2] l̇ along a length l, within `limit`.
+
+    Each joint has f F. control, activation : ranges of the control u and of a. time : of the filter a from u [s], 0 of an integrator of u,
+    None where a = u. rest : u without operator.
+    """
 
     name: str
-    joint: str
-    gain: float
+    terms: Terms
+    gain: Triple
     bias: Triple = (0.0, 0.0, 0.0)
-    limit: float | None = None
+    limit: tuple[float, float] | None = None
     control: tuple[float, float] | None = None
+    activation: tuple[float, float] | None = None
+    time: float | None = None
+    rest: float = 0.0
+
+
+@dataclass
+class Tendon:
+    """A length of joints with a spring that is slack between `free`, a damper, and ends; those have a stiffness that is found later."""
+
+    name: str
+    terms: Terms
+    stiffness: float = 0.0
+    free: tuple[float, float] = (0.0, 0.0)
+    damping: float = 0.0
+    ends: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -175,7 +199,7 @@ class Mechanism:
 
     sites : further frames, (name, link, frame in the link). lifts : constant forces, (link, point in the link, force in global axes).
     step : of its simulation [s]. solids, touches : what touches, by name, and pairs of it. stands : whether a ground is put below what
-    touches and moves.
+    touches and moves. sums : lengths by name that stay as they are.
     """
 
     name: str
@@ -191,6 +215,8 @@ class Mechanism:
     solids: dict[str, Solid] = field(default_factory=dict)
     touches: list[Touch] = field(default_factory=list)
     stands: bool = False
+    tendons: list[Tendon] = field(default_factory=list)
+    sums: list[tuple[str, Terms]] = field(default_factory=list)
 
     def roots(self) -> list[str]:
         """Links that are the second of no connection."""

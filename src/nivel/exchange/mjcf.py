@@ -14,9 +14,21 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.exchange.mechanism import MOST_LINKS, WORLD, Actuator, Connection, Frame, Inertial, Link, Look, Mechanism
+from nivel.exchange.mechanism import (
+    MOST_LINKS,
+    WORLD,
+    Actuator,
+    Connection,
+    Frame,
+    Inertial,
+    Link,
+    Look,
+    Mechanism,
+    Tendon,
+    Terms,
+)
 from nivel.exchange.mjcf_contacts import read_contacts
-from nivel.exchange.mjcf_equalities import read_equalities
+from nivel.exchange.mjcf_equalities import read_equalities, terms_of
 from nivel.exchange.urdf import digits
 from nivel.extras import needed, require
 from nivel.files.apart import apart
@@ -26,6 +38,7 @@ from nivel.files.xml_source import Document, Element
 KINDS: Final = {2: "translational", 3: "revolute", 1: "spherical"}  # mjtJoint: free 0, ball 1, slide 2, hinge 3
 FREE, BALL = 0, 1
 JOINT_TRANSMISSIONS: Final = (0, 1)  # mjtTrn: on a joint, on a joint in the parent
+GAINS, BIASES, DYNAMICS = ("fixed", "affine"), ("none", "affine"), ("none", "integrator", "filter", "filterexact")
 DEEPEST: Final = 10  # files that include files
 SHOWN_GROUPS: Final = 3  # geoms of the groups 0, 1 and 2 are drawn, as by MuJoCo's viewer
 OFF: Final = {
@@ -39,17 +52,22 @@ OFF: Final = {
 }
 
 
-def read_mjcf(path: Path, document: Document, base: str | None, contacts: str = "all") -> Mechanism:
+def read_mjcf(
+    path: Path, document: Document, base: str | None, contacts: str = "all", keyframe: str | None = None
+) -> Mechanism:
     """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says.
-    contacts : `all`, `floor` or `none`. Raises ModelError."""
+    contacts : `all`, `floor` or `none`. keyframe : name or number of the one at which it starts. Raises ModelError."""
     require("models in MJCF need", "mujoco")
     _check_source(document, path, {path.resolve()})
     document.raise_faults()
     name = document.root.get("model") or path.stem
-    return apart(mechanism_here, path, document.file, name, base, contacts, failed=f"{document.file} cannot be read")
+    given = (path, document.file, name, base, contacts, keyframe)
+    return apart(mechanism_here, *given, failed=f"{document.file} cannot be read")
 
 
-def mechanism_here(path: Path, file: str, name: str, base: str | None, contacts: str) -> Mechanism:
+def mechanism_here(
+    path: Path, file: str, name: str, base: str | None, contacts: str, keyframe: str | None
+) -> Mechanism:
     """The same in this process, which a damaged file may end."""
     mj = needed("mujoco", "models in MJCF need")
     said: list[warnings.WarningMessage] = []
@@ -71,13 +89,30 @@ def mechanism_here(path: Path, file: str, name: str, base: str | None, contacts:
     data = mj.MjData(model)
     mj.mj_resetData(model, data)
     data.qpos[:] = model.qpos0
+    if keyframe is not None:
+        mj.mj_resetDataKeyframe(model, data, _keyframe(model, keyframe, file))
+        if np.any(data.qvel):
+            mechanism.notes.leave("velocities of the keyframe", keyframe, acts=True)
     mj.mj_kinematics(model, data)
     reader = _Reader(mj, model, data, mechanism, off)
     reader.read(base)
     if "contacts" not in off and contacts != "none":
         read_contacts(mj, model, mechanism, reader.body, reader.solid, contacts)
+    if model.nkey and keyframe is None:
+        names = ", ".join(model.key(k).name or str(k) for k in range(model.nkey))
+        mechanism.notes.leave(f"keyframes ({model.nkey}); `--keyframe NAME` starts at one: {names}")
     _leave(model, mechanism, without=contacts == "none" and "contacts" not in off)
     return mechanism
+
+
+def _keyframe(model: Any, wanted: str, file: str) -> int:
+    """Number of the keyframe of this name or number. Raises ModelError."""
+    names = [model.key(k).name or str(k) for k in range(model.nkey)]
+    for k, name in enumerate(names):
+        if wanted in (name, str(k)):
+            return k
+    known = f"there are {', '.join(names)}" if names else "it has none"
+    raise ModelError(Fault(file, 1, 1, "", f"the model has no keyframe `{wanted}`; {known}"))
 
 
 def _check_source(document: Document, path: Path, seen: set[Path], depth: int = 0) -> None:
@@ -168,6 +203,8 @@ class _Reader:
             self._site(s)
         if "equalities" not in self.off:
             read_equalities(self.mj, self.m, self.mechanism, self.joints, self.body)
+        for t in range(self.m.ntendon):
+            self._tendon(t)
         if "actuators" not in self.off:
             for a in range(self.m.nu):
                 self._actuator(a)
@@ -236,7 +273,7 @@ class _Reader:
                     notes.leave(f"{what} of ball joints", name, acts=True)
             return joint
         joint.axes = (self.d.xaxis[j].copy(),)
-        joint.placed = float(m.qpos0[q])
+        joint.placed, joint.reference = float(self.d.qpos[q]), float(m.qpos0[q])
         joint.armature = float(m.dof_armature[v])
         if "dampers" not in self.off:
             joint.damping = float(m.dof_damping[v])
@@ -298,32 +335,62 @@ class _Reader:
             at = self._frame(m.site_pos[s], self._quaternion(m.site_quat[s]))
             self.mechanism.sites.append((name, self.body(int(m.site_bodyid[s])), at))
 
+    def _tendon(self, t: int) -> None:
+        m, notes, name = self.m, self.mechanism.notes, self._tendon_name(t)
+        terms = terms_of(m, t, self.joints)
+        if terms is None:
+            notes.leave("tendons through space", name, acts=True)
+            return
+        tendon = Tendon(name, terms)
+        if "springs" not in self.off:
+            tendon.stiffness = float(m.tendon_stiffness[t])
+            tendon.free = (float(m.tendon_lengthspring[t, 0]), float(m.tendon_lengthspring[t, 1]))
+        if "dampers" not in self.off:
+            tendon.damping = float(m.tendon_damping[t])
+        if "limits" not in self.off and m.tendon_limited[t]:
+            tendon.ends = (float(m.tendon_range[t, 0]), float(m.tendon_range[t, 1]))
+        for value, what in ((m.tendon_frictionloss[t], "friction"), (m.tendon_armature[t], "armature")):
+            if value:
+                notes.leave(f"{what} of tendons", name, acts=True)
+        self.mechanism.tendons.append(tendon)
+
+    def _tendon_name(self, t: int) -> str:
+        return self.m.tendon(t).name or f"tendon_{t}"
+
     def _actuator(self, a: int) -> None:
-        m, notes = self.m, self.mechanism.notes
-        name = m.actuator(a).name or f"actuator_{a}"
-        joint = (
-            self.joints.get(int(m.actuator_trnid[a, 0])) if int(m.actuator_trntype[a]) in JOINT_TRANSMISSIONS else None
+        m, notes, mj = self.m, self.mechanism.notes, self.mj
+        name, gear = m.actuator(a).name or f"actuator_{a}", float(m.actuator_gear[a, 0])
+        where, at = int(m.actuator_trntype[a]), int(m.actuator_trnid[a, 0])
+        terms: Terms | None = None
+        if where in JOINT_TRANSMISSIONS:
+            joint = self.joints.get(at)
+            terms = ((joint.name, gear),) if joint is not None and joint.coordinate else None
+        elif where == int(mj.mjtTrn.mjTRN_TENDON):
+            terms = terms_of(m, at, self.joints, gear)
+        if terms is None:
+            notes.leave("actuators on other elements than hinges, slides and fixed tendons", name, acts=True)
+            return
+        # force = gain · activation + b0 + b1 · length + b2 · speed, with the length gear · coordinate
+        kinds = [mj.mjtGain, mj.mjtBias, mj.mjtDyn]
+        types = (m.actuator_gaintype[a], m.actuator_biastype[a], m.actuator_dyntype[a])
+        gain, bias, dynamics = (
+            kind(int(each)).name.partition("_")[2].lower() for kind, each in zip(kinds, types, strict=True)
         )
-        if joint is None or not joint.coordinate:
-            notes.leave("actuators on other elements than hinges and slides", name, acts=True)
+        if gain not in GAINS or bias not in BIASES or dynamics not in DYNAMICS:
+            notes.leave("muscles, and actuators with laws of a plugin or a user", name, acts=True)
             return
-        # force = gain · control + b0 + b1 · length + b2 · speed, with the length gear · coordinate
-        gain_type, bias_type = int(m.actuator_gaintype[a]), int(m.actuator_biastype[a])
-        if int(m.actuator_dyntype[a]) != 0 or gain_type != 0 or bias_type > 1:
-            notes.leave("actuators with a state, muscles and gains that are not fixed", name, acts=True)
-            return
-        bias = m.actuator_biasprm[a][:3] if bias_type == 1 else np.zeros(3)
-        gear = float(m.actuator_gear[a, 0])
-        made = Actuator(name, joint.name, gear * float(m.actuator_gainprm[a, 0]))
-        made.bias = (gear * float(bias[0]), gear**2 * float(bias[1]), gear**2 * float(bias[2]))
-        if m.actuator_ctrllimited[a]:
-            made.control = (float(m.actuator_ctrlrange[a, 0]), float(m.actuator_ctrlrange[a, 1]))
-        if m.actuator_forcelimited[a]:
-            low, high = (float(each) * abs(gear) for each in m.actuator_forcerange[a])
-            if low == -high:
-                made.limit = high
-            else:
-                notes.leave("limits of force that differ in the two directions", name)
+        numbers = m.actuator_gainprm[a][:3] * ([1.0, 0.0, 0.0] if gain == "fixed" else 1.0)
+        laws = m.actuator_biasprm[a][:3] if bias == "affine" else np.zeros(3)
+        gains, biases = ((float(each[0]), float(each[1]), float(each[2])) for each in (numbers, laws))
+        made = Actuator(name, terms, gains, biases)
+        if dynamics != "none":
+            made.time = 0.0 if dynamics == "integrator" else float(m.actuator_dynprm[a, 0])
+        for given, of, key in (("ctrl", "ctrl", "control"), ("force", "force", "limit"), ("act", "act", "activation")):
+            if getattr(m, f"actuator_{given}limited")[a]:
+                setattr(made, key, tuple(map(float, getattr(m, f"actuator_{of}range")[a])))
+        made.rest = float(self.d.ctrl[a])
+        if made.control is not None:
+            made.rest = min(max(made.rest, made.control[0]), made.control[1])
         self.mechanism.actuators.append(made)
 
 
@@ -331,14 +398,12 @@ def _leave(m: Any, mechanism: Mechanism, *, without: bool) -> None:
     """Note what no part of the reader has asked for."""
     notes = mechanism.notes
     for count, what in (
-        (m.ntendon, "tendons"),
         (m.nflex, "flexible elements"),
         (m.nsensor, "sensors"),
-        (m.nkey, "keyframes"),
         (m.nplugin, "plugins"),
     ):
         if count:
-            notes.leave(f"{what} ({count})", acts=what not in ("sensors", "keyframes"))
+            notes.leave(f"{what} ({count})", acts=what != "sensors")
     if without and np.any((m.geom_contype > 0) | (m.geom_conaffinity > 0)):
         notes.leave("contacts of geoms; a contact is a force of type `contact`", acts=True)
     if m.opt.density or m.opt.viscosity:

@@ -10,9 +10,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.exchange.mechanism import Connection, Frame, Mechanism
+from nivel.exchange.mechanism import Connection, Frame, Mechanism, Terms
 
 CLOSED: Final = 1e-6  # [m, rad] by which a weld may be open where the bodies are placed
+WRAPS_JOINT: Final = 1  # mjtWrap: a joint of a fixed tendon
 EXACT: Final = "equalities are exact constraints, not soft ones"
 
 
@@ -29,6 +30,8 @@ def read_equalities(
             _attach(mj, m, e, kind, name, mechanism, body)
         elif kind == "joint":
             _follow(m, e, name, mechanism, joints)
+        elif kind == "tendon" and _add_sum(m, e, name, mechanism, joints):
+            mechanism.notes.change(EXACT, name)
         else:
             mechanism.notes.leave(f"equalities of type {kind}", name, acts=True)
 
@@ -49,14 +52,20 @@ def _attach(mj: Any, m: Any, e: int, kind: str, name: str, mechanism: Mechanism,
     first, second = (place @ each for place, each in zip(places, inside, strict=True))
     gap = float(np.linalg.norm(first.origin - second.origin))
     turn = float(np.abs(first.axes - second.axes).max()) if kind == "weld" else 0.0
+    if kind == "connect":
+        mechanism.notes.change(EXACT, name)
+        open_by = (inside[0], inside[1]) if gap > CLOSED else None
+        if open_by is not None:
+            mechanism.notes.change("points that are connected come together at the start", f"{name} {gap * 1e3:.3g} mm")
+        joint = Connection(name, "spherical", (links[0], links[1]), first.origin, frames=open_by)
+        mechanism.connections.append(joint)
+        return
     if max(gap, turn) > CLOSED:
         mechanism.notes.leave(f"equalities that are open where the bodies are placed, by {gap:.3g} m", name, acts=True)
         return
     mechanism.notes.change(EXACT, name)
-    joint = Connection(name, "spherical" if kind == "connect" else "fixed", (links[0], links[1]), first.origin)
-    if kind == "weld":
-        mechanism.notes.change("bodies that a weld holds together are one body", name)
-    mechanism.connections.append(joint)
+    mechanism.notes.change("bodies that a weld holds together are one body", name)
+    mechanism.connections.append(Connection(name, "fixed", (links[0], links[1]), first.origin))
 
 
 def _axes(mj: Any, parameters: Any) -> Any:
@@ -79,4 +88,29 @@ def _follow(m: Any, e: int, name: str, mechanism: Mechanism, joints: dict[int, C
     if np.any(a[2:]):
         joint.follows = (other.name, tuple(float(each) for each in a))
         return
-    joint.mimic = (other.name, float(a[1]), joint.placed + float(a[0]) - float(a[1]) * other.placed)
+    joint.mimic = (other.name, float(a[1]), joint.reference + float(a[0]) - float(a[1]) * other.reference)
+
+
+def terms_of(m: Any, tendon: int, joints: dict[int, Connection], factor: float = 1.0) -> Terms | None:
+    """Joints and factors of a fixed tendon; None of one that goes through space, or over joints without one coordinate."""
+    out = []
+    for w in range(m.tendon_adr[tendon], m.tendon_adr[tendon] + m.tendon_num[tendon]):
+        joint = joints.get(int(m.wrap_objid[w])) if m.wrap_type[w] == WRAPS_JOINT else None
+        if joint is None or not joint.coordinate:
+            return None
+        out.append((joint.name, factor * float(m.wrap_prm[w])))
+    return tuple(out)
+
+
+def _add_sum(m: Any, e: int, name: str, mechanism: Mechanism, joints: dict[int, Connection]) -> bool:
+    """l₁ - a₁ l₂ stays as it is; False where that is not what the equality says."""
+    a, second = m.eq_data[e][:5], int(m.eq_obj2id[e])
+    terms = terms_of(m, int(m.eq_obj1id[e]), joints)
+    others = terms_of(m, second, joints, -float(a[1])) if second >= 0 else ()
+    if np.any(a[2:]) or a[0] or terms is None or others is None:
+        return False
+    factors: dict[str, float] = {}
+    for joint, factor in (*terms, *others):
+        factors[joint] = factors.get(joint, 0.0) + factor
+    mechanism.sums.append((name, tuple((joint, factor) for joint, factor in factors.items() if factor)))
+    return True

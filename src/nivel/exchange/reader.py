@@ -55,9 +55,11 @@ def read_model(
     target: str | Path | None = None,
     contacts: Contacts = "all",
     density: float | None = None,
+    keyframe: str | None = None,
 ) -> Translation:
     """The translation of a file of another program. target : the machine file that will be written; default beside the model. density :
-    of solids of a STEP file [kg/m³]. contacts : all of the model, those with the ground, or none.
+    of solids of a STEP file [kg/m³]. contacts : all of the model, those with the ground, or none. keyframe : of an MJCF file, at which
+    it starts.
 
     Raises ModelError with everything that cannot be read, each with file and line.
     """
@@ -69,7 +71,7 @@ def read_model(
     if density is not None:
         raise ModelError(f"{file}: the masses are in the model; `density` belongs to STEP files")
     content = read_bytes(path)
-    mechanism = _mechanism(content, str(file), base, contacts)
+    mechanism = _mechanism(content, str(file), base, contacts, keyframe)
     return machine_of(mechanism, path.name, drawing)
 
 
@@ -79,9 +81,10 @@ def translated_machine(
     base: Base | None = None,
     package_paths: Sequence[str | Path] = (),
     contacts: Contacts = "all",
+    keyframe: str | None = None,
 ) -> MachineRecord:
     """The machine that a file of another program describes; meshes are in it. Raises ModelError."""
-    translation = read_model(file, base=base, package_paths=package_paths, contacts=contacts)
+    translation = read_model(file, base=base, package_paths=package_paths, contacts=contacts, keyframe=keyframe)
     shapes = [each["shape"] for each in translation.data.get("markers", {}).values() if "shape" in each]
     for shape in [*_meshes(translation.data), *(each for each in shapes if each["type"] == "mesh")]:
         made = translation.meshes.get(shape["file"])
@@ -97,7 +100,7 @@ def _meshes(data: dict[str, Any]) -> list[dict[str, Any]]:
     return [shape for shape in [*looks, *data.get("surroundings", [])] if shape["type"] == "mesh"]
 
 
-def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts) -> Mechanism:
+def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts, keyframe: str | None) -> Mechanism:
     start = content[:100_000]
     for pattern, answer in _OTHERS:
         if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<") and pattern.search(start):
@@ -115,7 +118,9 @@ def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts)
         raise ModelError(Fault(file, macro.line, macro.column, macro.shown, message))
     match root.tag:
         case "mujoco":
-            return read_mjcf(Path(file), document, base, contacts)
+            return read_mjcf(Path(file), document, base, contacts, keyframe)
+        case _ if keyframe is not None:
+            raise ModelError(f"{file}: `keyframe` belongs to MJCF files")
         case "robot":
             return read_urdf(document, base, contacts)
         case "sdf":

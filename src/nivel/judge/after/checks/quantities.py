@@ -166,6 +166,12 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
     second = run.second.result if run.second is not None and not run.second.ended else None
     extents = {name: _joined(result.variables[name], least_range(result, second, name)) for name in names}
     sizes = {name: float(np.nanmax(np.abs(result.array(name)), initial=0.0)) for name in names}
+    largest_of: dict[str, float] = {}  # by unit
+    size_of: dict[str, float] = {}
+    for name in names:
+        units = result.variables[name].units
+        largest_of[units] = max(largest_of.get(units, 0.0), float(np.max(extents[name], initial=0.0)))
+        size_of[units] = max(size_of.get(units, 0.0), sizes[name])
     for name in names:
         mean, error = estimate.mean[name], estimate.values[name][-1]
         if name in scales.shared:
@@ -174,10 +180,8 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
                 continue
             mean, error = np.mean(off, axis=0), np.max(off, axis=0)
         variable = result.variables[name]
-        alike = [each for each in names if result.variables[each].units == variable.units]
-        largest = max(float(np.max(extents[each], initial=0.0)) for each in alike)
-        natural = _natural(run, variable.units)
-        rounded = ROUNDED * max(natural, *(sizes[each] for each in alike))
+        largest, natural = largest_of[variable.units], _natural(run, variable.units)
+        rounded = ROUNDED * max(natural, size_of[variable.units])
         magnitude = _joined(variable, np.max(np.abs(result.array(name)), axis=0, initial=0.0))
         extent = np.maximum(extents[name], AT_REST * np.maximum(magnitude, natural))
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))

@@ -13,10 +13,8 @@ import numpy as np
 
 import nivel
 from nivel.analysis.gradients.gradient import Varied
-from nivel.analysis.gradients.parameters import parameters_of
-from nivel.analysis.gradients.seeds import seed
-from nivel.analysis.gradients.slopes import run_whole
-from nivel.analysis.gradients.whole_loop import WholeLoop, whole_entries
+from nivel.analysis.gradients.outputs import parameters_of
+from nivel.analysis.gradients.slopes import WholeLoop, run_whole, seed, whole_entries
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march, start_loop

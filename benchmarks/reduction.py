@@ -20,9 +20,8 @@ import scipy.sparse as sp
 
 from nivel.flexible.body.body_file import read_body, write_body
 from nivel.flexible.model.model_file import read_model
-from nivel.flexible.reduce import reduce
+from nivel.flexible.reduce import reduce, source_model
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.flexible.source import source_model
 
 BOOM = Path(__file__).parent.parent / "examples" / "flexible" / "crane-boom.yaml"
 SOLVER = """

@@ -49,14 +49,17 @@ class Kind(NamedTuple):
 
 
 class Keywords(NamedTuple):
-    """A mapping of keywords: name, meaning, fields by name, and whether a default is that of the machine file."""
+    """A mapping of keywords: name, meaning, fields by name, whether a default is that of the machine file, and the mappings before it
+    whose fields it has, in their order, before its own."""
 
     name: str
     meaning: str
     fields: Mapping[str, FieldInfo]
     of_file: bool = False
+    bases: tuple[str, ...] = ()
 
 
+ENDS: Final = "EndSettingsDict"  # of the fields that a machine without an end lacks
 PLAIN: Final = {
     float: Kind("float | str", "NUMBER"),
     int: Kind("int | str", "NUMBER"),
@@ -69,9 +72,10 @@ PLAIN: Final = {
 def all_keywords() -> tuple[Keywords, ...]:
     """The mappings of all analyses."""
     run, sweep = SimulationSettings.model_fields, SweepSettings.model_fields
+    steps = "Settings of a machine that is moved step by step."
     return (
-        Keywords("RunSettingsDict", "Settings of a run.", run, of_file=True),
-        Keywords("StepSettingsDict", "Settings of a machine that is moved step by step.", _without(run, ENDLESS), True),
+        Keywords("RunSettingsDict", "Settings of a run.", run, True, bases=(ENDS, "StepSettingsDict")),
+        Keywords("StepSettingsDict", steps, _without(run, ENDLESS), True),
         Keywords(
             "CompareSettingsDict",
             "Settings of a comparison: axes of its grid, and settings of all runs.",
@@ -84,6 +88,7 @@ def all_keywords() -> tuple[Keywords, ...]:
             "Settings of a sweep over values of a machine, and of its runs.",
             sweep | run,
             True,
+            bases=("SweepSettingsDict", "RunSettingsDict"),
         ),
         Keywords("StaticsSettingsDict", "Settings of statics.", StaticsSettings.model_fields),
         Keywords("KinematicsSettingsDict", "Settings of kinematics.", KinematicsSettings.model_fields),
@@ -94,7 +99,12 @@ def all_keywords() -> tuple[Keywords, ...]:
 
 def module() -> str:
     """Text of the module `nivel.settings`."""
-    found = all_keywords()
+    ends = {name: field for name, field in SimulationSettings.model_fields.items() if name in ENDLESS}
+    found = (
+        Keywords(ENDS, "Settings of what has an end.", ends, True),
+        *sorted(all_keywords(), key=lambda each: bool(each.bases)),
+    )
+    of = {each.name: each.fields for each in found}
     aliases = {
         kind_of(field).type.rpartition(" ")[2]
         for each in found
@@ -103,9 +113,15 @@ def module() -> str:
     }
     lines = [HEAD.format(aliases=", ".join(sorted(aliases)))]
     for each in found:
-        lines += ["", f"class {each.name}(TypedDict, total=False):", f'    """{each.meaning}"""', ""]
-        lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in each.fields.items()]
-        lines += [""]
+        own = _without(each.fields, {name for base in each.bases for name in of[base]})
+        lines += [
+            "",
+            f"class {each.name}({', '.join(each.bases or ['TypedDict'])}, total=False):",
+            f'    """{each.meaning}"""',
+            "",
+        ]
+        lines += [f"    {name}: {_annotation(name, field, each.of_file)}" for name, field in own.items()]
+        lines += [""] if own else []
     return "\n".join(lines)
 
 

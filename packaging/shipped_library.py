@@ -17,8 +17,8 @@ from nivel import __version__
 from nivel.analysis.plan.compilation import all_entries
 from nivel.c_library.writer import PLATFORMS
 from nivel.cli.progress import progress_count
-from nivel.fmu.binary import entries_source, own_sources, tables_source
-from nivel.fmu.binary import link as link_shared
+from nivel.fmu.writer import entries_source, own_sources, tables_source
+from nivel.fmu.writer import link as link_shared
 from nivel.native import library, shipped, store, workers
 from nivel.native.entry import Entry
 from nivel.native.processor import LEVELS

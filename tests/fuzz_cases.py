@@ -19,8 +19,7 @@ from nivel.errors import ModelError
 from nivel.files.input_table import read_input_table
 from nivel.files.mesh_file import read_mesh
 from nivel.flexible.foreign.matrix import FormatError
-from nivel.flexible.foreign.nastran import read_dmig
-from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.nastran import read_dmig, read_op4
 from nivel.flexible.foreign.read_mesh import read_mesh as read_element_mesh
 from nivel.native import store
 from nivel.results import Result

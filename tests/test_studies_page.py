@@ -10,7 +10,7 @@ from typing import get_args
 import pytest
 from click import Context
 
-from nivel.analysis.sweep.task import Task
+from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.cli import main
 from nivel.machine.study import StudyRecord

@@ -333,7 +333,7 @@ class Machine(Model):
         if fmi not in nivel.fmu.writer.VERSIONS:
             raise ModelError(Fault.at("fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
         self._refuse_target(path, force)
-        given = nivel.analysis.gradients.parameters.parameters_of(self, paths, "an FMU") if paths else ()
+        given = nivel.analysis.gradients.outputs.parameters_of(self, paths, "an FMU") if paths else ()
         plan = self._plan({}, stepwise=True)
         nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.run_entries(plan), listener)
         with self._faults_in_file():
@@ -657,7 +657,7 @@ class Machine(Model):
         return nivel.analysis.optimise.identify.identify(
             chosen,
             nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
-            nivel.analysis.optimise.measurements.signals_of(data, deviations or {}),
+            nivel.analysis.optimise.inputs.signals_of(data, deviations or {}),
             with_slopes=chosen._with_slopes if exact_slopes else None,
             starts=starts,
             seed=seed,
@@ -794,7 +794,7 @@ class Machine(Model):
         with self._faults_in_file():
             name = settings.drive
             start, unit, size = nivel.analysis.kinematics.drive.present_value(self.record, name)
-        return nivel.analysis.kinematics.ranges.range_of_motion(
+        return nivel.analysis.kinematics.drive.range_of_motion(
             name,
             unit,
             start,
@@ -849,16 +849,12 @@ class Machine(Model):
                 else nivel.analysis.inverse.number_table.along_trajectory(self.record, trajectory)
             )
             wanted = nivel.analysis.inverse.actuators.actuation(record, asked)
-            if nivel.analysis.inverse.friction_efforts.rubs(record):
-                drivers = nivel.analysis.inverse.friction_efforts.acting_drivers(
-                    record, wanted, recorded=motion is not None
-                )
-                driven = Machine.from_record(
-                    nivel.analysis.inverse.friction_efforts.driven_alone(record, wanted), self.origin
-                )
+            if nivel.analysis.inverse.actuators.rubs(record):
+                drivers = nivel.analysis.inverse.actuators.acting_drivers(record, wanted, recorded=motion is not None)
+                driven = Machine.from_record(nivel.analysis.inverse.actuators.driven_alone(record, wanted), self.origin)
                 followed = driven.kinematics(positions=positions, listener=listener)
                 return nivel.analysis.inverse.run.with_trust(
-                    nivel.analysis.inverse.friction_efforts.efforts_of_drivers(wanted, drivers, followed),
+                    nivel.analysis.inverse.actuators.efforts_of_drivers(wanted, drivers, followed),
                     record.drivers,
                     followed,
                 )
@@ -985,7 +981,7 @@ class Machine(Model):
                     not in (nivel.machine.settings.linearise.EQUILIBRIUM, nivel.machine.settings.linearise.ROTATION),
                 )
             )
-            inputs = nivel.analysis.linearise.opened.opened(self.record, asked.inputs, asked.time)
+            inputs = nivel.analysis.linearise.ports.opened(self.record, asked.inputs, asked.time)
             plain, chosen = nivel.analysis.plan.equations_only.neutral(
                 inputs.machine,
                 asked.coordinates,
@@ -1106,7 +1102,7 @@ def _sweep(
     code_of(made[0], settings.analysis, listener)
     shared = {name: getattr(settings, name) for name in ("analysis", "outputs", "save", "verify")}
     shared |= {"settings": settings.analysis_settings, "time_limit": settings.time_limit}
-    tasks = [nivel.analysis.sweep.task.Task(machine, **shared) for machine in made]
+    tasks = [nivel.analysis.sweep.outputs.Task(machine, **shared) for machine in made]
     engine = nivel.analysis.sweep.sweep.Engine(
         settings.processes or nivel.native.workers.processors(),
         settings.scheduler,

@@ -88,27 +88,24 @@ if TYPE_CHECKING:
     import nivel.analysis.compare.compare
     import nivel.analysis.compare.compare_grid
     import nivel.analysis.gradients.gradient
-    import nivel.analysis.gradients.parameters
+    import nivel.analysis.gradients.outputs
     import nivel.analysis.gradients.sensitivities
     import nivel.analysis.interactive.posing
     import nivel.analysis.inverse.actuators
-    import nivel.analysis.inverse.friction_efforts
     import nivel.analysis.inverse.mechanics
     import nivel.analysis.inverse.number_table
     import nivel.analysis.inverse.paths
     import nivel.analysis.inverse.run
     import nivel.analysis.kinematics.continuation
     import nivel.analysis.kinematics.drive
-    import nivel.analysis.kinematics.ranges
     import nivel.analysis.kinematics.run
     import nivel.analysis.linearise.linearise
-    import nivel.analysis.linearise.opened
+    import nivel.analysis.linearise.ports
     import nivel.analysis.optimise.evaluations
     import nivel.analysis.optimise.identify
     import nivel.analysis.optimise.inputs
-    import nivel.analysis.optimise.measurements
     import nivel.analysis.optimise.optimise
-    import nivel.analysis.optimise.table
+    import nivel.analysis.plan.choice
     import nivel.analysis.plan.compilation
     import nivel.analysis.plan.equations_only
     import nivel.analysis.plan.plan
@@ -124,11 +121,9 @@ if TYPE_CHECKING:
     import nivel.analysis.statics.run
     import nivel.analysis.statics.start
     import nivel.analysis.sweep.batch
-    import nivel.analysis.sweep.journal
     import nivel.analysis.sweep.outputs
     import nivel.analysis.sweep.resolution
     import nivel.analysis.sweep.sweep
-    import nivel.analysis.sweep.task
     import nivel.analysis.sweep.variant
     import nivel.analysis.sweep.variant_runs
     import nivel.analysis.sweep.variants
@@ -136,7 +131,6 @@ if TYPE_CHECKING:
     import nivel.c_library.exported
     import nivel.c_library.writer
     import nivel.cli.analysis_command
-    import nivel.cli.ending
     import nivel.cli.live
     import nivel.cli.progress
     import nivel.elements.circuits.actuators

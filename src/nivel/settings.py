@@ -12,30 +12,10 @@ from typing import Annotated, Any, TypedDict
 from nivel.methods import Analysis, Combination, Coordinates, Drawn, Formulation, Integrator, Rotations, Stabilisation, Start, StaticCoordinates, StepControl
 
 
-class RunSettingsDict(TypedDict, total=False):
-    """Settings of a run."""
+class EndSettingsDict(TypedDict, total=False):
+    """Settings of what has an end."""
 
     duration: Annotated[float | str | None, "--duration TIME", "Simulated time, e.g. 8 or '8 s'."]
-    step: Annotated[float | str | None, "--step TIME", "Time step, e.g. '1 ms'; first step of integrators that choose their steps."]
-    output_interval: Annotated[float | str | None, "--output-interval TIME", "Time between frames; with a fixed step a multiple of it; default: up to 1000 intervals."]
-    integrator: Annotated[Integrator | None, "--integrator NAME", "Time integration method:"]
-    formulation: Annotated[Formulation | None, "--formulation NAME", "Equations of motion:"]
-    coordinates: Annotated[Coordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
-    rotations: Annotated[Rotations | None, "--rotations NAME", "Rotation coordinates of lagrange:"]
-    cut: Annotated[Sequence[str] | str | None, "--cut JOINTS", "Joints that close loops: they stay constraints in relative coordinates; default: chosen automatically."]
-    independent: Annotated[Sequence[str] | str | None, "--independent NAMES", "Velocities that independent coordinates keep as unknowns, e.g. crank.about_z; default: chosen automatically."]
-    stabilisation: Annotated[Stabilisation | None, "--stabilisation NAME", "Constraint stabilisation:"]
-    start: Annotated[Start | None, "--start NAME", "Initial state: as assembled, or the equilibrium at rest:"]
-    free: Annotated[Sequence[str] | str | None, "--free NAMES", "Joint coordinates without stiffness that an equilibrium leaves where they are placed."]
-    step_control: Annotated[StepControl | None, "--step-control NAME", "Steps fixed, or chosen by their error; own: as the integrator does:"]
-    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named."]
-    largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
-    corrector: Mapping[str, Any] | None
-    newmark: Mapping[str, Any] | None
-    hht: Mapping[str, Any] | None
-    generalised_alpha: Mapping[str, Any] | None
-    penalty: Mapping[str, Any] | None
-    baumgarte: Mapping[str, Any] | None
 
 
 class StepSettingsDict(TypedDict, total=False):
@@ -96,44 +76,6 @@ class SweepSettingsDict(TypedDict, total=False):
     verify: Annotated[bool | None, "--verify", "A second run beside each variant, to estimate its error; default: not verified."]
 
 
-class MachineSweepSettingsDict(TypedDict, total=False):
-    """Settings of a sweep over values of a machine, and of its runs."""
-
-    combine: Annotated[Combination | None, "--combine NAME", "Grid, every value with every other; or rows, the first of all lists, the second of all:"]
-    samples: Annotated[int | str | None, "--samples NUMBER", "Number of variants of a Latin hypercube between two bounds, or over distributions."]
-    seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
-    save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]
-    design: Annotated[Drawn | None, "--design NAME", "How samples are drawn:"]
-    analysis: Annotated[Analysis | None, "--analysis NAME", "What is computed of each variant:"]
-    analysis_settings: Mapping[str, Any] | None
-    outputs: Mapping[str, Any] | None
-    time_limit: Annotated[float | str | None, "--time-limit TIME", "Longest computing time of a variant; default: none."]
-    scheduler: Annotated[str | None, "--scheduler TEXT", "Address of the scheduler of a Dask cluster that computes; default: none."]
-    processes: Annotated[int | str | None, "--processes NUMBER", "Number of processes; default: as many as there are processors."]
-    verify: Annotated[bool | None, "--verify", "A second run beside each variant, to estimate its error; default: not verified."]
-    duration: Annotated[float | str | None, "--duration TIME", "Simulated time, e.g. 8 or '8 s'."]
-    step: Annotated[float | str | None, "--step TIME", "Time step, e.g. '1 ms'; first step of integrators that choose their steps."]
-    output_interval: Annotated[float | str | None, "--output-interval TIME", "Time between frames; with a fixed step a multiple of it; default: up to 1000 intervals."]
-    integrator: Annotated[Integrator | None, "--integrator NAME", "Time integration method:"]
-    formulation: Annotated[Formulation | None, "--formulation NAME", "Equations of motion:"]
-    coordinates: Annotated[Coordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
-    rotations: Annotated[Rotations | None, "--rotations NAME", "Rotation coordinates of lagrange:"]
-    cut: Annotated[Sequence[str] | str | None, "--cut JOINTS", "Joints that close loops: they stay constraints in relative coordinates; default: chosen automatically."]
-    independent: Annotated[Sequence[str] | str | None, "--independent NAMES", "Velocities that independent coordinates keep as unknowns, e.g. crank.about_z; default: chosen automatically."]
-    stabilisation: Annotated[Stabilisation | None, "--stabilisation NAME", "Constraint stabilisation:"]
-    start: Annotated[Start | None, "--start NAME", "Initial state: as assembled, or the equilibrium at rest:"]
-    free: Annotated[Sequence[str] | str | None, "--free NAMES", "Joint coordinates without stiffness that an equilibrium leaves where they are placed."]
-    step_control: Annotated[StepControl | None, "--step-control NAME", "Steps fixed, or chosen by their error; own: as the integrator does:"]
-    tolerance: Annotated[float | str | None, "--tolerance NUMBER", "Relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named."]
-    largest_step: Annotated[float | str | None, "--largest-step TIME", "Longest step of integrators that choose their steps; default: the duration."]
-    corrector: Mapping[str, Any] | None
-    newmark: Mapping[str, Any] | None
-    hht: Mapping[str, Any] | None
-    generalised_alpha: Mapping[str, Any] | None
-    penalty: Mapping[str, Any] | None
-    baumgarte: Mapping[str, Any] | None
-
-
 class StaticsSettingsDict(TypedDict, total=False):
     """Settings of statics."""
 
@@ -180,3 +122,11 @@ class LineariseSettingsDict(TypedDict, total=False):
     outputs: Annotated[Sequence[str] | str | None, "--outputs NAMES", "Outputs; default: sensors, or joint coordinates and pressures."]
     coordinates: Annotated[StaticCoordinates | None, "--coordinates NAME", "Coordinates of the equations:"]
     verify: Annotated[bool | None, "--no-verify", "No vibrations with other elements of beams, to estimate their error."]
+
+
+class RunSettingsDict(EndSettingsDict, StepSettingsDict, total=False):
+    """Settings of a run."""
+
+
+class MachineSweepSettingsDict(SweepSettingsDict, RunSettingsDict, total=False):
+    """Settings of a sweep over values of a machine, and of its runs."""

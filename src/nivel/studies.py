@@ -85,7 +85,7 @@ class Study:
         returns what was computed, and the journal stays. Raises ModelError where outputs do not fit the results, or no variant could start.
         """
         record, variants = self.file.record, self.variants
-        task = nivel.analysis.sweep.task.Task(
+        task = nivel.analysis.sweep.outputs.Task(
             self.machine,
             record.analysis,
             self.resolved.settings,
@@ -101,7 +101,7 @@ class Study:
         listener = listener or Listener()
         target = None if out is None else Path(fspath(out))
         of, count = (
-            nivel.analysis.sweep.journal.study_fingerprint(task, variants),
+            nivel.analysis.sweep.variant.study_fingerprint(task, variants),
             f"of {len(variants.values)} variants",
         )
         with self._journal(target, of, count, resume=resume, force=force) as journal:
@@ -147,7 +147,7 @@ class Study:
             said = "the study says nothing of what is to be least: write `optimise: {output: NAME}`"
             raise ModelError(self.file.fault((), said))
         machine, analysis = self.machine, self.file.record.analysis
-        if analysis == "run" and nivel.analysis.sweep.task.only_numbers(outputs):
+        if analysis == "run" and nivel.analysis.sweep.outputs.only_numbers(outputs):
             machine = nivel.analysis.plan.settings.with_usual_frames(machine)
 
         def find(journal: Journal | None) -> tuple[Optimum, bool]:
@@ -239,7 +239,7 @@ class Study:
         with self._journal(target, of, "runs", resume=resume, force=force) as journal:
             try:
                 found, whole = find(journal)
-            except (nivel.analysis.optimise.table.NothingFoundError, SolveError) as error:
+            except (nivel.analysis.optimise.evaluations.NothingFoundError, SolveError) as error:
                 if journal is not None and error.result is not None:
                     write_netcdf(error.result, journal.target)  # type: ignore[arg-type]
                     journal.complete = True
@@ -300,7 +300,7 @@ class Study:
         ) as journal:
             try:
                 yield journal
-            except nivel.analysis.optimise.table.NothingFoundError:
+            except nivel.analysis.optimise.evaluations.NothingFoundError:
                 raise
             except ModelError as error:
                 raise ModelError([self._placed(each) for each in error.faults]) from None

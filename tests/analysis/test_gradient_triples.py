@@ -15,8 +15,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.gradients.outputs import outputs_of, value_of
-from nivel.analysis.gradients.parameters import parameters_of
+from nivel.analysis.gradients.outputs import outputs_of, parameters_of, value_of
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.reduce import reduce
 

@@ -10,12 +10,10 @@ import pytest
 import nivel
 from nivel.analysis.gradients.check import Slope, check
 from nivel.analysis.gradients.gradient import Varied
-from nivel.analysis.gradients.outputs import outputs_of, value_of
-from nivel.analysis.gradients.parameters import parameters_of
+from nivel.analysis.gradients.outputs import outputs_of, parameters_of, value_of
 from nivel.analysis.plan.plan import plan_run
 from nivel.gradients import jax_function, torch_function, value_and_gradient
-from nivel.report.tornado import tornados
-from nivel.report.write import report_html
+from nivel.report.write import report_html, tornados
 
 pytestmark = pytest.mark.compiles  # runs on dual numbers, which `nivel warmup` leaves out
 

@@ -7,11 +7,11 @@ import pytest
 
 import nivel
 from nivel.analysis.plan.plan import plan_run
-from nivel.analysis.preparation import roles
+from nivel.analysis.preparation import memory
 from nivel.analysis.preparation.memory import MachineMemory
 from nivel.analysis.preparation.parameters import UnfitError, numbers_of
 from nivel.analysis.run.dynamics import GOES_ON, start_loop
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.sweep.patched import PatchedRuns, learn
 from nivel.files import parse_machine
 from nivel.files.reader import Origin
@@ -33,7 +33,7 @@ def started(file, settings):
     plan = plan_run(machine.record, machine.origin.settings_outside)
     prepared = prepare(plan.methods)
     loop = start_loop(prepared, plan.settings)
-    return prepared, loop, [*roles.leaves(loop.machine.record), *roles.leaves(loop.history.record)]
+    return prepared, loop, [*memory.leaves(loop.machine.record), *memory.leaves(loop.history.record)]
 
 
 def frames_of(loop):
@@ -67,13 +67,13 @@ def test_no_run_reads_its_workspace_before_it_writes_it(file):
 
 @pytest.mark.parametrize("table", ["GIVEN", "STATE", "BEGUN", "WORKSPACE", "MIXED"])
 def test_tables_name_arrays_that_there_are(table):
-    for record, names in getattr(roles, table).items():
+    for record, names in getattr(memory, table).items():
         assert set(names.split()) <= set(record._fields), record
 
 
 def test_each_array_has_one_role():
     for a, b in (("STATE", "BEGUN"), ("STATE", "WORKSPACE"), ("BEGUN", "WORKSPACE"), ("GIVEN", "WORKSPACE")):
-        first, second = getattr(roles, a), getattr(roles, b)
+        first, second = getattr(memory, a), getattr(memory, b)
         for record in first.keys() & second.keys():
             assert not set(first[record].split()) & set(second[record].split()), record
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.sweep.task import Task
+from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.files import parse_machine
 from nivel.machine.study import Reduced

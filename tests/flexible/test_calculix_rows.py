@@ -11,7 +11,7 @@ from nivel.errors import ModelError
 from nivel.flexible.foreign.calculix import internal_nodes, refuse_expanded, rigid_rows
 from nivel.flexible.foreign.matrix import FormatError
 from nivel.flexible.foreign.read_mesh import read_mesh
-from nivel.flexible.model.mass import MatrixMass, from_matrix
+from nivel.flexible.model.model import MatrixMass, from_matrix
 from nivel.flexible.reduce import reduce
 
 CELLS, SIZE = (6, 2, 2), (120.0, 20.0, 10.0)

@@ -11,13 +11,11 @@ import scipy.sparse as sp
 from models import bar, block, reduced
 from needing import needs
 from nivel.errors import ModelError
-from nivel.flexible.foreign.matrix import FormatError, fortran_number
-from nivel.flexible.foreign.nastran import read_dmig
-from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.matrix import FormatError, fortran_number, read_abaqus
+from nivel.flexible.foreign.nastran import read_dmig, read_op4
 from nivel.flexible.foreign.read_mesh import read_mesh
-from nivel.flexible.foreign.triplet_files import read_abaqus
 from nivel.flexible.model.model_file import parse_model
-from nivel.flexible.source import source_model
+from nivel.flexible.reduce import source_model
 
 # numbers of the nodes of the files: with holes, and not in the order of the model
 NUMBERS = np.array([10, 12, 5, 40, 41])

@@ -3,11 +3,7 @@
 import numpy as np
 import pytest
 
-from models import bar, block
-from needing import needs
-from nivel.flexible.body.invariants import of_points, tilde
-from nivel.flexible.body.mass_invariants import invariants
-from nivel.flexible.body.reference import (
+from flexible_reference import (
     direct_mass_matrix,
     gravity_force,
     mass_matrix,
@@ -16,11 +12,15 @@ from nivel.flexible.body.reference import (
     transformation,
     with_euler_parameters,
 )
-from nivel.flexible.model.mass import PointMass, lumped
+from models import bar, block
+from needing import needs
+from nivel.flexible.body.invariants import of_points, tilde
+from nivel.flexible.body.mass_invariants import invariants
+from nivel.flexible.model.model import PointMass, lumped
 from nivel.flexible.model.model_file import parse_model
+from nivel.flexible.reduce import source_model
 from nivel.flexible.reduction.free_body import FreeBody
 from nivel.flexible.reduction.ties import with_interfaces
-from nivel.flexible.source import source_model
 
 SOLID = block(
     length=0.6,
@@ -153,7 +153,7 @@ def test_invariants_of_two_points_by_hand():
 
 def test_general_mass_matrix_keeps_what_energy_needs(rng):
     """A beam's mass known as a matrix only: exact inertia and modal mass, and I8 - I8ᵀ = -(I4)~, I5 antisymmetric."""
-    from nivel.flexible.model.mass import MatrixMass
+    from nivel.flexible.model.model import MatrixMass
 
     located = parse_model(bar(tip=(1.0, 0.4, -0.3), elements=6))
     model, _ = source_model(located, lambda *_: None)

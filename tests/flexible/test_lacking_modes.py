@@ -114,7 +114,7 @@ def test_a_mesh_whose_strain_is_even_has_no_error():
     """A linear field of displacements has the same strain everywhere, whatever the elements."""
     needs("gmsh", "skfem", "meshio")
     from nivel.flexible.model.model_file import parse_model
-    from nivel.flexible.source import source_model
+    from nivel.flexible.reduce import source_model
 
     model, _ = source_model(parse_model(block(size=0.1)), lambda _text, _share: None)
     x = model.position

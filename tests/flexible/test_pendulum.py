@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nivel.flexible.body.reference import gravity_force, mass_matrix, quadratic_velocity, stiffening
+from flexible_reference import gravity_force, mass_matrix, quadratic_velocity, stiffening
 from nivel.flexible.reduce import reduce
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "flexible" / "pendulum-bar.yaml"

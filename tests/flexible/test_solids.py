@@ -12,11 +12,11 @@ from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.recovery import hot_spots, stress, von_mises
 from nivel.flexible.model.model_file import parse_model
+from nivel.flexible.reduce import source_model
 from nivel.flexible.reduction import factor
+from nivel.flexible.reduction.bases import inertia_loads
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.flexible.reduction.stiffening import inertia_loads
 from nivel.flexible.reduction.ties import with_interfaces
-from nivel.flexible.source import source_model
 
 pytestmark = pytest.mark.covering
 
@@ -115,7 +115,7 @@ def test_static_deflection_and_stress_of_a_cantilever(cantilever):
 
 def test_stress_of_a_rotating_bar(cantilever):
     """σ = ρ ω² (L² - x²) / 2 about z through the clamped end; the modal force is Q_v of the invariants."""
-    from nivel.flexible.body.reference import quadratic_velocity
+    from flexible_reference import quadratic_velocity
 
     omega = np.array([0, 0, 100.0])
     n = len(cantilever.eigenvalues)
@@ -135,7 +135,7 @@ def test_stress_of_a_rotating_bar(cantilever):
 def test_inertia_modes_carry_the_static_answer_to_inertia():
     """Without them ten normal modes, few of which stretch the bar, miss the stress at its root."""
     body, _ = reduced(block(interfaces=ROOT, reduction="modes: 4, reference: root"))
-    from nivel.flexible.body.reference import quadratic_velocity
+    from flexible_reference import quadratic_velocity
 
     n = len(body.eigenvalues)
     force = quadratic_velocity(body.invariants, np.eye(3), np.array([0, 0, 100.0]), np.zeros(n), np.zeros(n))[6:]

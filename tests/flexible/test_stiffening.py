@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from flexible_reference import quadratic_velocity, stiffening
 from models import bar, block, reduced
 from needing import needs
-from nivel.flexible.body.reference import quadratic_velocity, stiffening
 
 L, B, H, E, RHO = 2.0, 0.02, 0.03, 210e9, 7850.0
 

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from models import bar, reduced
-from nivel.flexible.body.invariants import tilde
-from nivel.flexible.body.reference import (
+from flexible_reference import (
     damping_force,
     elastic_force,
     kinetic_energy,
@@ -13,6 +11,8 @@ from nivel.flexible.body.reference import (
     quadratic_velocity,
     transformation,
 )
+from models import bar, reduced
+from nivel.flexible.body.invariants import tilde
 
 
 def rotation(theta):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import nivel
+from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.patched import UnsuitedError, learn
-from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, JudgedRuns, judged_runs, sample_of
 from nivel.files import parse_machine

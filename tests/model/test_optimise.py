@@ -8,8 +8,7 @@ import pytest
 
 import nivel
 from needing import needs
-from nivel.analysis.optimise.evaluations import Evaluated
-from nivel.analysis.optimise.table import NothingFoundError, nothing_found
+from nivel.analysis.optimise.evaluations import Evaluated, NothingFoundError, nothing_found
 from nivel.analysis.sweep.variant_runs import VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files import parse_machine

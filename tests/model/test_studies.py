@@ -14,8 +14,8 @@ import xarray
 
 import nivel
 from nivel.analysis.sweep import sweep as sweeping
+from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.sweep import Engine
-from nivel.analysis.sweep.task import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.errors import ModelError
 from nivel.machine.study import StudyRecord
@@ -290,7 +290,7 @@ def test_a_cluster_that_does_not_answer_is_told(spring):
     pytest.importorskip("distributed")
     study = load_study(forty(spring, "lost.yaml"), allow_code=True)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("nivel.analysis.sweep.dask_cluster.PATIENCE", "200 ms")
+        patch.setattr("nivel.analysis.sweep.processes.PATIENCE", "200 ms")
         with pytest.raises(ModelError, match="start one with `dask scheduler`"):
             study.sweep(scheduler="tcp://127.0.0.1:9")
     assert Path(study.file.file).exists()

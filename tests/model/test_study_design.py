@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from nivel.analysis.sweep.quantiles import quantiles
-from nivel.analysis.sweep.variants import draw
+from nivel.analysis.sweep.variants import draw, quantiles
 from nivel.errors import ModelError
 from nivel.machine.study import Normal, Range, Tolerance, Triangular, Uniform, Values
 

@@ -11,8 +11,7 @@ import synthetic_run as pendulum
 from nivel.errors import ModelError
 from nivel.judge.after.checks.joints import Redundancy
 from nivel.report.panel import Thinning
-from nivel.report.panels import panels
-from nivel.report.peaks import peak_reactions
+from nivel.report.panels import panels, peak_reactions
 from nivel.report.write import number, quantity, report_html
 from nivel.results import Memory
 

@@ -11,8 +11,8 @@ from browsing import drawn, watched
 from models import bar, reduced
 from needing import needs
 from nivel.errors import ModelError
+from nivel.flexible.body.body import moving_surface
 from nivel.flexible.body.body_file import write_body
-from nivel.flexible.body.picture import moving_surface
 from nivel.view.capture import Look, still
 from nivel.view.package import STEPS, Block, from_bytes, unpacked
 from nivel.view.page import write_scene

@@ -14,14 +14,13 @@ from many_bodies import ARC, NODES, RADIUS, arc, beam
 from nivel.api import Machine
 from nivel.files.reader import parse_machine
 from nivel.looks import sweeps
-from nivel.looks.links import colour_of
 from nivel.looks.poses import rotation
+from nivel.looks.solids import colour_of
 from nivel.report.picture import machine_picture
 from nivel.results import Memory
-from nivel.view.columns import _owner
 from nivel.view.package import Block, from_bytes
 from nivel.view.page import write_scene
-from nivel.view.playback import ALONE, playback
+from nivel.view.playback import ALONE, _owner, playback
 from nivel.view.sources import Live
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"

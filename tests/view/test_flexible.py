@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 import nivel
 from browsing import watched
 from models import bar, reduced
+from nivel.flexible.body.body import moving_surface
 from nivel.flexible.body.body_file import write_body
-from nivel.flexible.body.picture import moving_surface
 from nivel.view.package import KINDS, Block
 from nivel.view.page import write_scene
 from nivel.view.playback import SERVED, stage

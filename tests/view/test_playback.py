@@ -12,11 +12,10 @@ from nivel import Body, Driver, Joint, Motor, PairForce, PointForce, SpringDampe
 from nivel.errors import ModelError
 from nivel.results import Memory
 from nivel.view import records
-from nivel.view.arrows import Moments
+from nivel.view.arrows import Moments, violation_vectors
 from nivel.view.package import from_bytes, unpacked
 from nivel.view.page import scene_html
 from nivel.view.playback import ALONE, SERVED, SMALL, Budget, playback
-from nivel.view.violations import violation_vectors
 
 TIME = np.linspace(0.0, 8.0, 801)
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
-from nivel.cli.progress import progress_listener
+from nivel.cli.progress import computed_in, console, ended, progress_listener, said_in_colour, say_checks, say_files
 from nivel.cli.run import assembly_lines
 from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass, nivel

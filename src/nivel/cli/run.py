@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.cli.options import input_option
+from nivel.cli.progress import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion

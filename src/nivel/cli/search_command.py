@@ -97,7 +97,7 @@ def make_search(given: Given, kind: Kind) -> None:
         return
     try:
         found = kind.search(loaded, out=target, threads=given.threads, resume=given.resume, force=given.force)
-    except (nivel.analysis.optimise.table.NothingFoundError, SolveError) as error:
+    except (nivel.analysis.optimise.evaluations.NothingFoundError, SolveError) as error:
         table: Any = error.result
         if table is not None:
             if page is not None:

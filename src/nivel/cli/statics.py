@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.ending import computed_in, console, ended, said_in_colour, say_checks, say_files
+from nivel.cli.progress import computed_in, console, ended, said_in_colour, say_checks, say_files
 from nivel.cli.run import assembly_lines
 from nivel.settings import StaticsSettingsDict
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.ending import console
 from nivel.cli.options import file_argument, force_option, json_option, quiet_option, separated
-from nivel.cli.progress import progress_stage
+from nivel.cli.progress import console, progress_stage
 from nivel.errors import Fault, ModelError
 from nivel.lazy import nivel
 

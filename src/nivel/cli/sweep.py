@@ -160,7 +160,7 @@ def summary(found: xarray.Dataset) -> dict[str, Any]:
 
 
 def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bool) -> None:
-    out, table, facts = nivel.cli.ending.console(), nivel.results.study_statistics.Table.of(found), summary(found)
+    out, table, facts = nivel.cli.progress.console(), nivel.results.study_statistics.Table.of(found), summary(found)
     loop, took = float(found.attrs["loop_seconds"]), float(found.attrs["seconds"])
     steps = f", {seconds(loop)} of it in loops of runs" if loop else ""
     out.print(f"[bold]{facts['study']}[/bold]: {found.attrs['outcomes']} in {seconds(took)}{steps}")
@@ -189,7 +189,7 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
     if len(others) > SHOWN:
         out.print(f"  and {len(others) - SHOWN} more that came to no end")
     verdict = str(found.attrs["verdict"])
-    coloured = f"[{nivel.cli.ending.COLOURS[verdict]}]{verdict}[/], " if verdict in nivel.cli.ending.COLOURS else ""
+    coloured = f"[{nivel.cli.progress.COLOURS[verdict]}]{verdict}[/], " if verdict in nivel.cli.progress.COLOURS else ""
     out.print(f"trust: {coloured}{found.attrs['headline']}", soft_wrap=True)
     if interrupted:
         say_how_to_go_on(target)

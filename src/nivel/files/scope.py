@@ -16,7 +16,7 @@ from pydantic_core import ErrorDetails
 from nivel.errors import Fault, ModelError
 from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
-from nivel.files.convex_parts import divide_meshes
+from nivel.files.convex_parts import divide_heaps, divide_meshes
 from nivel.files.csv_tables import read_csv_tables
 from nivel.files.height_file import read_heights
 from nivel.files.include import include
@@ -25,7 +25,6 @@ from nivel.files.outline import VALUES, Known, as_part, check_sections, check_st
 from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
-from nivel.files.sticking_heaps import divide_heaps
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.control.problems import can_be_named

@@ -12,23 +12,42 @@ from nivel.errors import Fault, ModelError
 from nivel.flexible.body.body import Interface, LeftOut, ReducedBody, StressModes
 from nivel.flexible.body.mass_invariants import beside_kept, invariants, left_out
 from nivel.flexible.checks import checks
-from nivel.flexible.checks.findings import Findings, findings_of
-from nivel.flexible.checks.mesh_error import mesh_error
-from nivel.flexible.model.mass import lumped
-from nivel.flexible.model.model import AXES, Array, FiniteElementModel
+from nivel.flexible.checks.findings import Findings, findings_of, mesh_error
+from nivel.flexible.model.frame import frame_model
+from nivel.flexible.model.model import AXES, Array, FiniteElementModel, lumped
 from nivel.flexible.model.model_file import Located, read_model
-from nivel.flexible.reduction.bases import Basis, ModeCount, craig_bampton, free_interface, inertia_modes, normal_only
+from nivel.flexible.model.selection import NodeSets
+from nivel.flexible.reduction.bases import (
+    Basis,
+    ModeCount,
+    craig_bampton,
+    free_interface,
+    inertia_modes,
+    normal_only,
+    stiffening,
+)
 from nivel.flexible.reduction.factor import NoStiffnessError, Whole
 from nivel.flexible.reduction.free_body import FreeBody, Orthonormal, held_at, orthonormal
 from nivel.flexible.reduction.given_modes import given_modes
-from nivel.flexible.reduction.stiffening import stiffening
 from nivel.flexible.reduction.ties import Attachment, with_interfaces
-from nivel.flexible.source import source_model
-from nivel.lazy import dataclass, replace
-
-NO_MODE: Final = "no mode is left but rigid motions: ask for normal modes, name interfaces, or give other shapes"
+from nivel.lazy import dataclass, nivel, replace
 
 Stage = Callable[[str, float], None]
+
+
+def source_model(located: Located, say: Stage) -> tuple[FiniteElementModel, NodeSets]:
+    """The model before its interfaces are tied, and its node sets. `say` hears what begins, with shares from 0 to 1.
+
+    Raises ModelError.
+    """
+    if located.record.frame is not None:
+        return frame_model(located), {}
+    if located.record.solid is not None:
+        return nivel.flexible.model.solid_source.solid_model(located, say)
+    return nivel.flexible.foreign.source.matrix_model(located)
+
+
+NO_MODE: Final = "no mode is left but rigid motions: ask for normal modes, name interfaces, or give other shapes"
 
 
 def _silent(_text: str, _share: float) -> None:

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.gradients.parameters import Parameter
+from nivel.analysis.gradients.outputs import Parameter
 from nivel.analysis.preparation.memory import Array, MachineMemory, UnlikeError
 from nivel.analysis.preparation.parameters import Numbers, Unfit, UnfitError, numbers_of
 from nivel.c_library.exported import Exported, refusal

@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.c_library.exported import FRAMES_KEPT, refusal
-from nivel.c_library.failures import failures_of
+from nivel.c_library.exported import FRAMES_KEPT, failures_of, refusal
 from nivel.c_library.image import Image, UnknownAddressError
 from nivel.files.target import write_file
 from nivel.integrate.loop.loop import advance

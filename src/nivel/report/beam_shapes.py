@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.links import colour_of
 from nivel.looks.poses import Array, body_poses, sliding_axes, turning_axes, upwards
+from nivel.looks.solids import colour_of
 from nivel.looks.viewpoint import choose_view
-from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
-from nivel.report.drawing import WIDTH, Frame, Label, fit, place
+from nivel.report.drawing import WIDTH, Frame, Label, aid_places, bar_strip, fit, place, scale_bar, triad_sign
 from nivel.results.scales import Readable
 
 if TYPE_CHECKING:

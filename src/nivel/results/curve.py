@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, replace
-from nivel.results.frames.contents import shape_of
-from nivel.results.frames.names import derivative
+from nivel.results.frames.contents import derivative, shape_of
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

@@ -14,13 +14,11 @@ from numpy.typing import NDArray
 
 from nivel.lazy import nivel, provided
 from nivel.results.estimate import ATTRIBUTE, Estimate
-from nivel.results.frames.contents import Contents
-from nivel.results.frames.names import Selection, own_units, selections, unknown_name
+from nivel.results.frames.contents import Contents, Selection, own_units, selections, unknown_name
 from nivel.results.frames.stored import StoredContents, understood
-from nivel.results.frames.summary import Occurrence, from_json
+from nivel.results.frames.summary import ATTRIBUTE as ITERATIONS
+from nivel.results.frames.summary import Iterations, Occurrence, from_json
 from nivel.results.frames.tabulated import Column, Rows, Tabulated
-from nivel.results.iterations import ATTRIBUTE as ITERATIONS
-from nivel.results.iterations import Iterations
 from nivel.results.trust import Trust
 from nivel.system.layout import Variable
 from nivel.words.arguments import checked_arguments

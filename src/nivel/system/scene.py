@@ -48,7 +48,7 @@ from nivel.elements.forces.ropes import Rope, first_wheel, way_around
 from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
 from nivel.files.rotors import rotors_of
-from nivel.flexible.body.picture import moving_surface
+from nivel.flexible.body.body import moving_surface
 from nivel.lazy import nivel
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body

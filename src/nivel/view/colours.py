@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from nivel.errors import ModelError
-from nivel.flexible.body.body import ReducedBody
-from nivel.flexible.body.picture import moving_surface
+from nivel.flexible.body.body import ReducedBody, moving_surface
 from nivel.flexible.body.recovery import stress, von_mises
 from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
-from nivel.looks.links import attached, held_points
 from nivel.looks.poses import Pose, body_poses, in_space, rotation, sliding_axes, turning_axes, upwards
-from nivel.looks.solids import reach_of, shapes_of
+from nivel.looks.solids import attached, held_points, reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.view.coordinate_places import triple

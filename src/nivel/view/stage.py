@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, field, replace
-from nivel.looks.links import colour_of, colour_of_body, held_points, link_ends
 from nivel.looks.poses import slides_on_beam, stands_at_second
-from nivel.looks.solids import shapes_of
+from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.system.joints.joints import looks_of
 from nivel.view.acting import drivers, forces

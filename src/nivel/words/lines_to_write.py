@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 
@@ -13,361 +14,263 @@ class Line(NamedTuple):
     answer: str
 
 
-LINES: Final = (
-    Line("velocity, rate, omega", "start_speed", "write `speed: 10 rad/s`, or `speed: 10 cm/s` of a displacement"),
-    Line(
-        "efficiency, eta, loss, losses, friction",
-        "teeth",
-        "write under `forces`: `loss: {type: transmission-loss, coupling: NAME, coordinate: JOINT.angle, efficiency: 0.95}`",
-    ),
-    Line(
-        "backlash, play, stiffness, damping",
-        "teeth",
-        "an elastic pair of wheels is a force: write under `forces` in place of this coupling "
-        "`mesh: {type: shaft, coordinate: JOINT.angle, against: JOINT.angle, ratio: -2, stiffness: 1e5, backlash: 0.2 deg}`",
-    ),
-    Line(
-        "youngs modulus, e, diameter, d, area, material, section, ea",
-        "length, speed",
-        "write the `stiffness` of the whole rope, E·A/length, e.g. `stiffness: 200 kN/m`",
-    ),
-    Line(
-        "winch, speed profile, rate, payout, velocity",
-        "length, speed",
-        "a winch pays rope out by its speed: write `speed: -0.3 m/s`",
-    ),
-    Line("from, to, start, end", "length, speed", "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, -5]]`"),
-    Line("axis, direction, orientation", "colour, along", "write `along: z`, the body axis on which it lies"),
-    Line(
-        "start, end, p1, p2, ends, points, start point, end point",
-        "colour, from",
-        "write `from: [0, 0, 0], to: [1, 0, 0]`",
-    ),
-    Line("diameter, d, dia", "colour, radius", "write `radius`, half of it"),
-    Line("material", "colour, centre", "write `density: 7850 kg/m^3`, of the body beside its `shape`"),
-    Line("density, rho, mass", "colour, centre", "write `density` or `mass` of the body, beside its `shape`"),
-    Line(
-        "position, pos, origin, location",
-        "colour, centre",
-        "write `position` of the body, or `centre` in the body frame",
-    ),
-    Line(
-        "type, kind",
-        "point_mass",
-        "write `shape: {type: cylinder, radius: 2 cm, length: 10 cm}`, or `point_mass: true`",
-    ),
-    Line(
-        "from, to, length, radius, size, width, height, start, end, diameter",
-        "point_mass",
-        "a solid is a `shape`: write `shape: {type: cylinder, from: [0, 0, 0], to: [1, 0, 0], radius: 1 cm}`",
-    ),
-    Line(
-        "output, out, result",
-        "tracking_time",
-        "what a block gives is read by its name: write `effort: NAME.value` in a motor",
-    ),
-    Line(
-        "coordinate, joint", "tracking_time", "write `measured: JOINT.angle`; a motor applies it: `effort: NAME.value`"
-    ),
-    Line(
-        "contacts, contact, collisions, impacts",
-        "gravity",
-        "a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`",
-    ),
-    Line(
-        "motors, motor, actuators, actuator, drives",
-        "gravity",
-        "an effort is a force: `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}`; "
-        "a prescribed motion a driver: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}`",
-    ),
-    Line("time", "gravity", "write `simulation: {duration: 5 s, step: 1 ms}`"),
-    Line(
-        "trajectories, trajectory, paths, path, profiles",
-        "gravity",
-        "a curve is a function, called as `NAME(time)`: "
-        "`functions: {NAME: {points: [0, 1, 2], values: [0, 0.5, 0], interpolation: cubic}}`",
-    ),
-    Line(
-        "steps, number of steps, nsteps, n steps, n",
-        "largest_step",
-        "the length of a step is given, not their number: write `step: 1 ms`",
-    ),
-    Line(
-        "output, output file, results, result, save, file, csv",
-        "largest_step",
-        "every run stores all results in `NAME.nc`; `nivel export NAME.nc --csv` writes tables",
-    ),
-    Line("gravity, g", "largest_step", "gravity is a key of the whole file: `gravity: [0, 0, -9.81]`"),
-    Line("spectral radius, rho inf, rho", "largest_step", "write `generalised_alpha: {spectral_radius: 0.8}`"),
-    Line(
-        "mechanism configuration, mechanism",
-        "gravity",
-        "gravity and the run are keys of the file: `gravity: [0, 0, -9.81]`, `simulation: {duration: 5 s, step: 1 ms}`",
-    ),
-    Line(
-        "internal mechanics, spring stiffness, damping coefficient",
-        "rim_radius",
-        "springs and dampers of a joint are a force: `forces: {coil: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, "
-        "stiffness: 10, damping: 0.1, free_value: 0}}`",
-    ),
-    Line(
-        "armature, rotor inertia",
-        "rim_radius",
-        "there is no inertia of a rotor; add it to the `inertia` of the driven body",
-    ),
-    Line(
-        "frictionloss, friction loss, joint friction, coulomb friction, dynamics",
-        "rim_radius",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction, coefficient: 0.2, "
-        "radius: 1 cm}}`; of a `displacement` without `radius`",
-    ),
-    Line(
-        "state targets, ref, initial, initial angle, springref, qpos0, qpos, position target",
-        "rim_radius",
-        "write `start: {angle: 30 deg}` of a revolute, `start: {displacement: 10 cm}` of a translational joint",
-    ),
-    Line(
-        "angle, displacement, position target",
-        "rim_radius",
-        "write `start: {angle: 30 deg}`, or `start: {displacement: 10 cm}`",
-    ),
-    Line(
-        "position, velocity, value, theta, q, rate, speed, omega, w",
-        "angle_1",
-        "write the name of a joint coordinate: `angle` of a revolute, `displacement` of a translational joint",
-    ),
-    Line(
-        "expression, function, formula, f, equation",
-        "interpolation",
-        "a function of arguments is written in one line: `functions: {NAME(x): 2*x + 1}`",
-    ),
-    Line(
-        "tire, magic formula, pacejka, tmeasy",
-        "spring-damper",
-        "a tyre is `{type: tyre, wheel: MARKER, plane: MARKER, radius: 0.3, width: 0.2, nominal_load: 4e3}`; a wheel that does not slip "
-        "is a joint, `{type: rolling, …}`",
-    ),
-    Line(
-        "aerodynamic, aero, drag, lift, wind, magnetic, user, user force, custom, electrostatic, sfosub",
-        "spring-damper",
-        "a force of your own is `{type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}`, or the `law` of a spring",
-    ),
-    Line("body 1, body 2, body a, body b, mobile", "plane", "write `bodies: [FIRST, SECOND]`, or `body` and `plane`"),
-    Line(
-        "between, body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2",
-        "stiffness",
-        "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]]`",
-    ),
-    Line(
-        "e, g, youngs modulus, elastic modulus, young, nu, poisson, poisson ratio, rho, density, modulus, shear modulus",
-        "shear_centre",
-        "write `material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}`",
-    ),
-    Line(
-        "a, area, iyy, izz, ix, iy, iz, i, j, ip, inertia, radius, diameter, width, height, profile, cross section, geometry",
-        "shear_centre",
-        "write `section: {type: circle, radius: 1 cm}`; sections are circle, tube, rectangle and others",
-    ),
-    Line("length, l", "shear_centre", "a beam lies between two points: write `from: [0, 0, 0], to: [1, 0, 0]`"),
-    Line("nodes, n elements, number of elements, segments, mesh, n", "shear_centre", "write `elements: 8`"),
-    Line("body, bodies", "sequence", "motion is measured at a marker: write `{marker: MARKER, quantity: position}`"),
-    Line(
-        "joint force, joint torque, reaction",
-        "sequence",
-        "reactions are results by themselves: `JOINT.force`, `JOINT.torque`",
-    ),
-    Line("measure, expression, function, measurement", "sequence", "write `{value: hinge.angle, units: rad}`"),
-    Line(
-        "fluid, oil, medium, liquid",
-        "load-sensing",
-        "a fluid stands in a section of its own: `fluids: {oil: {type: liquid, …}}`",
-    ),
-    Line(
-        "filter, strainer, cooler, heat exchanger",
-        "load-sensing",
-        "write `{type: orifice, …}`, which has a pressure drop",
-    ),
-    Line(
-        "sensor, pressure sensor, flow sensor, flow meter, manometer, gauge",
-        "load-sensing",
-        "pressures and flows are results by themselves: `NODE.pressure`, `COMPONENT.flow`",
-    ),
-    Line(
-        "mux, demux, bus, bus selector, subsystem, terminator, goto, from, scope, display, to workspace, outport, out",
-        "lead-lag",
-        "it is not needed: a block names the signals that it reads, and each output is a result",
-    ),
-    Line(
-        "zero order hold, zoh, sample and hold, rate transition, memory, unit delay",
-        "lead-lag",
-        "a block is sampled by `sample_time: 10 ms`; a delay by samples is `{type: delay, …}`",
-    ),
-    Line(
-        "kalman, kalman filter, observer, mpc, matlab function, s function, fcn, c, c function, script, quantizer, backlash",
-        "lead-lag",
-        "a block of your own is `{type: python, …}`; a short formula is a signal: `{type: signal, …}`",
-    ),
-    Line("type, kind", "gamepad", "an input is a number; `control: slider` or `control: button` is how it is shown"),
-    Line("parent, child", "markers", "write `bodies: [PARENT, CHILD]`, first and second body of the joint"),
-    Line(
-        "between, body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
-        "markers",
-        "write `bodies: [FIRST, SECOND]`",
-    ),
-    Line(
-        "limits, limit, range, lower, upper, min, max",
-        "markers",
-        "limits of a joint are a force: "
-        "`forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: -1, upper: 1, stiffness: 1e4, restitution: 0.5}}`",
-    ),
-    Line(
-        "damping, stiffness, spring, damper",
-        "x_axis",
-        "a spring or damper in a joint is a force: "
-        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: 0.1}}`",
-    ),
-    Line(
-        "friction",
-        "x_axis",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction, coefficient: 0.2, "
-        "radius: 1 cm}}`; of a `displacement` without `radius`",
-    ),
-    Line(
-        "motor, actuator, torque, force, motion, drive",
-        "x_axis",
-        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}` prescribes its motion, "
-        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}` its effort",
-    ),
-    Line(
-        "free, floating, none",
-        "revolute",
-        "a body without a joint is free; leave the joint out",
-    ),
-    Line(
-        "gear, belt, rack, coupler",
-        "revolute",
-        "a gear is a coupling: `couplings: {pair: {type: gear, joints: [FIRST, SECOND], teeth: [20, 40]}}`",
-    ),
-    Line(
-        "bushing, mount",
-        "revolute",
-        "a joint that yields is a force: `forces: {mount: {type: bushing, bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, 0]], "
-        "stiffness: [1e6, 1e6, 1e6, 1000, 1000, 1000]}}`",
-    ),
-    Line(
-        "contact, collision, impact",
-        "revolute",
-        "a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`",
-    ),
-    Line(
-        "spring, damper, spring damper",
-        "revolute",
-        "a spring is a force: `forces: {spring: {type: spring-damper, bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]], "
-        "stiffness: 1 kN/m, free_length: 1 m}}`",
-    ),
-    Line(
-        "rope, cable, wire",
-        "revolute",
-        "a rope that may slacken is a force; a link that keeps its length is a `distance` joint",
-    ),
-    Line(
-        "fixed, static, ground, is static, immovable, kinematic",
-        "assembly_weight",
-        "a body that does not move is joined to the ground: `joints: {base: {type: fixed, bodies: [ground, BODY], point: [0, 0, 0]}}`",
-    ),
-    Line(
-        "parent, joint",
-        "assembly_weight",
-        "bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0, 0, 1]}`",
-    ),
-    Line("material", "density", "write `density`, e.g. `density: 7850 kg/m^3` of steel"),
-    Line(
-        "colour, color, rgba",
-        "density",
-        "a colour is that of the shape: `shape: {type: sphere, radius: 5 cm, colour: red}`",
-    ),
-    Line(
-        "damping, stiffness, friction, drag",
-        "assembly_weight",
-        "what acts on a body is a force: `forces: {drag: {type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}}`",
-    ),
-    Line(
-        "frame, coordinate system, in, system, local",
-        "vector, axes",
-        "write `axes: body` where the vector turns with the body",
-    ),
-    Line("gears, wheels, shafts, joint 1, joint 2, first, second, driven", "teeth", "write `joints: [FIRST, SECOND]`"),
-    Line(
-        "radii, radius, radius 1, radius 2",
-        "teeth",
-        "write `ratio`, the radius of the second over that of the first: `ratio: 2`",
-    ),
-    Line(
-        "rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles",
-        "orientation",
-        "write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw",
-    ),
-    Line(
-        "rpy, roll pitch yaw, ypr, xyz, euler angles, roll, pitch, yaw",
-        "euler_parameters",
-        "roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far",
-    ),
-    Line(
-        "quaternion, quat, euler parameters",
-        "orientation",
-        "write `orientation: {euler_parameters: [W, X, Y, Z]}`, scalar first",
-    ),
-    Line("quaternion, quat, wxyz, xyzw", "euler_parameters", "write `euler_parameters: [W, X, Y, Z]`, scalar first"),
-    Line(
-        "t end, end time, stop time, duration, tf, t final, final time",
-        "simulation",
-        "write `simulation: {duration: 5 s}`",
-    ),
-    Line("dt, step, time step, timestep, step size", "simulation", "write `simulation: {step: 1 ms}`"),
-    Line("integrator, method, rtol", "simulation", "write `simulation: {integrator: rk4}`"),
-    Line("solver", "simulation", "write `simulation: {integrator: rk4, step: 1 ms, duration: 5 s}`"),
-    Line("g, grav, gravitation", "gravity", "write `gravity: [0, 0, -9.81]`, where z points up"),
-    Line(
-        "units, unit, unit system",
-        "gravity",
-        "a number without a unit is in SI units; other units stand behind numbers: `12 cm`, `30 deg`",
-    ),
-    Line("ground, world", "gravity", "`ground` is there already; leave it out"),
-    Line("materials", "gravity", "materials are parameters: `parameters: {steel: 7850 kg/m^3}`, then `density: steel`"),
-    Line(
-        "initial conditions, initial",
-        "gravity",
-        "the start is said where it belongs: `velocity` of a body, `start` and `start_rates` of a joint",
-    ),
-    Line("gravity, weight", "spring-damper", "gravity is a key of the whole file: `gravity: [0, 0, -9.81]`"),
-    Line("min, max, minimum, maximum, lower, upper", "rest", "write `range: [MIN, MAX]`"),
-    Line("min, max, minimum, maximum, lower, upper", "sample_time", "write `limits: [MIN, MAX]`"),
-    Line(
-        "source, sink, from, to, inlet, outlet, port a, port b, a, b, p, t",
-        "ports",
-        "write `ports: {…}` or `ports: […]` with names of nodes: ports of one name are connected",
-    ),
-    Line(
-        "type, body, accelerometer, gyro, gyroscope, imu, encoder",
-        "sequence",
-        "a sensor is said by what it measures: `{coordinate: JOINT.COORDINATE, quantity: rate}`, "
-        "or `{marker: MARKER, quantity: acceleration}`",
-    ),
-    Line(
-        "tspan, time span, t span, t 0, t0, start time, begin",
-        "duration",
-        "a run begins at t = 0; write `duration: 5 s`",
-    ),
-    Line("fluid, oil, medium", "gravity", "write `fluids: {oil: {type: liquid, …}}`"),
-    Line(
-        "hydraulic, pneumatics, fluid power, circuit, circuits, valves, cylinders",
-        "gravity",
-        "write `hydraulics: {…}`, with what each component is by `type`",
-    ),
-    Line(
-        "controller, controllers, blocks, controls, signals, pid",
-        "gravity",
-        "write `control: {…}`, with what each block is by `type`",
-    ),
-    Line("operator, joysticks, levers, commands, signals in", "gravity", "write `inputs: {lever: {range: [-1, 1]}}`"),
-)
+# words of ours, beside them words of others, and below these what to write
+TABLE: Final = """
+start_speed
+  velocity, rate, omega
+    write `speed: 10 rad/s`, or `speed: 10 cm/s` of a displacement
+teeth
+  efficiency, eta, loss, losses, friction
+    write under `forces`: `loss: {type: transmission-loss, coupling: NAME, coordinate: JOINT.angle, efficiency: 0.95}`
+  backlash, play, stiffness, damping
+    an elastic pair of wheels is a force: write under `forces` in place of this coupling `mesh: {type: shaft, coordinate:
+    JOINT.angle, against: JOINT.angle, ratio: -2, stiffness: 1e5, backlash: 0.2 deg}`
+length, speed
+  youngs modulus, e, diameter, d, area, material, section, ea
+    write the `stiffness` of the whole rope, E·A/length, e.g. `stiffness: 200 kN/m`
+  winch, speed profile, rate, payout, velocity
+    a winch pays rope out by its speed: write `speed: -0.3 m/s`
+  from, to, start, end
+    write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0, -5]]`
+colour, along
+  axis, direction, orientation
+    write `along: z`, the body axis on which it lies
+colour, from
+  start, end, p1, p2, ends, points, start point, end point
+    write `from: [0, 0, 0], to: [1, 0, 0]`
+colour, radius
+  diameter, d, dia
+    write `radius`, half of it
+colour, centre
+  material
+    write `density: 7850 kg/m^3`, of the body beside its `shape`
+  density, rho, mass
+    write `density` or `mass` of the body, beside its `shape`
+  position, pos, origin, location
+    write `position` of the body, or `centre` in the body frame
+point_mass
+  type, kind
+    write `shape: {type: cylinder, radius: 2 cm, length: 10 cm}`, or `point_mass: true`
+  from, to, length, radius, size, width, height, start, end, diameter
+    a solid is a `shape`: write `shape: {type: cylinder, from: [0, 0, 0], to: [1, 0, 0], radius: 1 cm}`
+tracking_time
+  output, out, result
+    what a block gives is read by its name: write `effort: NAME.value` in a motor
+  coordinate, joint
+    write `measured: JOINT.angle`; a motor applies it: `effort: NAME.value`
+gravity
+  contacts, contact, collisions, impacts
+    a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`
+  motors, motor, actuators, actuator, drives
+    an effort is a force: `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}`; a prescribed motion a
+    driver: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}`
+  time
+    write `simulation: {duration: 5 s, step: 1 ms}`
+  trajectories, trajectory, paths, path, profiles
+    a curve is a function, called as `NAME(time)`: `functions: {NAME: {points: [0, 1, 2], values: [0, 0.5, 0],
+    interpolation: cubic}}`
+  mechanism configuration, mechanism
+    gravity and the run are keys of the file: `gravity: [0, 0, -9.81]`, `simulation: {duration: 5 s, step: 1 ms}`
+largest_step
+  steps, number of steps, nsteps, n steps, n
+    the length of a step is given, not their number: write `step: 1 ms`
+  output, output file, results, result, save, file, csv
+    every run stores all results in `NAME.nc`; `nivel export NAME.nc --csv` writes tables
+  gravity, g
+    gravity is a key of the whole file: `gravity: [0, 0, -9.81]`
+  spectral radius, rho inf, rho
+    write `generalised_alpha: {spectral_radius: 0.8}`
+rim_radius
+  internal mechanics, spring stiffness, damping coefficient
+    springs and dampers of a joint are a force: `forces: {coil: {type: joint-spring-damper, coordinate: JOINT.COORDINATE,
+    stiffness: 10, damping: 0.1, free_value: 0}}`
+  armature, rotor inertia
+    there is no inertia of a rotor; add it to the `inertia` of the driven body
+  frictionloss, friction loss, joint friction, coulomb friction, dynamics
+    friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction,
+    coefficient: 0.2, radius: 1 cm}}`; of a `displacement` without `radius`
+  state targets, ref, initial, initial angle, springref, qpos0, qpos, position target
+    write `start: {angle: 30 deg}` of a revolute, `start: {displacement: 10 cm}` of a translational joint
+  angle, displacement, position target
+    write `start: {angle: 30 deg}`, or `start: {displacement: 10 cm}`
+angle_1
+  position, velocity, value, theta, q, rate, speed, omega, w
+    write the name of a joint coordinate: `angle` of a revolute, `displacement` of a translational joint
+interpolation
+  expression, function, formula, f, equation
+    a function of arguments is written in one line: `functions: {NAME(x): 2*x + 1}`
+spring-damper
+  tire, magic formula, pacejka, tmeasy
+    a tyre is `{type: tyre, wheel: MARKER, plane: MARKER, radius: 0.3, width: 0.2, nominal_load: 4e3}`; a wheel that does
+    not slip is a joint, `{type: rolling, …}`
+  aerodynamic, aero, drag, lift, wind, magnetic, user, user force, custom, electrostatic, sfosub
+    a force of your own is `{type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}`, or the `law` of a spring
+  gravity, weight
+    gravity is a key of the whole file: `gravity: [0, 0, -9.81]`
+plane
+  body 1, body 2, body a, body b, mobile
+    write `bodies: [FIRST, SECOND]`, or `body` and `plane`
+stiffness
+  between, body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2
+    write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]]`
+shear_centre
+  e, g, youngs modulus, elastic modulus, young, nu, poisson, poisson ratio, rho, density, modulus, shear modulus
+    write `material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}`
+  a, area, iyy, izz, ix, iy, iz, i, j, ip, inertia, radius, diameter, width, height, profile, cross section, geometry
+    write `section: {type: circle, radius: 1 cm}`; sections are circle, tube, rectangle and others
+  length, l
+    a beam lies between two points: write `from: [0, 0, 0], to: [1, 0, 0]`
+  nodes, n elements, number of elements, segments, mesh, n
+    write `elements: 8`
+sequence
+  body, bodies
+    motion is measured at a marker: write `{marker: MARKER, quantity: position}`
+  joint force, joint torque, reaction
+    reactions are results by themselves: `JOINT.force`, `JOINT.torque`
+  measure, expression, function, measurement
+    write `{value: hinge.angle, units: rad}`
+load-sensing
+  fluid, oil, medium, liquid
+    a fluid stands in a section of its own: `fluids: {oil: {type: liquid, …}}`
+  filter, strainer, cooler, heat exchanger
+    write `{type: orifice, …}`, which has a pressure drop
+  sensor, pressure sensor, flow sensor, flow meter, manometer, gauge
+    pressures and flows are results by themselves: `NODE.pressure`, `COMPONENT.flow`
+lead-lag
+  mux, demux, bus, bus selector, subsystem, terminator, goto, from, scope, display, to workspace, outport, out
+    it is not needed: a block names the signals that it reads, and each output is a result
+  zero order hold, zoh, sample and hold, rate transition, memory, unit delay
+    a block is sampled by `sample_time: 10 ms`; a delay by samples is `{type: delay, …}`
+  kalman, kalman filter, observer, mpc, matlab function, s function, fcn, c, c function, script, quantizer, backlash
+    a block of your own is `{type: python, …}`; a short formula is a signal: `{type: signal, …}`
+gamepad
+  type, kind
+    an input is a number; `control: slider` or `control: button` is how it is shown
+markers
+  parent, child
+    write `bodies: [PARENT, CHILD]`, first and second body of the joint
+  between, body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j
+    write `bodies: [FIRST, SECOND]`
+  limits, limit, range, lower, upper, min, max
+    limits of a joint are a force: `forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: -1, upper: 1,
+    stiffness: 1e4, restitution: 0.5}}`
+x_axis
+  damping, stiffness, spring, damper
+    a spring or damper in a joint is a force: `forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE,
+    damping: 0.1}}`
+  friction
+    friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction,
+    coefficient: 0.2, radius: 1 cm}}`; of a `displacement` without `radius`
+  motor, actuator, torque, force, motion, drive
+    what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}` prescribes its
+    motion, `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}` its effort
+revolute
+  free, floating, none
+    a body without a joint is free; leave the joint out
+  gear, belt, rack, coupler
+    a gear is a coupling: `couplings: {pair: {type: gear, joints: [FIRST, SECOND], teeth: [20, 40]}}`
+  bushing, mount
+    a joint that yields is a force: `forces: {mount: {type: bushing, bodies: [FIRST, SECOND], points: [[0, 0, 0], [0, 0,
+    0]], stiffness: [1e6, 1e6, 1e6, 1000, 1000, 1000]}}`
+  contact, collision, impact
+    a contact is a force: `forces: {touch: {type: contact, body: BODY, plane: MARKER, stiffness: 1e6, restitution: 0.5}}`
+  spring, damper, spring damper
+    a spring is a force: `forces: {spring: {type: spring-damper, bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]],
+    stiffness: 1 kN/m, free_length: 1 m}}`
+  rope, cable, wire
+    a rope that may slacken is a force; a link that keeps its length is a `distance` joint
+assembly_weight
+  fixed, static, ground, is static, immovable, kinematic
+    a body that does not move is joined to the ground: `joints: {base: {type: fixed, bodies: [ground, BODY], point: [0, 0,
+    0]}}`
+  parent, joint
+    bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0,
+    0, 1]}`
+  damping, stiffness, friction, drag
+    what acts on a body is a force: `forces: {drag: {type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}}`
+density
+  material
+    write `density`, e.g. `density: 7850 kg/m^3` of steel
+  colour, color, rgba
+    a colour is that of the shape: `shape: {type: sphere, radius: 5 cm, colour: red}`
+vector, axes
+  frame, coordinate system, in, system, local
+    write `axes: body` where the vector turns with the body
+teeth
+  gears, wheels, shafts, joint 1, joint 2, first, second, driven
+    write `joints: [FIRST, SECOND]`
+  radii, radius, radius 1, radius 2
+    write `ratio`, the radius of the second over that of the first: `ratio: 2`
+orientation
+  rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles
+    write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw
+  quaternion, quat, euler parameters
+    write `orientation: {euler_parameters: [W, X, Y, Z]}`, scalar first
+euler_parameters
+  rpy, roll pitch yaw, ypr, xyz, euler angles, roll, pitch, yaw
+    roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far
+  quaternion, quat, wxyz, xyzw
+    write `euler_parameters: [W, X, Y, Z]`, scalar first
+simulation
+  t end, end time, stop time, duration, tf, t final, final time
+    write `simulation: {duration: 5 s}`
+  dt, step, time step, timestep, step size
+    write `simulation: {step: 1 ms}`
+  integrator, method, rtol
+    write `simulation: {integrator: rk4}`
+  solver
+    write `simulation: {integrator: rk4, step: 1 ms, duration: 5 s}`
+gravity
+  g, grav, gravitation
+    write `gravity: [0, 0, -9.81]`, where z points up
+  units, unit, unit system
+    a number without a unit is in SI units; other units stand behind numbers: `12 cm`, `30 deg`
+  ground, world
+    `ground` is there already; leave it out
+  materials
+    materials are parameters: `parameters: {steel: 7850 kg/m^3}`, then `density: steel`
+  initial conditions, initial
+    the start is said where it belongs: `velocity` of a body, `start` and `start_rates` of a joint
+  fluid, oil, medium
+    write `fluids: {oil: {type: liquid, …}}`
+  hydraulic, pneumatics, fluid power, circuit, circuits, valves, cylinders
+    write `hydraulics: {…}`, with what each component is by `type`
+  controller, controllers, blocks, controls, signals, pid
+    write `control: {…}`, with what each block is by `type`
+  operator, joysticks, levers, commands, signals in
+    write `inputs: {lever: {range: [-1, 1]}}`
+rest
+  min, max, minimum, maximum, lower, upper
+    write `range: [MIN, MAX]`
+sample_time
+  min, max, minimum, maximum, lower, upper
+    write `limits: [MIN, MAX]`
+ports
+  source, sink, from, to, inlet, outlet, port a, port b, a, b, p, t
+    write `ports: {…}` or `ports: […]` with names of nodes: ports of one name are connected
+sequence
+  type, body, accelerometer, gyro, gyroscope, imu, encoder
+    a sensor is said by what it measures: `{coordinate: JOINT.COORDINATE, quantity: rate}`, or `{marker: MARKER, quantity:
+    acceleration}`
+duration
+  tspan, time span, t span, t 0, t0, start time, begin
+    a run begins at t = 0; write `duration: 5 s`
+"""
+
+
+def lines(table: str) -> Iterator[Line]:
+    """The lines of a table, whose indentation tells what stands there: none, two or four spaces."""
+    beside, words, answer = "", "", ""
+    for text in (*table.strip().splitlines(), ""):
+        if not text.startswith("    ") and answer:
+            yield Line(words, beside, answer)
+            answer = ""
+        if text.startswith("    "):
+            answer = f"{answer} {text.strip()}".strip()
+        elif text.startswith("  "):
+            words = text.strip()
+        else:
+            beside = text
+
+
+LINES: Final = tuple(lines(TABLE))

@@ -3,7 +3,7 @@
 import pytest
 
 from nivel import SolveError
-from nivel.judge.during.fastest import fastest
+from nivel.judge.during.growth import fastest
 from preparing import prepare
 from simulating import machine, solid
 

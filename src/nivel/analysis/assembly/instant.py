@@ -18,15 +18,36 @@ from scipy.linalg import lstsq
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.lanes import Lanes, cross, product
 from nivel.errors import SolveError
 from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, SHOWN, Family
 from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
 from nivel.lazy import dataclass
+from nivel.machine.core import vectors
 from nivel.native.duals import DUAL, LANES
 from nivel.system.system import Array, parameter_rates
+
+Lanes = NDArray[np.float64]
+NOTHING: Lanes = np.zeros(1 + LANES)
+
+
+def product(subscripts: str, a: Lanes, b: Lanes) -> Lanes:
+    """Sums of products of dual numbers, with subscripts as `np.einsum` has them."""
+    factors, result = subscripts.split("->")
+    first, second = factors.split(",")
+    out: Lanes = np.einsum(f"{first}z,{second}->{result}z", a, b[..., 0])
+    out[..., 1:] += np.einsum(f"{first},{second}z->{result}z", a[..., 0], b[..., 1:])
+    return out
+
+
+def cross(a: Lanes, b: Lanes) -> Lanes:
+    """a × b of vectors (…, 3, 1 + LANES)."""
+    a, b = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
+    out = vectors.cross(a, b[:1])
+    out[1:] += vectors.cross(a[:1], b[1:])
+    return np.moveaxis(out, 0, -1)
+
 
 # share of accelerations below which they are round-off
 ROUND_OFF = 1e-12

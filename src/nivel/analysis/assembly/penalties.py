@@ -13,8 +13,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from nivel.analysis.assembly.always_dependent_rows import LEAST
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.unique_reactions import LEAST
 from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.settings.run import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts

@@ -21,8 +21,7 @@ from nivel.judge.after.subject import Methods
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison import Comparison, Method, Row, Spread
 from nivel.results.comparison_table import CONVERGED, number, seconds
-from nivel.results.motion import Motion, distance
-from nivel.results.peaks import constraint_measures, energy_measures
+from nivel.results.motion import Motion, constraint_measures, distance, energy_measures
 from nivel.results.result import Result
 from nivel.results.scales import largest_kinetic_energy, machine_size
 

@@ -13,8 +13,7 @@ import numpy as np
 import xarray
 
 from nivel.analysis.gradients.check import STEPS, Checked, Slope, check, worst
-from nivel.analysis.gradients.outputs import Array, Output, Reduced, outputs_of
-from nivel.analysis.gradients.parameters import Parameter, parameters_of
+from nivel.analysis.gradients.outputs import Array, Output, Parameter, Reduced, outputs_of, parameters_of
 from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
 from nivel.analysis.plan.choice import FOR_STIFF
 from nivel.analysis.plan.compilation import build, run_entries
@@ -24,15 +23,15 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.second_run import FINER, TENTH, refine
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import sampled_times
 from nivel.model import Model
 from nivel.results.curve import TOLD
+from nivel.results.frames.contents import per
 from nivel.results.frames.labelled import data_array
-from nivel.results.frames.names import per
 from nivel.results.frames.summary import to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result

@@ -10,16 +10,14 @@ import numpy as np
 
 from nivel.analysis.gradients.check import worst
 from nivel.analysis.gradients.gradient import HEADLINES, Varied, checked_slopes, refuse
-from nivel.analysis.gradients.outputs import Array, outputs_of
-from nivel.analysis.gradients.parameters import Parameter, parameters_of
+from nivel.analysis.gradients.outputs import Array, Parameter, outputs_of, parameters_of
 from nivel.analysis.gradients.slopes import Slopes
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.log import Listener
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.model import Model
-from nivel.results.frames.contents import MemoryContents
-from nivel.results.frames.names import per
+from nivel.results.frames.contents import MemoryContents, per
 from nivel.results.result import Result
 from nivel.system.layout import FrameLayout
 

@@ -1,32 +1,175 @@
-"""Slopes of a run: the curves of its result and their derivatives, by runs on dual numbers, LANES parameters at a time."""
+"""Slopes of a run: the curves of its result and their derivatives, by runs on dual numbers, LANES parameters at a time.
+
+Seeds of gradients: slopes of all numbers of a record along parameters of the machine, from machines built beside it.
+Every number that follows from a parameter moves with it, those that are derived too: the assembled start, the frames of bodies,
+factors of inertias. Most follow laws, whose slopes are exact. A start that is assembled is smooth in the numbers of a file, and known to
+round-off, or to what the assembly and an equilibrium are closed to: differences of order four over a wide step leave little of that. Where
+the machine cannot be built so far away, or is not smooth there, the step is narrow.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.gradients.outputs import Array, Moving, Output, Reduce, Reduced, value_of
-from nivel.analysis.gradients.parameters import Parameter
-from nivel.analysis.gradients.seeds import Seeds, seed, seeds_of
-from nivel.analysis.gradients.whole_loop import WholeLoop, whole_entries
+from nivel.analysis.gradients.outputs import Array, Moving, Output, Parameter, Reduce, Reduced, value_of
 from nivel.analysis.plan.compilation import build
 from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.preparation.memory import MachineMemory, UnlikeError
+from nivel.analysis.preparation.parameters import Sample, Unfit, UnfitError, numbers_of
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.log import Listener
+from nivel.analysis.progress.pacing import interruptible
 from nivel.analysis.run.dynamics import GOES_ON, Loop, start_loop
-from nivel.errors import NivelError, SolveError
+from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
+from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, EVENTS, FRAMES, OPEN_LIMIT, TIME
 from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.arrays import whole_twin
+from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
-from nivel.native.duals import LANES
+from nivel.kernels.record.hook import FAMILIES
+from nivel.kernels.record.record import Record
+from nivel.native.duals import DUAL, LANES
+from nivel.native.entry import Entry
 from nivel.results.curve import DOUBT, curve, curve_of
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
+from nivel.system.laws.laws import dual_address
+
+
+def whole_entries(loop: Loop) -> list[Entry]:
+    """The machine code that the loop needs on dual numbers, but for laws and expressions."""
+    record: Record = loop.machine.record
+    used = [*record.hooks.address, *record.elements.address]
+    families = [FAMILIES[int(address)].whole for address in dict.fromkeys(used) if address]
+    return [loop.evaluate.whole, loop.correct.whole, loop.step.whole, advance.whole, *families]
+
+
+class WholeLoop:
+    """The loop of a run on dual numbers. machine, run : its records, without slopes yet."""
+
+    def __init__(self, loop: Loop) -> None:
+        machine: Record = loop.machine.record
+        twin = whole_twin(machine)
+        laws = [dual_address(int(each)) if each else 0 for each in machine.functions.address]
+        self.machine: Record = twin._replace(
+            hooks=twin.hooks._replace(address=_wholly(machine.hooks.address)),
+            elements=twin.elements._replace(address=_wholly(machine.elements.address)),
+            functions=twin.functions._replace(address=np.array(laws, dtype=np.uint64)),
+            # what the twin by which Newton's matrix is found shares: elements that hold sliders, whether contacts keep their side
+            tree=twin.tree._replace(element=machine.tree.element),
+            watched=twin.watched._replace(followed=machine.watched.followed),
+        )
+        self.run: Any = whole_twin(loop.history.record)
+        self._handles = Handle(self.machine), Handle(self.run)
+        codes = loop.evaluate.whole, loop.correct.whole, loop.step.whole
+        self._addresses = *(code.address for code in codes), *(int(each.address) for each in self._handles)
+
+    def advance(self) -> int:
+        """Go on for the budget of steps in the counter of the run. Returns a status."""
+        return advance.whole(*self._addresses)
+
+
+def _wholly(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Addresses of the same families for records of which all numbers are dual."""
+    return np.array([FAMILIES[int(each)].whole.address if each else 0 for each in addresses], dtype=np.uint64)
+
+
+def leaves(record: Any, path: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
+    """The arrays of a record with their names, in its order."""
+    for name, value in zip(record._fields, record, strict=True):
+        own = f"{path}.{name}" if path else name
+        if isinstance(value, tuple):
+            yield from leaves(value, own)
+        else:
+            yield own, value
+
+
+# parameters of the machines beside are away from their own values by these shares of their scales, and twice as far: wide, narrow
+WIDE, NARROW = 1e-3, 1e-5
+# Differences over a step and over two are the same but for this share of the largest where a record is smooth; and what is round-off of
+# them, as a share of the numbers.
+SMOOTH, ROUND_OFF = 1e-2, 1e-6
+TURNS = ((WIDE, ((-1.0, 1.0), (-2.0, 2.0))), (NARROW, ((-1.0, 1.0),)))
+
+# slopes of all arrays of both records of a loop, that of the machine and that of the run, in their order
+Seeds = list[Array]
+
+
+def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Parameter, float], Loop]) -> list[Seeds]:
+    """Slopes of the numbers of both records along each parameter, for a change by its scale.
+
+    beside(parameter, value) : the loop of the machine with another value, built in the same way. Raises ModelError with every parameter
+    with which the machine changes otherwise than in numbers.
+    """
+    memory, faults, out = _memory(loop), list[Fault](), list[Seeds]()
+    for each in parameters:
+        values = [
+            [[each.value + side * aside * each.scale for side in turn] for turn in turns] for aside, turns in TURNS
+        ]
+        x = np.array([each.value])
+        try:
+            numbers = numbers_of(
+                memory,
+                x,
+                [values],
+                lambda _, value, each=each: _memory(beside(each, value)),
+                partial(_is_smooth, memory),
+            )
+        except UnfitError as error:
+            faults += _faults(error.args[0], each)
+            continue
+        slopes = np.zeros(len(memory.numbers))
+        slopes[numbers.places] = numbers.slopes(x)[:, 0] * each.scale
+        out.append(memory.arrays_of(np.where(np.isfinite(slopes), slopes, 0.0)))
+    refuse(faults)
+    return out
+
+
+def seed(whole: WholeLoop, seeds: Sequence[Seeds]) -> None:
+    """Give the numbers of both records their slopes, a lane for each of LANES seeds at most."""
+    twins = [*leaves(whole.machine), *leaves(whole.run)]
+    for lane, slopes in enumerate(seeds):
+        for (_, dual), slope in zip(twins, slopes, strict=True):
+            if dual.dtype == DUAL:
+                dual["slopes"][..., lane] = slope
+
+
+def _memory(loop: Loop) -> MachineMemory:
+    return MachineMemory(loop.machine.record, loop.history.record)
+
+
+def _is_smooth(memory: MachineMemory, sample: Sample) -> bool:
+    """Whether differences over a step and over two are nearly the same, of numbers that no evaluation overwrites."""
+    low, high, below, above, own = sample.numbers
+    with np.errstate(invalid="ignore"):
+        near, far = np.nan_to_num(high - low), np.nan_to_num(0.5 * (above - below))
+    kept = np.where(memory.workspace, 0.0, 1.0)
+    return all(
+        np.max(np.abs(a - b), initial=0.0)
+        <= SMOOTH * np.max(np.abs(a), initial=0.0)
+        + ROUND_OFF * 2.0 * WIDE * np.max(np.abs(base[np.isfinite(base)]), initial=0.0)
+        for a, b, base in zip(*(memory.arrays_of(each) for each in (kept * near, kept * far, own)), strict=True)
+    )
+
+
+def _faults(unfit: Unfit, parameter: Parameter) -> list[Fault]:
+    match unfit.reason:
+        case ModelError() as error:
+            messages = [fault.message for fault in error.faults]
+        case UnlikeError(name=name):
+            what = "its Python laws" if name == "functions.address" else f"the structure of its equations ({name})"
+            messages = [f"a small change of it changes {what}, not only numbers"]
+        case str(name):
+            messages = [f"`{name}` is not smooth"]
+    return [Fault.at(parameter.path, f"there is no gradient: {message}") for message in messages]
+
 
 # steps of the loop between two looks at Ctrl-C
 CHUNK = 1000

@@ -17,12 +17,18 @@ from typing import Any, Final
 import numpy as np
 from scipy.linalg import lapack
 
-from nivel.analysis.assembly.instant import Instant, frame_axes, frame_place, point_acceleration, point_velocity
-from nivel.analysis.assembly.lanes import NOTHING, Lanes
+from nivel.analysis.assembly.instant import (
+    NOTHING,
+    Instant,
+    Lanes,
+    frame_axes,
+    frame_place,
+    point_acceleration,
+    point_velocity,
+)
 from nivel.analysis.inverse.quick import Quick, UnsuitedError
-from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
-from nivel.analysis.linearise.reduction import Ports, Reduction
+from nivel.analysis.linearise.reduction import Ports, Reduction, velocity_names
 from nivel.analysis.linearise.validity import coordinate_signs
 from nivel.analysis.run.prepared_state import Moment
 from nivel.analysis.statics.equations import turned

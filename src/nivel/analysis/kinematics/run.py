@@ -16,11 +16,11 @@ from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.preparation.shared_loads import sharing
-from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.log import Listener
+from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.probes import GOLDEN, Probes
 from nivel.errors import SolveError, refuse
 from nivel.integrate.facts import IntegratorFacts

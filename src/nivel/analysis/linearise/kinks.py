@@ -13,8 +13,7 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.instant import Instant
-from nivel.analysis.linearise.names import velocity_names
-from nivel.analysis.linearise.reduction import Reduction
+from nivel.analysis.linearise.reduction import Reduction, velocity_names
 from nivel.kernels.elements.friction import (
     ARM,
     COORDINATE,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nivel.analysis.linearise.opened import Opened
+from nivel.analysis.linearise.ports import Opened
 from nivel.analysis.linearise.run import linear_model
 from nivel.analysis.plan.plan import Methods, Plan, methods_of
 from nivel.analysis.progress.log import Listener

@@ -23,7 +23,7 @@ from scipy.linalg import lstsq, qr
 from nivel.analysis.assembly.instant import Instant, Reader, Slopes
 from nivel.analysis.linearise.axes import TurnedAxes
 from nivel.lazy import dataclass, replace
-from nivel.system.system import Array
+from nivel.system.system import Array, System
 
 # singular values of the constraints below this share of the largest are zero
 RANK = 1e-9
@@ -339,3 +339,19 @@ def _null_space(rows: Array) -> Array:
     _, sizes, every = np.linalg.svd(rows)
     rank = int(np.sum(sizes > RANK * sizes[0])) if len(sizes) else 0
     return every[rank:].T
+
+
+UNITS = {"m": "m", "1": "rad", "kg^0.5 m": "kg^0.5 m"}
+
+
+def velocity_names(system: System) -> list[tuple[str, str]]:
+    """(name, unit of the position) of every velocity, e.g. `hinge.angle` or `rod.turn_x`; turns are about axes of the body. A name of a
+    joint coordinate of the results stands only where its rate is the velocity, or minus that."""
+    place = system.record.newton.place
+    units = [UNITS.get(system.map.units[int(p)], "") for p, _ in place]
+    if system.tree_names:
+        return list(zip(system.tree_names, units, strict=True))
+    names: list[str] = []
+    for body in system.bodies:
+        names += [f"{body}.{axis}" for axis in "xyz"] + [f"{body}.turn_{axis}" for axis in "xyz"]
+    return list(zip([*names, *system.modes][: len(place)], units, strict=True))

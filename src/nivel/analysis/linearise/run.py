@@ -10,15 +10,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.instant import Instant, frame_axes, frame_place
-from nivel.analysis.assembly.lanes import NOTHING, Lanes
+from nivel.analysis.assembly.instant import NOTHING, Instant, Lanes, frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
 from nivel.analysis.linearise.kinks import kinks, let_slide
-from nivel.analysis.linearise.names import velocity_names
-from nivel.analysis.linearise.opened import Opened
-from nivel.analysis.linearise.ports import Catalogue, Input
+from nivel.analysis.linearise.ports import Catalogue, Input, Opened
 from nivel.analysis.linearise.pressures import PressureStates, pressure_states, seen, transformation, transformed
-from nivel.analysis.linearise.reduction import Reduction, StateSpace
+from nivel.analysis.linearise.reduction import Reduction, StateSpace, velocity_names
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
 from nivel.analysis.linearise.validity import judged, signed

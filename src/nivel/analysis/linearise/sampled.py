@@ -20,7 +20,7 @@ from scipy.linalg import eig, expm
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.linearise.eigenvalues import Complex
-from nivel.analysis.linearise.steady import BALANCE
+from nivel.analysis.linearise.validity import BALANCE
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import NONE
 from nivel.lazy import dataclass

@@ -15,8 +15,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations
-from nivel.analysis.optimise.table import nothing_found, table_of
+from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, nothing_found, table_of
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import Found, at_times, units_of
 from nivel.errors import Fault, ModelError, refuse

@@ -12,10 +12,8 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, UnreadError
-from nivel.analysis.optimise.libraries import LIBRARIES_OF
-from nivel.analysis.optimise.search import CONSTRAINED, KEPT, Search
-from nivel.analysis.optimise.table import nothing_found, table_of
+from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, UnreadError, nothing_found, table_of
+from nivel.analysis.optimise.search import CONSTRAINED, KEPT, LIBRARIES_OF, Search
 from nivel.analysis.plan.settings import with_usual_frames
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import Found, OutputFailedError, Said, event_of, said_number

@@ -10,7 +10,6 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.assemble import Assembly, assemble
 from nivel.analysis.assembly.branches import both_assemblies
 from nivel.analysis.assembly.equations import MotionEquations, equations
@@ -19,10 +18,11 @@ from nivel.analysis.assembly.freedoms import touches_ground
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
 from nivel.analysis.assembly.penalties import bound_pivots, penalise, refuse_unknown_rows, soft_rows
 from nivel.analysis.assembly.redundancy import Redundancy, analyse, modal_rows
+from nivel.analysis.assembly.unique_reactions import leave_out, rows_everywhere
 from nivel.analysis.curves.corners import corners, jumping_functions
 from nivel.analysis.curves.step_limits import allowed_steps
 from nivel.analysis.plan.plan import Methods
-from nivel.analysis.preparation.one_piece import in_one_piece
+from nivel.analysis.preparation.memory import in_one_piece
 from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.facts import IntegratorFacts
 from nivel.judge.before.refusals import (

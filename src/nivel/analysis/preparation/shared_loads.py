@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.unique_reactions import leave_out, rows_everywhere
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.integrate.loop.sink import Header, Sink
 from nivel.kernels.core.arrays import copied

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+import signal
 import threading
-from collections.abc import Callable
-from typing import Protocol
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any, Final, Protocol
 
 import numpy as np
 
@@ -113,3 +116,55 @@ class Follower:
 def _shares(parts: int) -> Array:
     """(parts,) deterministic and irregular numbers between SHORTEST and SHORTEST + SPREAD."""
     return SHORTEST + SPREAD * np.modf(IRREGULAR * np.arange(1, parts + 1))[0]
+
+
+TERMINATED: Final = 128 + signal.SIGTERM  # exit code, as of shells
+
+
+@contextmanager
+def interruptible() -> Iterator[Callable[[], bool]]:
+    """Yields a function that tells whether Ctrl-C (or SIGTERM) came. Outside the main thread nothing is caught."""
+    came = False
+
+    def remember(number: int, frame: FrameType | None) -> None:
+        nonlocal came
+        came = True
+        outer = before[number]
+        if number == signal.SIGTERM and callable(outer):
+            outer(number, frame)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+    before: dict[int, Any] = {number: signal.signal(number, remember) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: came
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def terminable() -> Iterator[None]:
+    """SIGTERM ends the program, by SystemExit, when the block is left and not inside it; a handler of the program is called instead.
+
+    Outside the main thread, and where the program ignores SIGTERM, nothing is done.
+    """
+    came = False
+
+    def remember(_number: int, _frame: FrameType | None) -> None:
+        nonlocal came
+        came = True
+
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) is signal.SIG_IGN:
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+        if came and callable(before):
+            before(signal.SIGTERM, None)
+        elif came:
+            raise SystemExit(TERMINATED)

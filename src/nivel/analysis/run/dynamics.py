@@ -17,12 +17,10 @@ from nivel.analysis.assembly.penalties import feedback, of_rows
 from nivel.analysis.curves.corners import jumping_functions
 from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.plan.settings import RunSettings
-from nivel.analysis.preparation.broken_function import NO_NUMBER
 from nivel.analysis.preparation.preparation import Prepared, with_integrator
 from nivel.analysis.preparation.shared_loads import sharing
-from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.log import Listener, Progress
-from nivel.analysis.progress.pacing import Pacing, work
+from nivel.analysis.progress.pacing import Pacing, interruptible, work
 from nivel.analysis.run.history import go_on_with, start_history
 from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions
 from nivel.analysis.run.probes import Probes
@@ -50,9 +48,9 @@ from nivel.integrate.loop.run import (
 from nivel.integrate.loop.sink import Sink
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.during.failure import Status, Stop, failure
-from nivel.judge.during.fastest import fastest_beyond, held_step
-from nivel.judge.during.growth import GROWN, UNBOUND, Crawl, to_and_fro
+from nivel.judge.during.growth import GROWN, UNBOUND, Crawl, fastest_beyond, held_step, to_and_fro
 from nivel.judge.during.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
+from nivel.judge.during.stop import NO_NUMBER
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import (
     BUDGET_SPENT,

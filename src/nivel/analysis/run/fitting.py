@@ -1,7 +1,7 @@
 """The method of a machine that is moved in steps of one length and names none, by its fastest rate: live, stepped, in C libraries and FMUs.
 
 The default is explicit, which costs least. It is left where a step turns the fastest rate by more than it follows: rates at the start are
-eigenvalues of the equations there (`nivel.judge.during.fastest`); those of contacts and end stops that may touch later follow from
+eigenvalues of the equations there (`nivel.judge.during.growth`); those of contacts and end stops that may touch later follow from
 their stiffness and the masses beside them, those of beams from their elements, those of slack ropes from the same machine with taut ones.
 What comes in its place is implicit, with steps of one length and one cost.
 """
@@ -18,13 +18,13 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.ropes import Rope, length_of
 from nivel.elements.forces.shafts import BeltDrive, Shaft
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.judge.during.fastest import Fastest, fastest
+from nivel.judge.during.growth import Fastest, fastest
 from nivel.lazy import dataclass, replace
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.forces.contact import Contact

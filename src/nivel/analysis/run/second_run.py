@@ -14,11 +14,10 @@ from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.progress.pacing import Follower, Leader
+from nivel.analysis.progress.pacing import Follower, Leader, interruptible
 from nivel.analysis.run.dynamics import RunOutcome, march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import sampled_times

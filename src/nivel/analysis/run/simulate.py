@@ -8,11 +8,11 @@ from os import PathLike
 
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
-from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.log import Listener, Progress
+from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.attempt import Options, attempt, header_of
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.second_choice import second_choice
 from nivel.errors import SolveError
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED
@@ -22,9 +22,8 @@ from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Run, run_of
 from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
-from nivel.results.frames.summary import to_json
-from nivel.results.iterations import ATTRIBUTE as ITERATIONS
-from nivel.results.iterations import iterations_in_json
+from nivel.results.frames.summary import ATTRIBUTE as ITERATIONS
+from nivel.results.frames.summary import iterations_in_json, to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store

@@ -15,16 +15,21 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.analysis.preparation.one_piece import in_one_piece
+from nivel.analysis.preparation.memory import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
-from nivel.analysis.run.carried_state import Structure, carry_over, refuse_other_structure, structure_of
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.narrow_features import remembered
 from nivel.analysis.run.placing import Placing
-from nivel.analysis.run.preparation import prepare
-from nivel.analysis.run.prepared_state import BoundEntry
+from nivel.analysis.run.prepared_state import (
+    BoundEntry,
+    Structure,
+    carry_over,
+    prepare,
+    refuse_other_structure,
+    structure_of,
+)
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.target import written
 from nivel.files.writer import write_machine

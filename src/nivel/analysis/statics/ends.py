@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.analysis.assembly.unknown_groups import unknown_name
+from nivel.analysis.statics.critical import Softest, is_mechanism, limit_ahead, loose_coordinates, softest
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.linear import PivotError
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
 from nivel.analysis.statics.rigid_motions import is_tied, of_whole, resultant
 from nivel.analysis.statics.search import MOVES_ON
-from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, loose_coordinates, softest
 from nivel.system.system import Array
 
 # Forces left over that are this share of the loads are no reason to go on.

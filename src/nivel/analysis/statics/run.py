@@ -13,12 +13,11 @@ import numpy as np
 from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.analysis.preparation.broken_function import broken_function
 from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
 from nivel.analysis.preparation.shared_loads import SharedLoads
-from nivel.analysis.progress.interrupt import interruptible, terminable
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.statics.critical import CriticalPoint, critical_points
+from nivel.analysis.progress.pacing import interruptible, terminable
+from nivel.analysis.statics.critical import CriticalPoint, critical_points, is_mechanism, softest
 from nivel.analysis.statics.ends import direction_in_words, no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
@@ -28,7 +27,6 @@ from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.search import settle
-from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
 from nivel.errors import ModelError, SolveError, refuse
@@ -45,6 +43,7 @@ from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Equilibria
 from nivel.judge.before.analyses import OF_STATICS, at_rest, beside_states
 from nivel.judge.before.refusals import faults_of, rough_motions
+from nivel.judge.during.stop import broken_function
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.machine_record import MachineRecord

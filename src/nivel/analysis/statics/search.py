@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.analysis.statics.critical import is_mechanism, softest
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
 from nivel.analysis.statics.linear import PivotError, negative_directions, saddle_factors, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.rigid_motions import with_tie
-from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import (
     depends_on_samples,
     equilibrate_states,

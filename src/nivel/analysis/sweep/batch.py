@@ -12,9 +12,9 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.sweep.task import usual_names
+from nivel.analysis.progress.pacing import interruptible
+from nivel.analysis.sweep.outputs import usual_names
 from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, Ran, Values, VariantRuns, formulas_for
 from nivel.errors import ModelError
 from nivel.lazy import dataclass, field

@@ -13,14 +13,12 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener, Log
-from nivel.analysis.sweep.dask_cluster import client_of, run_on_cluster, threads_of
-from nivel.analysis.sweep.journal import row_of, run_of
-from nivel.analysis.sweep.processes import Job, run_in_processes
-from nivel.analysis.sweep.task import Task
-from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
+from nivel.analysis.progress.pacing import interruptible
+from nivel.analysis.sweep.outputs import Task
+from nivel.analysis.sweep.processes import Job, client_of, run_in_processes, run_on_cluster, threads_of
+from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, row_of, run_of, run_variant
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess

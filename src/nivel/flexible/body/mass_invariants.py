@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from nivel.flexible.body.body import LeftOut
 from nivel.flexible.body.invariants import Invariants, of_points, tilde
-from nivel.flexible.model.mass import Mass, MatrixMass, PointMass, at_nodes, rigid_modes, scalar_part
+from nivel.flexible.model.model import Mass, MatrixMass, PointMass, at_nodes, rigid_modes, scalar_part
 from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody
 

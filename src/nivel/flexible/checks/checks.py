@@ -8,8 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from nivel.flexible.model.mass import Sparse
-from nivel.flexible.model.model import AXES, Array, FiniteElementModel
+from nivel.flexible.model.model import AXES, Array, FiniteElementModel, Sparse
 from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.reduction.factor import NoStiffnessError
 from nivel.flexible.reduction.free_body import FreeBody

@@ -11,8 +11,7 @@ import numpy as np
 from nivel.flexible.foreign.calculix import INCOMPATIBLE
 from nivel.flexible.foreign.elasticity import Law, in_plane, turned
 from nivel.flexible.foreign.mesh import POINTS, SHELLS, SOLIDS, Mesh, Section
-from nivel.flexible.model.mass import Sparse
-from nivel.flexible.model.model import Array, FiniteElementModel, Whole
+from nivel.flexible.model.model import Array, FiniteElementModel, Sparse, Whole
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, surface
 
 MEAN: Final = ("C3D8", INCOMPATIBLE)  # elements of one temperature

@@ -11,8 +11,7 @@ import scipy.sparse as sp
 
 from nivel.errors import ModelError
 from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
-from nivel.flexible.model.mass import PointMass, Sparse
-from nivel.flexible.model.model import Array, FiniteElementModel, Whole, numbered
+from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, numbered
 from nivel.flexible.model.model_file import Located
 from nivel.lazy import dataclass, field
 from nivel.machine.beams.section_properties import section_of

@@ -9,8 +9,7 @@ from typing import Final
 import numpy as np
 import scipy.sparse as sp
 
-from nivel.flexible.model.mass import Sparse
-from nivel.flexible.model.model import Array, Whole
+from nivel.flexible.model.model import Array, Sparse, Whole
 from nivel.flexible.model.solid_shapes import SolidShape
 from nivel.lazy import dataclass, replace
 from nivel.machine.beams.section import Material

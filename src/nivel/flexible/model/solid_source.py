@@ -11,9 +11,8 @@ from scipy.spatial import KDTree
 
 from nivel.errors import ModelError
 from nivel.extras import needed, require
-from nivel.flexible.model.mass import PointMass, Sparse, at_nodes
 from nivel.flexible.model.mesher import SolidMesh, meshed
-from nivel.flexible.model.model import Array, FiniteElementModel, Whole
+from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, at_nodes
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.selection import NodeSets
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity, surface

@@ -16,7 +16,7 @@ import scipy.sparse.linalg as spl
 from numpy.typing import NDArray
 
 from nivel.errors import SolveError
-from nivel.flexible.model.mass import Sparse
+from nivel.flexible.model.model import Sparse
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]

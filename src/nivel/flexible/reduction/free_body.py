@@ -9,8 +9,7 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from nivel.flexible.model.mass import Sparse
-from nivel.flexible.model.model import Array, FiniteElementModel
+from nivel.flexible.model.model import Array, FiniteElementModel, Sparse
 from nivel.flexible.reduction.factor import Factor, NoStiffnessError, Whole, determinate, lowest_modes
 from nivel.lazy import dataclass, field
 

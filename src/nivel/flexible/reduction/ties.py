@@ -9,8 +9,7 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
-from nivel.flexible.model.mass import Sparse, rigid_modes
-from nivel.flexible.model.model import Array, FiniteElementModel, Whole, numbered
+from nivel.flexible.model.model import Array, FiniteElementModel, Sparse, Whole, numbered, rigid_modes
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import InterfaceRecord
 from nivel.flexible.model.selection import NodeSets, chosen_nodes

@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.assembly.always_dependent_rows import leave_out, rows_everywhere
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import scaled_jacobian
+from nivel.analysis.assembly.unique_reactions import leave_out, rows_everywhere
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.judge.after.subject import Run

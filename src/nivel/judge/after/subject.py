@@ -13,7 +13,7 @@ import numpy as np
 from nivel.integrate.loop.run import MOVING
 from nivel.lazy import dataclass, field
 from nivel.results.curve import probed
-from nivel.results.peaks import Peak, worst_row
+from nivel.results.motion import Peak, worst_row
 from nivel.results.scales import Readable, largest_speed, machine_size, speed_of_rest
 from nivel.results.trust import Item
 

@@ -8,7 +8,7 @@ from typing import Any
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
-from nivel.analysis.plan.screw_couplings import screws_as_couplings
+from nivel.analysis.plan.combinations import screws_as_couplings
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.drive_lines import TransmissionLoss
 from nivel.elements.forces.friction import Friction

@@ -9,17 +9,18 @@ import numpy as np
 
 from nivel.analysis.assembly.unknown_groups import unknown_name
 from nivel.analysis.plan.beam_facts import too_fast
-from nivel.analysis.preparation.broken_function import broken_function, owner_of
 from nivel.judge.during.growth import grown_motion, jump_advice
 from nivel.judge.during.stop import (
     Status,
     Stop,
     Told,
+    broken_function,
     broken_signals,
     has_drifted,
     is_far_from_singular,
     mass_left,
     named_row,
+    owner_of,
     repeated_by,
     unit_of,
     worst_row,

@@ -2,7 +2,7 @@
 
 A unit load whose stress has the geometric stiffness K on the modes does work on the displacement -½ pᵀ K p, along which a bent bar is
 shortened. So the first moment of the mass, its inertia and the nodes at interfaces get terms of the second order: with the load cases of
-Wallrapp & Schwertassek 1991 (`nivel.flexible.reduction.stiffening`), for accelerations a, α and for ω_a ω_b per unit,
+Wallrapp & Schwertassek 1991 (`nivel.flexible.reduction.bases`), for accelerations a, α and for ω_a ω_b per unit,
 
     S_i + ½ pᵀ K_ai p        C_i + (K_αi p)ᵀ        J̄: ω̄ᵀ ΔJ̄ ω̄ = -pᵀ Σ ω_a ω_b K_ab p        u_k - ½ pᵀ K_k p
 

@@ -18,7 +18,7 @@ from nivel.errors import Fault, ModelError
 from nivel.extras import needed
 from nivel.files.target import keep_sources, written
 from nivel.lazy import pyarrow, scipy
-from nivel.results.frames.names import unknown_name
+from nivel.results.frames.contents import unknown_name
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

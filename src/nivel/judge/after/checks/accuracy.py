@@ -9,8 +9,7 @@ from nivel.analysis.curves.step_limits import rounding_of_times
 from nivel.judge.after.report import FRAMES, SECOND_RUN, STEPS, Check, Need, blindness
 from nivel.judge.after.subject import Run, Scales
 from nivel.lazy import dataclass
-from nivel.results.motion import Motion, distances
-from nivel.results.peaks import Peak
+from nivel.results.motion import Motion, Peak, distances
 from nivel.results.scales import Readable, levers, machine_size
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
 

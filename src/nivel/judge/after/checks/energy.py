@@ -16,8 +16,7 @@ from nivel.elements.forces import FORCES
 from nivel.judge.after.report import SECOND_RUN, Check, Need
 from nivel.judge.after.subject import Motion, Run
 from nivel.lazy import dataclass
-from nivel.results.motion import common_frames
-from nivel.results.peaks import peak
+from nivel.results.motion import common_frames, peak
 from nivel.results.scales import (
     Readable,
     kinetic_energy_of_rest,

@@ -7,7 +7,7 @@ import numpy as np
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria
 from nivel.lazy import dataclass, replace
-from nivel.results.peaks import peak
+from nivel.results.motion import peak
 from nivel.results.trust import Item, Threshold, Verdict, number
 
 SHOWN = 6

@@ -16,7 +16,7 @@ from nivel.kernels.elements import friction as columns
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
-from nivel.results.frames.names import own_units
+from nivel.results.frames.contents import own_units
 from nivel.results.scales import Readable, machine_size, span
 from nivel.results.trust import Item
 from nivel.system.system import Array, System

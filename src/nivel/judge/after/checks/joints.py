@@ -5,7 +5,7 @@ from __future__ import annotations
 from nivel.judge.after.report import Check
 from nivel.judge.after.subject import Equilibria, Motion, Positions, Recorded, Run, Scales
 from nivel.lazy import dataclass
-from nivel.results.peaks import worst_row
+from nivel.results.motion import worst_row
 from nivel.results.trust import Item, Threshold, Verdict, number
 
 

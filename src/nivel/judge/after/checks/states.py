@@ -20,7 +20,7 @@ from nivel.lazy import dataclass, replace
 from nivel.machine.core.element import Acts, Holds
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
-from nivel.results.peaks import peak
+from nivel.results.motion import peak
 from nivel.results.result import Result
 from nivel.results.trust import Item, number
 from nivel.system.forces.height_fields import rows_over_heights

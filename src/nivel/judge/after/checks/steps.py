@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nivel.integrate.loop.run import TURNED
 from nivel.judge.after.report import FIXED_STEPS, FRAMES, Check, Need
 from nivel.judge.after.subject import Actuated, Positions, Run
-from nivel.judge.during.fastest import fastest, held_step
+from nivel.judge.during.growth import fastest, held_step
 from nivel.lazy import dataclass
 from nivel.results.curve import ROUNDED, Curve, curve
 from nivel.results.frames.contents import shape_of

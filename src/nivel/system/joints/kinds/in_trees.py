@@ -157,7 +157,7 @@ def _slider(motion: int, *turns: str, turning: bool = False) -> TreeJoint:
 
 
 def _on_beam(word: str, rows: tuple[Combination, ...], tree: TreeJoint, slider: str) -> JointKind:
-    """Of a body that a beam carries; its start is in `nivel.system.states.slider_start`."""
+    """Of a body that a beam carries; its start is in `nivel.system.states.joint_start`."""
     return JointKind(word, Composition((*ON_LINE, *rows), (PLACE_ON_BEAM,)), tree, symbols.on_beam(slider))
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import flexible_reference as reference
 from models import bar, reduced
 from nivel import (
     Body,
@@ -19,7 +20,6 @@ from nivel import (
 )
 from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
 from nivel.errors import ModelError
-from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import write_body
 from nivel.system.flexible import bending_bodies
 from preparing import prepare

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import flexible_reference as reference
 import simulating
 from nivel import PointForce, SimulationSettings
 from nivel.analysis.assembly.implicit import evaluate_residual
@@ -16,7 +17,6 @@ from nivel.analysis.run.simulate import simulate
 from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
-from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import read_body
 from nivel.machine.settings.statics import StaticsSettings
 from observing import assert_same_frame, observed, of_absolute

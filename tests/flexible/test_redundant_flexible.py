@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
+import flexible_reference as reference
 from models import bar, reduced
 from nivel import Body, Friction, Joint, MachineRecord
 from nivel.analysis.assembly.penalties import mobility
 from nivel.analysis.assembly.redundancy import modal_rows
 from nivel.errors import ModelError
-from nivel.flexible.body import reference
 from nivel.flexible.body.body_file import write_body
 from preparing import prepare
 from running import run

@@ -13,7 +13,7 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
 from nivel.analysis.run.fitting import fitted
-from nivel.analysis.run.prepared_state import prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces.hand import Hand
 from nivel.errors import Fault, ModelError

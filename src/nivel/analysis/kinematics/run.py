@@ -20,7 +20,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
-from nivel.analysis.run.prepared_state import prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.probes import GOLDEN, Probes
 from nivel.errors import SolveError, refuse
 from nivel.integrate.facts import IntegratorFacts

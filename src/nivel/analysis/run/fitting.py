@@ -18,7 +18,7 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.run.prepared_state import prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.ropes import Rope, length_of
 from nivel.elements.forces.shafts import BeltDrive, Shaft

@@ -15,7 +15,7 @@ from nivel.analysis.plan.choice import FOR_STIFF, USUAL_TOLERANCE
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.run.attempt import Attempt, Options, attempt
-from nivel.analysis.run.prepared_state import prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import TENTH, SecondRun, most_work
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS

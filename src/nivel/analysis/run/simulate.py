@@ -12,7 +12,7 @@ from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.attempt import Options, attempt, header_of
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.prepared_state import prepare
+from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_choice import second_choice
 from nivel.errors import SolveError
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED

@@ -105,7 +105,6 @@ if TYPE_CHECKING:
     import nivel.analysis.optimise.identify
     import nivel.analysis.optimise.inputs
     import nivel.analysis.optimise.optimise
-    import nivel.analysis.plan.choice
     import nivel.analysis.plan.compilation
     import nivel.analysis.plan.equations_only
     import nivel.analysis.plan.plan

@@ -6,6 +6,8 @@
   const colour = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
   const font = `12px ${getComputedStyle(document.body).fontFamily}`;
   const HEIGHT = 250;
+  const DASHES = [undefined, [7, 4], [2, 3]]; // of the curves of a plot, in turn, and of their marks in its legend
+  const BORDERS = ["solid", "dashed", "dotted"];
   const FLOOR = 1e-18; // below round-off: a violation this small is drawn as this
 
   function floats(text, Kind) {
@@ -148,7 +150,8 @@
     }
   }
 
-  function options(panel, group, width) {
+  // unit: of the axis below
+  function options(panel, group, width, unit = data.abscissa === "time" ? "s" : "") {
     const axis = { stroke: () => colour("faint"), font, grid: { stroke: () => colour("grid"), width: 1 }, ticks: { show: false, size: 4 }, gap: 4 };
     const highest = Math.max(0, ...group.limits.filter((l) => l.tone === "green").map((l) => l.value));
     const y = panel.log
@@ -161,21 +164,22 @@
       cursor: { sync: { key: "nivel" }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 }, focus: { prox: 18 } },
       focus: { alpha: 0.3 },
       axes: [
-        { ...axis, values: (u, splits) => splits.map((v) => short(v)), size: 26 },
+        { ...axis, values: (u, splits) => splits.map((v, k) => (k === splits.length - 1 && unit ? `${short(v)} ${unit}` : short(v))), size: 26 },
         { ...axis, size: axisWidth, ...(panel.log ? { splits: decades, filter: (u, splits) => splits } : {}), values: (u, splits) => splits.map((v) => (v == null ? "" : short(v))) },
       ],
       series: [
-        { label: data.abscissa, value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
-        ...group.curves.map((curve) => ({
+        { label: data.abscissa, value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} ${unit}`.trim()) },
+        ...group.curves.map((curve, k) => ({
           label: curve.label,
           stroke: () => colour(`tone-${/\d/.test(curve.tone) ? Number(curve.tone) % 8 : curve.tone}`),
-          dash: Number(curve.tone) >= 8 ? [6, 4] : undefined,
+          dash: DASHES[k % DASHES.length],
           width: 1.6,
           pxAlign: 0,
           points: { show: false },
           value: (u, v) => (v == null ? "" : quantity(v, group.unit)),
         })),
       ],
+      legend: { markers: { dash: (u, k) => BORDERS[(k - 1) % BORDERS.length] } },
       hooks: {
         draw: [limitLines(group.limits), eventMarks],
         setScale: [(u, key) => key === "x" && u.ready && setRange(u.scales.x.min, u.scales.x.max, u)],
@@ -219,8 +223,8 @@
   const complete = (group) => group.curves.filter((curve) => values(curve, false).every((v) => v !== null));
 
   // an axis of frequencies below, or at the side
-  function spectral(group, width, curves, more) {
-    const { axes, series, ...rest } = options({ log: false }, { ...group, curves, limits: [], floor: 0 }, width);
+  function spectral(group, width, curves, more, unit = "Hz") {
+    const { axes, series, ...rest } = options({ log: false }, { ...group, curves, limits: [], floor: 0 }, width, unit);
     return { ...rest, axes, series, cursor: { drag: { x: true, y: false, dist: 6 } }, hooks: {}, ...more };
   }
 
@@ -257,7 +261,7 @@
     const made = spectral({ ...group, unit: "Hz" }, place.clientWidth || 400, [{ label: curve.label, tone: "0" }], {
       scales: { x: { time: false, range: [whole[0], whole[1]] }, y: { range: [0, frequency[frequency.length - 1]] } },
       hooks: { draw: [paint] },
-    });
+    }, "s");
     made.series[1] = { label: `amplitudes of ${curve.label}, frequency`, show: true, stroke: "transparent", points: { show: false }, value: () => "" };
     return new uPlot(made, [middles, middles.map(() => null)], place);
   }

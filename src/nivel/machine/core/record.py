@@ -1,7 +1,5 @@
 """Base of all records of a machine: frozen, nothing unknown accepted, faults in plain words and all at once."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Self

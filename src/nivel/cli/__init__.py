@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 from difflib import get_close_matches
@@ -51,6 +52,8 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
 
 
 ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+# Between two looks for cycles. Modules, records and tables have none and stay: looks at every 700 take a tenth of a short run.
+NEW_OBJECTS: Final = 20_000
 
 
 class LazyGroup(click.Group):
@@ -66,6 +69,7 @@ class LazyGroup(click.Group):
         # Matrices here are small: threads of linear algebra wait for each other, on a busy machine for minutes. Read as NumPy is loaded.
         for variable in ONE_THREAD:
             os.environ.setdefault(variable, "1")
+        gc.set_threshold(NEW_OBJECTS)
         return import_module(place.module).command
 
     def resolve_command(

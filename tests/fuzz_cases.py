@@ -116,6 +116,55 @@ def machine_files(rng: random.Random, folder: Path) -> Callable[[], object]:
     return lambda: nivel.load(path).check()
 
 
+def _spoilt_numbers(rng: random.Random, text: str) -> str:
+    """Some numbers, words and lines of a text changed, with its marks as they are."""
+    for _ in range(rng.randint(1, 4)):
+        found = list(re.finditer(r"[-+]?\d+\.?\d*|[A-Za-z_]{3,}", text))
+        if not found:
+            return text
+        at = rng.choice(found)
+        put = rng.choice((*PIECES, found[rng.randrange(len(found))].group(), ""))
+        text = text[: at.start()] + put + text[at.end() :]
+    return text
+
+
+def robots(rng: random.Random, folder: Path) -> Callable[[], object]:
+    """Models of robots with changed bytes, numbers and words, imported and checked."""
+    source = rng.choice([ROOT / "examples" / "robots" / name for name in ("arm.urdf", "linkage.sdf", "leg.xml")])
+    path, content = folder / source.name, source.read_bytes()
+    text = _spoilt_numbers(rng, content.decode()).encode("utf-8", "ignore")
+    path.write_bytes(text if rng.random() < 0.8 else _changed(rng, content))
+    return lambda: nivel.import_model(path).check()
+
+
+def studies(rng: random.Random, folder: Path) -> Callable[[], object]:
+    """Studies and what they are of with changed numbers and words, read and compared with their machine."""
+    source = rng.choice(sorted((ROOT / "examples" / "studies").glob("*.yaml")))
+    path = folder / source.name
+    path.write_text(_spoilt_numbers(rng, source.read_text(encoding="utf-8")), encoding="utf-8", errors="ignore")
+    return lambda: nivel.load_study(path)
+
+
+def decks(rng: random.Random, folder: Path) -> Callable[[], object]:
+    """Decks of CalculiX with changed numbers and words: mesh, materials, orientations."""
+    source = rng.choice(sorted((ROOT / "tests" / "faults").glob("*.inp")))
+    lines = source.read_text(encoding="utf-8").splitlines()
+    cards = [k for k, line in enumerate(lines) if line.startswith("*") or k > len(lines) - 40]
+    for _ in range(rng.randint(1, 4)):
+        k = rng.choice(cards)
+        lines[k] = _spoilt_numbers(rng, lines[k])
+    path = folder / "deck.inp"
+    path.write_text("\n".join(lines), encoding="utf-8", errors="ignore")
+
+    def read() -> object:
+        try:
+            return read_element_mesh(path)
+        except FormatError as error:
+            raise ModelError(str(error)) from None
+
+    return read
+
+
 @cache
 def machines() -> tuple[dict[str, Any], ...]:
     """Examples and machines of the documentation."""
@@ -401,6 +450,9 @@ KINDS = {
         input_tables,
         meshes,
         models,
+        robots,
+        studies,
+        decks,
         result_files,
         result_attributes,
         cache_files,

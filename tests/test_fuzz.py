@@ -10,7 +10,20 @@ from nivel.errors import ModelError
 from nivel.files.mesh_file import read_mesh
 
 
-@pytest.mark.parametrize("kind", ["meshes", "models", "input_tables", "expressions", "machine_files", "machine_values"])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        "meshes",
+        "models",
+        "input_tables",
+        "expressions",
+        "machine_files",
+        "machine_values",
+        "robots",
+        "studies",
+        "decks",
+    ],
+)
 def test_wrong_input_is_refused_in_words(kind, tmp_path, monkeypatch):
     monkeypatch.setattr(fuzz.signal, "alarm", lambda _seconds: 0)
     for number in range(25):

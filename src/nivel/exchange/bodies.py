@@ -77,6 +77,7 @@ def lumped(mechanism: Mechanism, group: Group) -> Inertial | None:
     return parts[0] if len(parts) == 1 else together(parts)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what is not finite is a fault of the link
 def together(parts: Iterable[Inertial]) -> Inertial | None:
     """Several in one frame as one; None where there is no mass."""
     parts = list(parts)
@@ -92,6 +93,10 @@ def together(parts: Iterable[Inertial]) -> Inertial | None:
 
 def possible(inertial: Inertial, link: Link, mechanism: Mechanism, faults: list[Fault], file: str) -> Inertial:
     """The same with an inertia that a body can have: what is impossible by round-off is raised, other tensors are faults."""
+    if not np.isfinite(inertial.inertia).all():
+        message = "inertia of the link: it is not finite; a mass, a moment or a place is too large"
+        faults.append(Fault(file, link.line, 1, f'<link name="{link.name}">', message))
+        return Inertial(1.0, np.zeros(3), np.eye(3))
     if not impossible(inertial.inertia):
         return inertial
     moments, axes = np.linalg.eigh(inertial.inertia)

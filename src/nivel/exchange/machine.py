@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Final
 
 import numpy as np
@@ -165,8 +166,8 @@ def _check(mechanism: Mechanism, file: str, faults: list[Fault]) -> None:
         faults += [Fault(file, each.line, 1, where, f"there is no link `{link}`") for link in unknown]
         if each.bodies[0] == each.bodies[1]:
             faults.append(Fault(file, each.line, 1, where, f"the joint connects `{each.bodies[0]}` with itself"))
-        if each.axes and not all(np.any(axis) for axis in each.axes):
-            faults.append(Fault(file, each.line, 1, where, "the axis has no direction: it is zero"))
+        if not all(0.0 < float(axis @ axis) < math.inf for axis in each.axes):
+            faults.append(Fault(file, each.line, 1, where, "the axis has no direction: it is zero, or as good as that"))
 
 
 def _bodies(

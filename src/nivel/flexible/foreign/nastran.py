@@ -142,7 +142,7 @@ def _fields(line: str) -> list[str]:
 def table(numbers: list[int], places: list[list[float]]) -> tuple[np.ndarray, np.ndarray]:
     """Numbers (n,) and places (n, 3) as arrays. Raises FormatError where a number has more than 18 digits."""
     if numbers and max(map(abs, numbers)) >= 10**18:
-        raise FormatError(f"the number {max(numbers, key=abs):.3g} of a node has more than 18 digits")
+        raise FormatError(f"the number {str(max(numbers, key=abs))[:18]}… of a node has more than 18 digits")
     return np.array(numbers, dtype=np.int64), np.array(places, dtype=float).reshape(-1, 3)
 
 

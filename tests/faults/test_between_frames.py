@@ -107,6 +107,22 @@ def test_positions_that_are_not_asked_for_show_the_motion(positions):
         assert found.trust.light == ("amber" if positions else "green")
 
 
+@pytest.mark.parametrize("positions", [None, 361, 5761])
+@pytest.mark.parametrize(
+    ("law", "peak"),
+    [
+        # A exp(-(t/w)²) bends by 2 A/w²; a vibration with 1.6 positions a period is everywhere between its neighbours
+        *((f"0.1*exp(-((time-0.4013)/{width})^2)", 0.2 / width**2) for width in (4e-2, 4e-4, 2e-5)),
+        ("1e-3*sin(2*pi*3600*time)", 1e-3 * (2.0 * np.pi * 3600.0) ** 2),
+    ],
+)
+def test_pulses_of_drivers_that_no_position_meets_are_told(law, peak, positions):
+    machine = nivel.load(HERE / "aliased-driver.yaml")
+    found = machine.replace(machine.record.drivers[0].replace(value=law)).kinematics(positions=positions)
+    force = REDUCTIONS["peak"](curve_of(found, "driver.d.effort"))
+    assert abs(force.value[0] - peak) <= 1e-2 * peak or found.trust.light != "green"
+
+
 @pytest.mark.parametrize("interval", [0.05, 0.2])
 def test_the_slope_of_a_maximum_is_that_of_the_curve(interval):
     """x = v/ω sin ω t, largest v √(m/k): the slope along k is -v √m / (2 k^1.5) = -5e-4."""

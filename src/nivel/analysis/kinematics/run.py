@@ -10,6 +10,8 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.curves.functions import ExpressionCurve, TableCurve
+from nivel.analysis.curves.step_limits import with_features
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
@@ -38,10 +40,13 @@ from nivel.judge.during.stop import Stop
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.lazy import dataclass, replace
+from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.machine.settings.values import POSITIONS
-from nivel.results.curve import PROBED
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.tree import TIME
+from nivel.results.curve import PROBED, TOLD, curve
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -54,6 +59,8 @@ STUCK = 1e-4
 MOST_BETWEEN = 2000
 # times as many positions where some do not show the motion between them; no more where there are so many
 FINER, MOST_POSITIONS = 4, 64 * 360 + 1
+# positions between which bounds of functions are looked at, at most
+MOST_LOOKED_AT = 1_000_000
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
 FACTS = IntegratorFacts("", follow_positions, order=1, numbers=1)
@@ -102,10 +109,11 @@ def kinematics(
     listener.say("finding positions", settings.duration)
     with terminable():
         if settings.positions is None:
-            settings, steps = resolved(prepared, settings, steps)
+            settings, steps = resolved(machine, prepared, settings, steps)
         chosen[0].begin(Header(chosen[1], _attributes(machine, source, prepared, settings)))
         finished, run = follow(prepared, steps, chosen[0], listener, between(prepared, steps))
         finished.timing |= seconds
+        finished.between_frames |= hidden(machine, prepared, steps)
         return _close(sink, machine, prepared, finished, run)
 
 
@@ -140,8 +148,40 @@ def between(prepared: Prepared, settings: RunSettings) -> Probes:
     return Probes(prepared.motion, (), taken.frames)
 
 
+def hidden(machine: MachineRecord, prepared: Prepared, steps: RunSettings) -> dict[str, list[float]]:
+    """By variable what drivers' functions of time do between positions, beyond the curve through these: bounds of the functions find it,
+    however short it is."""
+    time, names = (
+        np.linspace(0.0, steps.duration, steps.steps + 1),
+        prepared.motion.system.layout.coordinates["joint_coordinate"],
+    )
+    out: dict[str, list[float]] = {}
+    for driver in machine.drivers:
+        named = [k for k, name in enumerate(names) if f"{name}.".startswith(f"{driver.coordinate}.")]
+        law = driver.speed if driver.value is None else driver.value
+        if len(named) != 1 or not isinstance(law, Expression | Table) or law.signals:
+            continue
+        if isinstance(law, Expression):
+            variable, of = "joint_rate", ExpressionCurve(law if driver.value is None else law.derivative)
+        else:
+            variable, of = "joint_rate" if driver.value is None else "joint_coordinate", TableCurve(law)
+        values = of.values({TIME: time})
+        at, right = with_features(of, time, values)
+        between, inside = curve(time, values), time[:-1] + GOLDEN * np.diff(time)
+        place = np.clip(np.searchsorted(time, at)[:, None] + np.arange(-2, 2), 0, len(time) - 1)
+        near = values[place]
+        peak = np.minimum(
+            np.maximum(right - near.max(axis=1), near.min(axis=1) - right), np.abs(between.at(at)[:, 0] - right)
+        )
+        off = np.abs(between.at(inside)[:, 0] - of.values({TIME: inside}))
+        if max(peak.max(), off.mean()) > TOLD * np.ptp(right):
+            found = out.setdefault(variable, [0.0] * len(names))
+            found[named[0]] = max(float(peak.max()), float(off.max()))
+    return out
+
+
 def resolved(
-    prepared: Prepared, settings: KinematicsSettings, steps: RunSettings
+    machine: MachineRecord, prepared: Prepared, settings: KinematicsSettings, steps: RunSettings
 ) -> tuple[KinematicsSettings, RunSettings]:
     """Settings with as many positions, four times as many each time, as show the motion between them, if `MOST_POSITIONS` do."""
     count = POSITIONS
@@ -149,7 +189,8 @@ def resolved(
         settings = settings.replace(positions=count)
         steps = replace(steps, step=settings.step, steps=count - 1, output_interval=settings.step)
         finished, _ = follow(prepared, steps, _Taken(), Listener(), between(prepared, steps))
-        if finished.outcome != "done" or not finished.between_frames or count >= MOST_POSITIONS:
+        is_seen = not (finished.between_frames or hidden(machine, prepared, steps))
+        if finished.outcome != "done" or is_seen or count >= MOST_POSITIONS:
             return settings, steps
         count = FINER * (count - 1) + 1
 

@@ -885,8 +885,8 @@ class Machine(Model):
         """
         with self._faults_in_file():
             record, left_out = nivel.analysis.plan.equations_only.without_sticking(self.record)
-            refuse(nivel.judge.before.analyses.not_smooth(record))
-            refuse(nivel.judge.before.refusals.faults_of(record, nivel.judge.before.analyses.OF_SAMPLES))
+            faults = nivel.judge.before.analyses.not_smooth(record)
+            refuse(each for each in faults if each.path.partition(".")[0] not in ("control", "states"))
             plain, chosen = nivel.analysis.plan.equations_only.neutral(record, coordinates or "auto")
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.linear_entries(methods), listener)

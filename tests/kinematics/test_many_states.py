@@ -60,3 +60,16 @@ def test_rows_of_states_give_rows_of_results():
     np.testing.assert_array_equal(mechanics.bias(q[0], v)[4], mechanics.bias(q[0], v[4]))
     back = mechanics.forward_dynamics(q, v, rows)
     np.testing.assert_allclose(back, a, rtol=1e-7, atol=1e-8)
+
+
+def test_the_arm_of_the_examples_has_its_matrices_whatever_controls_it():
+    """Drives on elastic gears move rotors of their own: M of the arm is that without them, and at rest at the start so is its weight."""
+    arm = nivel.load(EXAMPLES / "control/six-axis-arm.yaml")
+    own, bare = arm.mechanics(), arm.replace(control=(), forces=(), sensors=(), events=()).mechanics()
+    random = np.random.default_rng(3)
+    q, a = random.uniform(-1.0, 1.0, (2, 6))
+    np.testing.assert_allclose(own.mass_matrix(q), bare.mass_matrix(q), rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(own.bias(own.start), bare.bias(own.start), rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(
+        own.inverse_dynamics(q, 0.0 * a, a), own.bias(q, 0.0 * a) + own.mass_matrix(q) @ a, rtol=1e-12, atol=1e-9
+    )

@@ -85,7 +85,7 @@ class Mechanics:
         self._velocity_signs = self._signs[own.free[self._selected]]
         self._quick = None if len(own.velocity_rows) else Quick(own, self._selected, reduction.kept)
         self._turns = bool((own.place[:, 1] <= LAST_AXIS).any())
-        self._still = moment.y.copy()
+        self._still, self._zeros = moment.y.copy(), np.zeros(len(moment.y))
         self._still[own.positions : own.first_state] = 0.0
 
     def _reduction(self) -> Reduction:
@@ -208,10 +208,11 @@ class Mechanics:
         if quick is None:
             return None
         q = self.start if q is None else self._checked(q, own.positions, "q")
-        y[: own.positions] = self._place_signs * (q - self._offsets)
+        y[: own.positions] = self._in_tree(q)
         if self._turns:
             y[: own.positions] = _normalised(own, y[: own.positions])
-        self._count_turns(q)
+        if len(self._angles):
+            self._count_turns(q)
         quick.be_at(y)
         if quick.has_loops and not quick.is_closed():
             y[: own.positions] = self._in_tree(self.close(q))
@@ -220,7 +221,10 @@ class Mechanics:
 
     def _for_each(self, call: Callable[..., Array], *states: Array | None) -> Array:
         """What is asked for at one state, or at rows of states."""
-        if all(each is None or np.ndim(each) < MANY for each in states):
+        for each in states:
+            if each is not None and np.ndim(each) >= MANY:
+                break
+        else:
             return call(*states)
         rows = max(len(each) for each in states if each is not None and np.ndim(each) == MANY)
         given = [
@@ -325,8 +329,11 @@ class Mechanics:
         return bodies.index(name), np.zeros(3)
 
     def _checked(self, value: Array, count: int, what: str) -> Array:
-        out = np.asarray(value, dtype=float).ravel()
-        if len(out) != count or not np.isfinite(out).all():
+        out = np.asarray(value, dtype=np.float64)
+        if out.ndim != 1:
+            out = out.ravel()
+        # 0 times what is not finite is no number; one product is quicker than a question for each
+        if len(out) != count or out.dot(self._zeros[:count]) != 0.0:
             names = self.position_names if what == "q" else self.names
             raise ModelError(f"`{what}` must be {count} numbers, one for each of {', '.join(names)}; got {len(out)}")
         return out

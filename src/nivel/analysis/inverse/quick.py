@@ -69,8 +69,9 @@ class Quick:
         """Be at a state y, without accelerations and multipliers."""
         own = self._own
         own.y[:] = y
-        own.vdot[:] = 0.0
-        own.lam[:] = 0.0
+        own.vdot.fill(0.0)
+        if self._K:
+            own.lam.fill(0.0)
         if self._has_tree:
             self._state[: self._P] = y[: self._P]
 
@@ -97,10 +98,11 @@ class Quick:
     def _load(self) -> None:
         """The state on dual numbers, without accelerations."""
         twin = self._twin
-        twin.y[:] = 0.0
+        twin.y.fill(0.0)
         twin.y[:, 0] = self._own.y
-        twin.vdot[:] = 0.0
-        twin.lam[:] = 0.0
+        twin.vdot.fill(0.0)
+        if self._K:
+            twin.lam.fill(0.0)
 
     def is_closed(self) -> bool:
         """Whether all loops are closed at the state."""

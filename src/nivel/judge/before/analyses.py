@@ -65,19 +65,6 @@ OF_STATICS = (
         ),
     ),
 )
-# What changes in jumps, for what knows motions in continuous time alone.
-JUMPS = "changes in jumps, which linear equations in continuous time cannot describe"
-OF_SAMPLES = (
-    Refusal(
-        "states", "update", lambda state: state.update is not None, f"a sampled state {JUMPS}: write it as a `rate`"
-    ),
-    Refusal(
-        "control",
-        "sample_time",
-        lambda block: block.sample_time is not None,
-        f"a sampled block {JUMPS}: leave out `sample_time` to make it continuous, or leave out the block to open the loop",
-    ),
-)
 # States and blocks whose effect is no smooth function of the state.
 NOT_SMOOTH = (
     Refusal(

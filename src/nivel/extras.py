@@ -40,6 +40,7 @@ LIBRARIES: Final = {
     "pandas": Library("pandas", ""),
     "pyarrow.parquet": Library("pyarrow", "measured"),
     "PIL": Library("pillow", "film"),
+    "pyDOE3": Library("pyDOE3", "studies"),
     "skfem": Library("scikit-fem", "flex"),
     "torch": Library("torch", "torch"),
     "websockets": Library("websockets", ""),

@@ -23,7 +23,10 @@ StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
 StaticCoordinates = Literal["auto", "absolute", "relative"]  # of analyses other than runs
-Combination = Literal["grid", "rows"]  # of the values of a sweep
+Planned = Literal["fractional-factorial", "box-behnken", "central-composite"]  # designs of a few levels between bounds
+Combination = Literal[
+    "grid", "rows", "fractional-factorial", "box-behnken", "central-composite"
+]  # of the values of a sweep
 Drawn = Literal["latin-hypercube", "random", "sobol", "sobol-indices"]  # designs of samples
 Analysis = Literal["run", "statics", "kinematics", "linearise", "inverse"]  # of the variants of a sweep
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]

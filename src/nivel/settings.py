@@ -62,7 +62,7 @@ class CompareSettingsDict(TypedDict, total=False):
 class SweepSettingsDict(TypedDict, total=False):
     """Settings of a sweep over machines."""
 
-    combine: Annotated[Combination | None, "--combine NAME", "Grid, every value with every other; or rows, the first of all lists, the second of all:"]
+    combine: Annotated[Combination | None, "--combine NAME", "Grid, every value with every other; rows, the first of all lists, the second of all; or a design between two bounds:"]
     samples: Annotated[int | str | None, "--samples NUMBER", "Number of variants of a Latin hypercube between two bounds, or over distributions."]
     seed: Annotated[int | str | None, "--seed NUMBER", "Seed of the random numbers of samples."]
     save: Annotated[Sequence[str] | str | None, "--save NAMES", "Names of results; default: all joint coordinates and sensors."]

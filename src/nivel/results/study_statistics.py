@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 ENDED: Final = ("done", "stopped")
 CONFIDENCE: Final = 1.959963984540054  # standard deviations of 95 %
 RESAMPLES: Final = 200  # of the bootstrap of Sobol indices
+WHOLE: Final = 1.0 - 1e-9  # leverage of a variant that alone determines a coefficient
 LEAST_LEFT: Final = 2  # variants beyond the coefficients of a response surface
 SOBOL: Final = "sobol-indices"
 
@@ -145,7 +146,7 @@ class Surface:
     """A response surface: a polynomial of the parameters, each from -1 at its least to 1 at its greatest value, fitted by least squares.
 
     powers (k, p) : exponents of the terms. coefficients (k,). predicted : coefficient of determination of values that were left out one by
-    one (Q²), from the residuals over 1 - leverage (PRESS, Allen 1974).
+    one (Q²), from the residuals over 1 - leverage (PRESS, Allen 1974), of those that can be left out.
     """
 
     parameters: tuple[str, ...]
@@ -207,9 +208,12 @@ def _fitted(
     residuals = y - terms @ coefficients
     leverage = np.sum(basis**2, axis=1)
     total = float(np.sum((y - y.mean()) ** 2))
+    # what no other variant tells of, such as the only one in the middle of a plan, cannot be left out
+    others = leverage < WHOLE
     with np.errstate(invalid="ignore", divide="ignore"):
-        left_out = residuals / (1.0 - leverage)
-        determined, predicted = (1.0 - float(np.sum(each**2)) / total for each in (residuals, left_out))
+        left_out = residuals[others] / (1.0 - leverage[others])
+        determined = 1.0 - float(np.sum(residuals**2)) / total
+        predicted = 1.0 - float(np.sum(left_out**2)) / float(np.sum((y[others] - y.mean()) ** 2))
     if total <= (1e-12 * max(float(np.abs(y).max()), 1e-300)) ** 2:
         determined = predicted = 1.0
     return Surface(names, low, high, powers, coefficients, determined, predicted)

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
 from nivel.errors import Fault, ModelError, refuse
+from nivel.extras import needed
 from nivel.lazy import dataclass, scipy
 from nivel.machine.settings.values import settings_of
-from nivel.machine.study import DRAWN, SOBOL_INDICES
+from nivel.machine.study import DRAWN, PLANNED, SOBOL_INDICES
 from nivel.machine.study.any_quantity import si, si_or_text
-from nivel.machine.study.parameter import Normal, Range, Tolerance, Triangular, Uniform, Values
+from nivel.machine.study.parameter import Between, Normal, Range, Tolerance, Triangular, Uniform, Values
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
@@ -82,6 +83,7 @@ def _triangular(low: float, peak: float, high: float, shares: Array) -> list[flo
 
 
 ROW: Final = "variant"
+RESOLUTION: Final = 4
 MOST: Final = 1_000_000
 
 Parameters = Mapping[str, Distribution]
@@ -114,6 +116,9 @@ def draw(parameters: Parameters, design: str, samples: int | None, seed: int) ->
     if design in DRAWN:
         shares = _shares(design, samples or 1, len(parameters), seed)
         return _rows({path: quantiles(each, shares[:, k]) for k, (path, each) in enumerate(parameters.items())})
+    if design in PLANNED:
+        shares = 0.5 + 0.5 * _levels(design, len(parameters))
+        return _rows({path: _between(path, each, shares[:, k]) for k, (path, each) in enumerate(parameters.items())})
     lists = {path: _listed(each) for path, each in parameters.items()}
     if design == "rows":
         return _rows(lists)
@@ -127,8 +132,42 @@ def _count(parameters: Parameters, design: str, samples: int | None) -> int:
         return (samples or 1) * (len(parameters) + 2)
     if design in DRAWN:
         return samples or 1
+    if design in PLANNED:
+        return len(_levels(design, len(parameters)))
     lengths = [_length(each) for each in parameters.values()]
     return max(lengths) if design == "rows" else prod(lengths)
+
+
+def _levels(design: str, count: int) -> np.ndarray[Any, Any]:
+    """(variants, count) from -1, the lower bound, to 1, the upper one.
+
+    A fraction of all corners of resolution IV: main effects are clear of effects of pairs (Box, Hunter & Hunter 2005, ch. 6); of up to
+    three parameters all corners. Box & Behnken 1960: three levels, from three parameters on. Central composite: corners, a star and the
+    middle, with five levels, rotatable, its star on the bounds (Box & Wilson 1951).
+    """
+    plans = needed("pyDOE3", f"`design: {design}` needs")
+    if design == "fractional-factorial":
+        if count <= RESOLUTION:  # of four the last is the product of the others
+            return plans.ff2n(count) if count < RESOLUTION else plans.fracfact("a b c abc")
+        return plans.fracfact_by_res(count, RESOLUTION)
+    least = 3 if design == "box-behnken" else 2
+    if count < least:
+        raise ModelError(
+            Fault.at("parameters", f"`design: {design}` needs {least} parameters at least; there are {count}")
+        )
+    if design == "box-behnken":
+        return plans.bbdesign(count, center=1)
+    return plans.ccdesign(count, center=(0, 1), alpha="rotatable", face="inscribed")
+
+
+def _between(path: str, parameter: Distribution, shares: np.ndarray[Any, Any]) -> list[Any]:
+    """Values from the lower bound (0) to the upper one (1), of a list those that it has. Raises ModelError without bounds."""
+    if isinstance(parameter, Values | Range):
+        return quantiles(parameter, shares)
+    low, high = parameter.bounds if isinstance(parameter, Between) else (-np.inf, np.inf)
+    if not np.isfinite([low, high]).all():
+        raise ModelError(Fault.at(path, "two bounds were expected, (1, 3), between which levels are planned"))
+    return [float(low + (high - low) * share) for share in shares]
 
 
 def _length(parameter: Distribution) -> int:
@@ -164,6 +203,8 @@ def lay_out(
     values: Mapping[str, Any], combine: str, samples: int | None, seed: int, design: str = "latin-hypercube"
 ) -> Variants:
     """The variants of `machine.sweep`. Raises ModelError with everything that is wrong with the values."""
+    if samples is None and combine in PLANNED:
+        return draw(_distributions(values), combine, None, seed)
     if samples is None:
         return draw(_lists(values, combine), combine, None, seed)
     return draw(_distributions(values), design, samples, seed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, get_args
 
 from pydantic import BeforeValidator
 
@@ -11,13 +11,14 @@ from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Maybe
 from nivel.machine.settings.values import Count, Names
 from nivel.machine.study.output import Output
-from nivel.machine.units.quantity import Duration, Whole, fault, shown
+from nivel.machine.units.quantity import Duration, Whole, fault
 from nivel.methods import Analysis, Combination, Drawn
+from nivel.words.wording import unknown_word
 
 
 def _combination(value: Any) -> Any:
-    if value not in ("grid", "rows"):
-        raise fault(f"`grid` or `rows` was expected, got {shown(value)}")
+    if value not in get_args(Combination):
+        raise fault(unknown_word(str(value), get_args(Combination), "combination"))
     return value
 
 
@@ -28,7 +29,7 @@ class SweepSettings(Record):
 
     combine: Annotated[Combination, BeforeValidator(_combination)] = Field(
         default="grid",
-        description="grid, every value with every other; or rows, the first of all lists, the second of all",
+        description="grid, every value with every other; rows, the first of all lists, the second of all; or a design between two bounds",
     )
     samples: Count | None = Field(
         default=None, description="number of variants of a Latin hypercube between two bounds, or over distributions"

@@ -11,11 +11,12 @@ from nivel.machine.study.output import (
     ScalarOutput,
 )
 from nivel.machine.study.parameter import Normal, Range, StudyParameter, Tolerance, Triangular, Uniform, Values
-from nivel.machine.study.study_record import ANALYSES, DRAWN, SOBOL_INDICES, StudyRecord
+from nivel.machine.study.study_record import ANALYSES, DRAWN, PLANNED, SOBOL_INDICES, StudyRecord
 
 __all__ = [
     "ANALYSES",
     "DRAWN",
+    "PLANNED",
     "SOBOL_INDICES",
     "AtEvent",
     "AtTime",

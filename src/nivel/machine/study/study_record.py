@@ -16,12 +16,13 @@ from nivel.machine.study.output import AtTime, FinalValue, Output, Reduced
 from nivel.machine.study.parameter import Range, StudyParameter, Values
 from nivel.machine.study.search import IdentifySearch, OptimiseSearch
 from nivel.machine.units.quantity import Duration, Whole, fault
-from nivel.methods import Analysis, Drawn
+from nivel.methods import Analysis, Drawn, Planned
 from nivel.words.wording import shown, unknown_word
 
-Design = Literal["grid", "rows", "random", "latin-hypercube", "sobol", "sobol-indices"]
+Design = Literal["grid", "rows", Planned, Drawn]
 ANALYSES: Final = get_args(Analysis)
 DRAWN: Final = get_args(Drawn)  # designs that take `samples`
+PLANNED: Final = get_args(Planned)  # designs of levels between bounds
 WITH_HISTORIES: Final = ("run", "statics", "kinematics")
 SOBOL_INDICES: Final = "sobol-indices"
 QUASI_RANDOM: Final = ("sobol", SOBOL_INDICES)  # of which samples are powers of two
@@ -53,7 +54,8 @@ class StudyRecord(Checked):
     )
     design: Design = Field(
         default="grid",
-        description="grid: every value with every other; rows: the first of all lists, the second of all; or drawn at random, "
+        description="grid: every value with every other; rows: the first of all lists, the second of all; planned with two, three or five "
+        "levels between bounds: a fraction of all corners, Box and Behnken's, central composite; or drawn at random, "
         "from a Latin hypercube, from Sobol's sequence, or for Sobol indices",
     )
     samples: Count | None = Field(
@@ -95,6 +97,12 @@ class StudyRecord(Checked):
             )
         if self.optimise is not None or self.identify is not None:
             yield from self._of_searches()
+        elif self.design in PLANNED:
+            for path, each in self.parameters.items():
+                if not isinstance(each, Values) and not all(isfinite(bound) for bound in each.bounds):
+                    yield Problem(
+                        ("parameters", path, "type"), f"`design: {self.design}` needs two bounds: write `from` and `to`"
+                    )
         elif not drawn:
             yield from self._without_values()
         if self.analysis not in WITH_HISTORIES and self.save:

@@ -19,7 +19,7 @@ from nivel.machine.core.record import GROUND
 
 ROUND: Final = ("sphere", "capsule", "ellipsoid")
 CORNERS: Final = 48  # of the hull of a mesh: of two hulls the faces are compared in pairs
-FEET: Final = 4  # points on which a flat side stands, each with the stiffness of a point
+FEET: Final = 4  # points on which a flat side or a free model stands, each with the stiffness of a point
 SINK: Final = 0.5e-3  # [m]
 HARD: Final = 1e10  # [N/m]: a stiffness from here on stands for a rigid surface
 GRAVITY: Final = 9.81  # [m/s²] where the model has no weight
@@ -35,8 +35,6 @@ def contacts_of(
     mechanism: Mechanism, groups: dict[str, Group], names: Names, drawing: Drawing
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Markers with the shapes that touch, and forces."""
-    if mechanism.solids and not mechanism.touches:
-        _pair(mechanism, groups, drawing)
     markers: dict[str, Any] = {}
     forces: dict[str, Any] = {}
     areas: dict[str, float] = {}
@@ -69,11 +67,40 @@ def add_solid(
     mechanism.solids[name] = Solid(name, link, look, surface, model)
 
 
+def meet(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> None:
+    """Find what touches where the file names no pairs, and raise free models out of planes, to half of what a foot sinks there."""
+    if mechanism.solids and not mechanism.touches:
+        _pair(mechanism, groups, drawing)
+    lifts: dict[frozenset[str], Array] = {}
+    parts, weight = _components(mechanism), _gravity(mechanism)
+    held = {name for each in mechanism.connections if WORLD in each.bodies for name in each.bodies}
+    for touch in mechanism.touches:
+        pair = (mechanism.solids[touch.first], mechanism.solids[touch.second])
+        plane = next((each for each in pair if each.look.kind == "plane" and each.link == WORLD), None)
+        other = pair[1] if plane is pair[0] else pair[0]
+        if plane is None or other.link == WORLD or parts[other.link] & held:
+            continue
+        normal, part = plane.look.place.axes[:, 2], parts[other.link]
+        sunk = float(normal @ plane.look.place.origin) - _lowest(other, normal, mechanism, drawing)
+        more = sunk - 0.5 * _mass(mechanism, part) * weight / (FEET * touch.stiffness)
+        if more > float(np.linalg.norm(lifts.get(part, np.zeros(3)))):
+            lifts[part] = more * normal
+    for part, lift in lifts.items():
+        for name in part:
+            place = mechanism.links[name].place
+            mechanism.links[name].place = Frame(place.axes, place.origin + lift)
+        for each in mechanism.connections:
+            if part & set(each.bodies):
+                each.point = each.point + lift
+        height = float(np.linalg.norm(lift)) * 1e3
+        mechanism.notes.change("a model that begins inside a plane is raised out of it", f"by {height:.3g} mm")
+
+
 def _pair(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> None:
     """Add the pairs of solids that may touch, and the ground."""
     moving = [each for each in mechanism.solids.values() if groups[each.link].first != WORLD]
     if mechanism.stands and moving:
-        lowest = min(_lowest(each, mechanism, drawing) for each in moving)
+        lowest = min(_lowest(each, np.array([0.0, 0.0, 1.0]), mechanism, drawing) for each in moving)
         place = Frame(origin=np.array([0.0, 0.0, lowest]))
         mechanism.solids["ground_plane"] = Solid("ground_plane", WORLD, Look("plane", place))
         mechanism.notes.change(f"{BELOW}: at z = {lowest:.4g} m")
@@ -84,7 +111,7 @@ def _pair(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> N
     ):  # between the axes of a joint
         near = {end for each in ends_of if name in each for end in each}
         joined |= {frozenset((one, other)) for one in near for other in near}
-    masses = _masses(mechanism)
+    masses = {name: _mass(mechanism, part) for name, part in _components(mechanism).items()}
     solids = list(mechanism.solids.values())
     for k, first in enumerate(solids):
         for second in solids[k + 1 :]:
@@ -104,7 +131,7 @@ def _touch_of(first: Solid, second: Solid, masses: dict[str, float], mechanism: 
     soft = [each.stiffness for each in surfaces if each.stiffness is not None and 0.0 < each.stiffness < HARD]
     inverse = sum(1.0 / masses[each.link] for each in (first, second) if masses.get(each.link))
     mass = 1.0 / inverse if inverse else 1.0
-    gravity = float(np.linalg.norm(mechanism.gravity)) or GRAVITY
+    gravity = _gravity(mechanism)
     stiffness = 1.0 / sum(1.0 / each for each in soft) if soft else mass * gravity / SINK
     if not soft:
         mechanism.notes.change(RIGID)
@@ -113,28 +140,35 @@ def _touch_of(first: Solid, second: Solid, masses: dict[str, float], mechanism: 
     return Touch(first.name, second.name, min(each.friction for each in surfaces), stiffness, damping)
 
 
-def _masses(mechanism: Mechanism) -> dict[str, float]:
-    """[kg] of each link with all that joints connect it with, but for the ground."""
+def _gravity(mechanism: Mechanism) -> float:
+    return float(np.linalg.norm(mechanism.gravity)) or GRAVITY
+
+
+def _mass(mechanism: Mechanism, part: frozenset[str]) -> float:
+    given = (mechanism.links[name].inertial for name in part)
+    return sum(each.mass for each in given if each is not None)
+
+
+def _components(mechanism: Mechanism) -> dict[str, frozenset[str]]:
+    """Each link with all that joints connect it with, but for the ground."""
     near: dict[str, set[str]] = {name: set() for name in mechanism.links}
     for first, second in (each.bodies for each in mechanism.connections if WORLD not in each.bodies):
         near[first].add(second)
         near[second].add(first)
-    masses: dict[str, float] = {}
+    parts: dict[str, frozenset[str]] = {}
     for name in mechanism.links:
         found, pending = {name}, [name]
-        while pending and name not in masses:
+        while pending and name not in parts:
             more = near[pending.pop()] - found
             found, pending = found | more, [*pending, *more]
-        given = (mechanism.links[each].inertial for each in found)
-        total = sum(each.mass for each in given if each is not None)
-        masses |= {each: total for each in found if each not in masses}
-    return masses
+        parts = dict.fromkeys(found, frozenset(found)) | parts
+    return parts
 
 
-def _lowest(solid: Solid, mechanism: Mechanism, drawing: Drawing) -> float:
-    """[m] least height of a solid where its link stands; infinite where its mesh is not found."""
+def _lowest(solid: Solid, normal: Array, mechanism: Mechanism, drawing: Drawing) -> float:
+    """[m] least coordinate of a solid along a direction where its link stands; infinite where its mesh is not found."""
     look, frame = solid.look, mechanism.links[solid.link].place @ solid.look.place
-    down, sizes = -frame.axes[2], np.array(look.sizes)
+    down, sizes = -frame.axes.T @ normal, np.array(look.sizes)
     match look.kind:
         case "sphere":
             reach = sizes[0]
@@ -151,7 +185,7 @@ def _lowest(solid: Solid, mechanism: Mechanism, drawing: Drawing) -> float:
                 reach = (_hull(look, drawing) @ down).max()
             except (NotFoundError, scipy.spatial.QhullError):
                 return np.inf
-    return float(frame.origin[2] - reach)
+    return float(normal @ frame.origin - reach)
 
 
 def _force(touch: Touch, pair: list[Solid], markers: list[str], areas: dict[str, float]) -> dict[str, Any]:

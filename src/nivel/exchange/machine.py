@@ -21,7 +21,7 @@ from nivel.exchange.bodies import (
     offset,
     possible,
 )
-from nivel.exchange.contacts import contacts_of
+from nivel.exchange.contacts import contacts_of, meet
 from nivel.exchange.joint_forces import (
     actuated,
     add_starts,
@@ -54,6 +54,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         for each in mechanism.connections:
             if each.name in starts:
                 move_to(mechanism, groups, each, starts[each.name])
+    meet(mechanism, groups, drawing)
     data: dict[str, Any] = {"name": _title(mechanism.name)}
     bodies, looks_of_ground = _bodies(mechanism, groups, names, drawing, faults, file)
     joints = {

@@ -2,7 +2,8 @@
 
 MuJoCo's contact is soft in accelerations: (A + R) f = b ẋ + k d r - a₀ with the overlap r, where R = w (1 - d)/d and w is the sum of the
 inverse weights of both bodies. Under a steady load f it sinks to r = R f/(k d): a spring of the stiffness k d²/((1 - d) w), whose force
-changes with the speed by b d/w. `damping` of a contact is this by the load g/w.
+changes with the speed by b d/w. `damping` of a contact is this by the load: g/w, or on the ground the share of one foot in the weight of a
+free model, where that is more.
 """
 
 from __future__ import annotations
@@ -12,8 +13,11 @@ from typing import Any, Final
 
 import numpy as np
 
+from nivel.exchange.contacts import FEET
 from nivel.exchange.mechanism import Look, Mechanism, Solid, Touch
 
+FREE: Final = 0  # mjtJoint
+BISECTIONS: Final = 60
 GRAVITY: Final = 9.81  # m/s²: the load where the model has no weight
 CLIP: Final = 1e-4  # impedances are kept by so much from 0 and 1, as in MuJoCo
 MARGINS, DIRECTIONS = "margins of contacts", "friction of contacts by direction"
@@ -105,13 +109,22 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
     if pair is not None and condim > 1 and friction[0] != friction[1]:
         mechanism.notes.leave(DIRECTIONS, " and ".join(names), acts=True)
     w = sum(float(m.body_invweight0[m.geom_bodyid[g]][0]) for g in (i, j))
-    weight = float(np.linalg.norm(m.opt.gravity)) or GRAVITY
+    gravity = float(np.linalg.norm(m.opt.gravity)) or GRAVITY
+    weight = max(gravity, w * _load(m, (i, j)) * gravity)
     stiffness, damping = _softness(ref, imp, w, float(m.opt.timestep), weight)
     return Touch(*names, float(friction[0]) if condim > 1 else 0.0, stiffness, damping)
 
 
+def _load(m: Any, geoms: tuple[int, int]) -> float:
+    """[kg] what one foot of a free model carries where one of these stands still; else nothing."""
+    bodies = [int(m.geom_bodyid[g]) for g in geoms if m.body_weldid[m.geom_bodyid[g]]]
+    root = int(m.body_rootid[bodies[0]]) if len(bodies) == 1 else 0
+    free = m.body_jntnum[root] > 0 and m.jnt_type[m.body_jntadr[root]] == FREE
+    return float(m.body_subtreemass[root]) / FEET if free else 0.0
+
+
 def _softness(ref: Any, imp: Any, w: float, step: float, gravity: float) -> tuple[float, float]:
-    """Stiffness [N/m] and damping [s/m] under the load g/w."""
+    """Stiffness [N/m] and damping [s/m] under the load `gravity`/w."""
     least, most, middle = (min(max(float(imp[k]), CLIP), 1.0 - CLIP) for k in (0, 1, 3))
     width, power = float(imp[2]), max(float(imp[4]), 1.0)
     if ref[0] > 0.0:
@@ -119,9 +132,10 @@ def _softness(ref: Any, imp: Any, w: float, step: float, gravity: float) -> tupl
         k, b = 1.0 / (most * time * float(ref[1])) ** 2, 2.0 / (most * time)
     else:
         k, b = -float(ref[0]) / most**2, -float(ref[1]) / most
-    d, r = least, 0.0
-    for _ in range(50):  # the overlap at which the impedance is that of the overlap
-        r = 0.5 * (r + (1.0 - d) * gravity / (k * d * d))
+    low, high = 0.0, (1.0 - least) * gravity / (k * least * least)
+    d = least
+    for _ in range(BISECTIONS):  # the overlap r at which k d² r/(1 - d) is the load
+        r = 0.5 * (low + high)
         x = min(r / width, 1.0) if width > 0.0 else 1.0
         rise = (
             x**power / middle ** (power - 1.0)
@@ -129,4 +143,5 @@ def _softness(ref: Any, imp: Any, w: float, step: float, gravity: float) -> tupl
             else 1.0 - (1.0 - x) ** power / (1.0 - middle) ** (power - 1.0)
         )
         d = least + (most - least) * rise
+        low, high = (r, high) if k * d * d * r < (1.0 - d) * gravity else (low, r)
     return k * d * d / ((1.0 - d) * w), b * d / gravity

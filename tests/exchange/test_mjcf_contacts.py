@@ -47,6 +47,39 @@ def test_the_pairs_are_those_that_masks_parents_and_exclusions_leave(path):
     assert any("contact" in each for each in apart.data["left_out"])
 
 
+SOFT = """<mujoco><worldbody><geom name="ground" type="plane" size="5 5 1"/><body name="stool" pos="0 0 0.0"><freejoint/>
+<geom name="seat" type="box" size=".2 .2 .02" pos="0 0 .3" mass="8" contype="0" conaffinity="0"/>
+<body name="one" pos=".2 .2 .03"><joint axis="0 1 0" stiffness="500" damping="5" frictionloss="0.3"/>
+<geom name="a" size=".03" mass="0.2"/></body>
+<body name="two" pos="-.2 .2 .03"><joint axis="0 1 0" stiffness="500" damping="5"/><geom name="b" size=".03" mass="0.2"/></body>
+<body name="three" pos=".2 -.2 .03"><joint axis="0 1 0" stiffness="500" damping="5"/><geom name="c" size=".03" mass="0.2"/></body>
+<body name="four" pos="-.2 -.2 .03"><joint axis="0 1 0" stiffness="500" damping="5"/><geom name="d" size=".03" mass="0.2"/></body>
+</body></worldbody></mujoco>""".replace('<geom name="', '<geom solimp="0.015 1 0.023" priority="1" name="').replace(
+    "0 0 0.0", "0 0 -.02"
+)
+
+
+def test_soft_feet_sink_as_in_mujoco_under_their_share_and_a_model_inside_the_ground_is_raised(tmp_path):
+    """The impedance of these feet grows from 0.015 to 1 over 23 mm: what they sink depends on the load. Friction of a joint gives way at
+    R loss/b, R = 0.1/0.9 of the inverse weight and b = 2/(0.95 · 0.02 s)."""
+    (tmp_path / "stool.xml").write_text(SOFT, encoding="utf-8")
+    model = mj.MjSpec.from_file(str(tmp_path / "stool.xml")).compile()
+    data = mj.MjData(model)
+    data.qpos[2] = 0.0
+    for _ in range(int(3.0 / model.opt.timestep)):
+        mj.mj_step(model, data)
+    machine = nivel.import_model(tmp_path / "stool.xml", contacts="floor")
+    friction = next(each for each in machine.record.forces if each.type == "friction")
+    assert friction.transition_speed == pytest.approx(0.3 * model.dof_invweight0[6] / 9.0 * 0.95 * 0.02 / 2.0, rel=1e-5)
+    contacts = [each for each in machine.record.forces if each.type == "contact"]
+    assert len(contacts) == 4
+    weight = 9.81 * float(sum(model.body_mass))
+    sunk = weight / sum(each.stiffness for each in contacts)
+    assert sunk == pytest.approx(0.0 - data.qpos[2], rel=0.1)
+    start = next(body.position[2] for body in machine.record.bodies if body.name == "stool")
+    assert start == pytest.approx(-0.5 * sunk, rel=1e-4)
+
+
 def test_the_table_carries_its_weight_and_sinks_as_in_mujoco(path):
     """Both rest: the forces are the weight, and the depths agree within the range of the impedance of MuJoCo, 0.9 to 0.95."""
     model = mj.MjSpec.from_file(str(path)).compile()

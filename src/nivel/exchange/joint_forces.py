@@ -13,6 +13,7 @@ STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
 RESTITUTION: Final = 0.2
 LARGEST: Final = 1e6  # [rad or m] an end of the way beyond this is none
 
+CREEPS: Final = "friction of a joint is dry friction that gives way as slowly as that of the model"
 STOPS: Final = f"limits are stops: their stiffness lets what the joint moves vibrate at {STOP_FREQUENCY:g} Hz, restitution {RESTITUTION:g}"
 FRICTION: Final = "friction of a joint is dry friction with sticking, of the same effort in both directions"
 ENDS: Final = f"limits of tendons are springs, with which what they move vibrates at {STOP_FREQUENCY:g} Hz"
@@ -47,11 +48,16 @@ def forces_of(each: Connection, names: Names, effective: float, mechanism: Mecha
             **given,
         }
     if each.friction > 0.0:
-        out["friction"] = {"type": "friction", "coordinate": coordinate, "model": "stiction", "coefficient": 1.0}
+        law = (
+            {"model": "coulomb", "transition_speed": float(f"{each.creep:.6g}")}
+            if each.creep
+            else {"model": "stiction"}
+        )
+        out["friction"] = {"type": "friction", "coordinate": coordinate, **law, "coefficient": 1.0}
         out["friction"] |= {"normal_load": number(each.friction)} | (
             {"radius": 1.0} if each.coordinate == "angle" else {}
         )
-        notes.change(FRICTION, each.name, each.line)
+        notes.change(CREEPS if each.creep else FRICTION, each.name, each.line)
     if each.effort is not None and 0.0 < each.effort < LARGEST:
         notes.leave(EFFORT, f"{each.name} {each.effort:g} {'N m' if each.coordinate == 'angle' else 'N'}", each.line)
     return out

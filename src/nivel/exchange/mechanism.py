@@ -94,7 +94,8 @@ class Connection:
 
     lower, upper : ends of its way. mimic : name of another joint, factor and offset. follows : name of another joint, and factors a of
     q = reference + a₀ + a₁ d + a₂ d² + …, d the way of that from its own `reference`. stiffness, free : of a spring. armature : inertia of
-    a rotor at the coordinate [kg m² or kg]. start : of the coordinate. frames : in both links, which an open joint brings together.
+    a rotor at the coordinate [kg m² or kg]. creep : rate at which friction holds no more, 0 where it sticks. start : of the coordinate.
+    frames : in both links, which an open joint brings together.
     """
 
     name: str
@@ -107,6 +108,7 @@ class Connection:
     effort: float | None = None
     damping: float = 0.0
     friction: float = 0.0
+    creep: float = 0.0
     stiffness: float = 0.0
     free: float = 0.0
     armature: float = 0.0

@@ -27,7 +27,7 @@ from nivel.exchange.mechanism import (
     Tendon,
     Terms,
 )
-from nivel.exchange.mjcf_contacts import read_contacts
+from nivel.exchange.mjcf_contacts import CLIP, read_contacts
 from nivel.exchange.mjcf_equalities import read_equalities, terms_of
 from nivel.exchange.urdf import digits
 from nivel.extras import needed, require
@@ -281,6 +281,7 @@ class _Reader:
             joint.stiffness, joint.free = float(m.jnt_stiffness[j]), float(m.qpos_spring[q])
         if "friction" not in self.off:
             joint.friction = float(m.dof_frictionloss[v])
+            joint.creep = joint.friction * self._compliance(v)
         if "limits" not in self.off and m.jnt_limited[j]:
             joint.lower, joint.upper = map(float, m.jnt_range[j])
         curved = [getattr(m, key, None) for key in ("jnt_stiffnesspoly", "dof_dampingpoly")]
@@ -288,6 +289,14 @@ class _Reader:
             if poly is not None and np.any(poly[k]):
                 notes.leave("parts of springs and dampers that are not linear", name, acts=True)
         return joint
+
+    def _compliance(self, v: int) -> float:
+        """Rate by effort of friction, R/b: with f = -(b/R) v, R = (1 - d)/d of the inverse weight, MuJoCo holds what does not move."""
+        m = self.m
+        least, most = (min(max(float(each), CLIP), 1.0 - CLIP) for each in m.dof_solimp[v][:2])
+        given = float(m.dof_solref[v][0])
+        b = 2.0 / (most * max(given, 2.0 * float(m.opt.timestep))) if given > 0.0 else -float(m.dof_solref[v][1]) / most
+        return (1.0 - least) / least * float(m.dof_invweight0[v]) / b if b > 0.0 else 0.0
 
     def _look(self, g: int, name: str) -> Look | None:
         if self.m.geom_group[g] >= SHOWN_GROUPS:

@@ -28,7 +28,7 @@ from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.body_files import KEY as MASS_PROPERTIES
-from nivel.files.outline import FILE_WORDS, TOP_WORDS
+from nivel.files.outline import FILE_WORDS, SETS, TOP_WORDS
 from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.files.writer import write_machine
 from nivel.integrate.catalogue import INTEGRATORS
@@ -214,7 +214,7 @@ def test_every_section_is_described():
     assert MASS_PROPERTIES in first_column("Bodies")
     assert ROTOR_INERTIA in first_column("Joints")
     assert {*FILE_WORDS, MASS_PROPERTIES, "python"} == first_column("Several files")
-    assert {"format", "parameters", "functions", *field_words(MachineRecord)} == set(TOP_WORDS)
+    assert {"format", "parameters", "functions", *SETS, *field_words(MachineRecord)} == set(TOP_WORDS)
 
 
 def test_every_type_is_described():

@@ -5,14 +5,19 @@ import pytest
 from nivel import Beam, Body, Joint, MachineRecord, Sensor, SimulationSettings
 from nivel.elements.forces import FORCES
 from nivel.files import schema
-from nivel.files.outline import FILE_WORDS
+from nivel.files.outline import FILE_WORDS, SETS
 from nivel.machine.bodies.shape import Box
 from nivel.machine.core.record import field_words
 from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
 SCHEMA = schema()
-OF_FILES = {"Body": {"mass_properties"}, "Joint": {"rotor_inertia"}}  # keys that only files have
+OF_FILES = {
+    "Body": {"mass_properties"},
+    "Joint": {"rotor_inertia"},
+    "Tyre": {"tyre", "ground"},
+    "Contact": {"ground"},
+}  # keys that only files have
 
 
 def definition(record):
@@ -22,7 +27,14 @@ def definition(record):
 
 
 def test_sections_are_mappings_by_name():
-    assert set(SCHEMA["properties"]) == {"format", "parameters", "functions", *FILE_WORDS, *MachineRecord.model_fields}
+    assert set(SCHEMA["properties"]) == {
+        "format",
+        "parameters",
+        "functions",
+        *FILE_WORDS,
+        *SETS,
+        *MachineRecord.model_fields,
+    }
     assert SCHEMA["required"] == ["format"]
     for section in SECTIONS:
         assert SCHEMA["properties"][section]["type"] == ["object", "null"]

@@ -17,9 +17,10 @@ from nivel.machine.uses.references import SECTIONS
 
 FORMAT: Final = 1
 VALUES: Final = ("parameters", "functions")  # sections of what has no keys of its own
-TOP_WORDS: Final = ("format", *VALUES, *field_words(MachineRecord))
+SETS: Final = {"tyres": "tyre", "ground": "ground"}  # sections of keys that forces share, and the key that names one
+TOP_WORDS: Final = ("format", *VALUES, *SETS, *field_words(MachineRecord))
 FILE_WORDS: Final = ("include", "assemblies")  # words of files that a record does not have
-NAMED: Final = (*SECTIONS, *VALUES, "assemblies")  # what maps names to something
+NAMED: Final = (*SECTIONS, *VALUES, *SETS, "assemblies")  # what maps names to something
 ABOUT: Final = ("name", "description")  # what a file says about itself
 WHOLE: Final = tuple(word for word in field_words(MachineRecord) if word not in (*SECTIONS, *ABOUT))
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from nivel.files.body_files import KEY as MASS_PROPERTIES
 from nivel.files.include import Include
-from nivel.files.outline import FORMAT
+from nivel.files.outline import FORMAT, SETS
 from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.lazy import nivel
 from nivel.machine.core.record import Record
@@ -33,6 +33,15 @@ def schema() -> dict[str, Any]:
         "anyOf": [*_QUANTITY["anyOf"], {"type": "object", "additionalProperties": _QUANTITY}],
         "description": "inertia of what turns with the coordinate, such as the rotor of a motor times its squared gear ratio",
     }
+    tyre, contact = (definitions[name] for name in ("Tyre", "Contact"))
+    shared = {
+        "tyres": {word: each for word, each in tyre["properties"].items() if word not in ("name", "type", "wheel")},
+        "ground": {word: tyre["properties"][word] for word in ("plane", "heights", "grip")},
+    }
+    for section, key in SETS.items():
+        for force in (tyre,) if section == "tyres" else (tyre, contact):
+            force["properties"][key] = {"type": "string", "description": f"an entry of `{section}`, whose keys it has"}
+    tyre["required"] = ["wheel"]
     named = set()
     for section in SECTIONS:
         items = properties[section].pop("items")
@@ -65,6 +74,14 @@ def schema() -> dict[str, Any]:
             "type": ["object", "null"],
             "additionalProperties": assembly,
             "description": "parts that stand in files of their own",
+        },
+        **{
+            section: {
+                "type": ["object", "null"],
+                "additionalProperties": {"type": "object", "properties": words, "additionalProperties": False},
+                "description": f"keys that several forces share, by the key `{SETS[section]}`",
+            }
+            for section, words in shared.items()
         },
         **properties,
     }

@@ -103,7 +103,7 @@ class HeightField(Checked):
     points: TwoNumbers[Whole] = Field(
         default=POINTS, description="of a `function` or of `roughness` alone: numbers of heights along x and along y"
     )
-    roughness: Maybe[Literal["A", "B", "C", "D", "E", "F", "G", "H"]] = Field(
+    roughness: Literal["A", "B", "C", "D", "E", "F", "G", "H"] | None = Field(
         default=None, description="class of ISO 8608 of what is added to the heights along every line"
     )
     seed: Whole = Field(default=1, description="of the `roughness`: another number is another road of the same class")

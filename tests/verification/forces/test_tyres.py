@@ -213,6 +213,14 @@ def test_wheels_on_ice_slide_where_it_lies():
     assert run.array("angular_velocity")[-1, 0, 2] < -0.1
 
 
+def test_a_load_beyond_the_curves_is_amber():
+    """A sled that weighs 2.5 times as much as at rest bears more than twice the nominal load."""
+    for gravity, verdict in (((0, 0, -G), "green"), ((0, 0, -2.5 * G), "amber")):
+        run = sled(gravity=gravity, duration=0.1).simulate(verify=False)
+        lines = [item for item in run.trust.items if item.name == "laden"]
+        assert [item.verdict for item in lines] == ([verdict] * 4 if verdict == "amber" else [])
+
+
 SIDE, FRONT, REAR, YAW, SPEED, STEERED = 1600.0, 1.2, -1.5, 2000.0, 20.0, 2e-4  # kg, m, m, kg m², m/s, rad
 
 

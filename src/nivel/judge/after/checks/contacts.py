@@ -1,4 +1,5 @@
-"""Contacts: bodies that pass through each other within a step, friction that lets bodies creep, and wheels that roll.
+"""Contacts: bodies that pass through each other within a step, friction that lets bodies creep, wheels that roll, and
+loads of tyres.
 
 Of contacts in passing spheres are exact. Of other shapes the convex hulls are looked at, of round ones polyhedra inside them.
 """
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.judge.after.report import FRAMES, STEPS, Check
-from nivel.judge.after.subject import Motion, Run
+from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import (
     DEEP,
     HullPair,
@@ -271,7 +272,43 @@ def _wheel(result: Readable, wheel: str) -> Wheel:
     )
 
 
+LADEN = Threshold(
+    2.0,
+    np.inf,
+    "Largest load of a tyre as a share of its nominal load. Its curves are given up to twice that. Up to three times they are "
+    "extrapolated, and with more load the grip stays.",
+)
+
+
+@dataclass(frozen=True)
+class Laden:
+    """The largest load of a tyre by its nominal load, and when [s]."""
+
+    tyre: str
+    share: float
+    time: float
+
+
+def look_at_loads(subject: Run | Equilibria) -> list[Laden]:
+    """Every tyre."""
+    out = []
+    for force in subject.machine.forces:
+        if force.type == "tyre":
+            load = subject.result.array(f"force.{force.name}.magnitude") / force.nominal_load
+            k = int(np.argmax(load))
+            out.append(Laden(force.name, float(load[k]), float(subject.result.time[k])))
+    return out
+
+
+def say_load(found: Laden) -> Item:
+    """How much it bears, and what is known of it there."""
+    bears = f"{found.tyre} bears {number(found.share)} times its nominal load at t = {found.time:.6g} s"
+    text = f"Tyres: {bears}, and its curves are given up to twice"
+    return LADEN.item("laden", text, found.share, found.time, found.tyre)
+
+
 CHECKS = (
+    Check("laden", (Run, Equilibria), look_at_loads, say_load, 227, (FRAMES,), "Tyres", LADEN, quiet=True),
     Check("contact", Run, look_for_passing, say_passing, 220, (STEPS,), "Contact", blind="their steps pass {row}"),
     Check("creep", Run, look_at_creep, say_creep, 225, (FRAMES,), "Contact", CREEP, quiet=True),
     Check("rolling", Motion, look_at_wheels, say_wheel, 420, (FRAMES,), "Rolling"),

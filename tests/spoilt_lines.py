@@ -49,6 +49,10 @@ NAMED = [
     Spoilt("table: its slope", "kernels/record/function.py", "c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]),",
              "c[1] + s * (2.0 * c[2] + 2.0 * s * c[3]),",
              ("machine/test_time_functions.py", *verification("drivers", "laws"))),
+    Spoilt("tyre: force at the loaded radius", "elements/forces/tyre.py", "r * fr + (loaded - r) * fx + lean * fy",
+             "r * fr + lean * fy", verification("tyres")),
+    Spoilt("tyre: its curve before the peak", "elements/forces/tyre.py", "1.0 + n * (n + slope * s_m / f_m - 2.0)",
+             "1.0 + n * (n + slope * s_m / f_m - 1.9)", verification("tyres")),
     # constraints
     Spoilt("coincident points: their acceleration", "kernels/bodies/constraint.py", "markers.bias[i, x] - markers.bias[j, x]",
              "markers.bias[i, x] + markers.bias[j, x]", verification("joints")),

@@ -123,6 +123,8 @@ def round_pair(first, second, apart, contact=CONTACT):
 
 TYRE = {"type": "tyre", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "plane": "floor", "radius": 0.3, "width": 0.2, "nominal_load": 60,
         "stiffness": 900, "damping": 3, "along": {"stiffness": 700, "damping": 4}, "across": {"stiffness": 500, "damping": 4}}  # fmt: skip
+# slips at which this one rolls
+ROLLS = {way: {**TYRE[way], "peak_slip": [4, 4.5], "sliding_slip": [20, 22]} for way in ("along", "across")}
 LEVER = {"range": [-1, 1], "signal": {"times": [0, 1], "values": [0.1, 0.5]}}
 CASES = {
     "spring": Case({"type": "spring-damper", **BETWEEN, "stiffness": 80, "free_length": 0.3, "damping": 2, "preload": 5}),
@@ -281,7 +283,7 @@ CASES = {
     "rope with friction, winch": Case({"type": "rope", "markers": ["tip", {"body": "wheel"}, "far", "eye"], "radii": [0, 0.05, -0.08, 0],
                                        "stiffness": 60, "damping": 2, "length": 0.8, "speed": "0.3*lever.value", "friction": 0.02},
                                       more={"inputs": {"lever": LEVER}}),
-    "tyre": Case(TYRE, ("c", "", [-0.5, 0.9, 0.1]), True),
+    "tyre": Case({**TYRE, **ROLLS}, ("c", "", [-0.5, 0.9, 0.1]), True),
     "tyre on a body": Case({**TYRE, "plane": "eye", "grip": 0.5}, ("c", "b", [0.05, 0.02, 0.15]), True),
     "tyre on heights": Case({**TYRE, "heights": HILLS, "grip": "0.6 + 0.3*sin(x + 2*y + time)"}, ("c", "", [-0.5, 0.9, 0.4]), True),
     "tyre, off the ground": Case(TYRE, ("c", "", [-0.5, 0.9, 1.4]), False),

@@ -18,10 +18,10 @@ from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
 from nivel.files.convex_parts import divide_heaps, divide_meshes
 from nivel.files.csv_tables import read_csv_tables
-from nivel.files.height_file import read_heights
+from nivel.files.height_file import read_heights, spread_sets
 from nivel.files.include import include
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import SETS, VALUES, Known, as_part, check_sections, check_start, section_of
+from nivel.files.outline import VALUES, Known, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
@@ -121,8 +121,7 @@ def _tree_of(
     if user is not None:
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
         nivel.files.assembly.given_parameters(tree, *user)
-    if any(section in tree.data for section in SETS):
-        nivel.files.shared_sets.spread_sets(tree)
+    spread_sets(tree)
     add_rotors(tree)
     read_meshes(tree, sources)
     divide_meshes(tree)

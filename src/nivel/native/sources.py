@@ -43,7 +43,7 @@ def fingerprint(entry: str) -> str:
 
 def look_again() -> None:
     """Forget what was read: files may have changed."""
-    for function in (fingerprint, _imported, outline_of, file_of):
+    for function in (fingerprint, _imported, _content, _own_file, outline_of, file_of):
         function.cache_clear()
 
 
@@ -61,7 +61,7 @@ def parts(entry: str) -> dict[str, bytes]:
         seen.add(need)
         if _is_whole(need.module):
             if need.module not in out:
-                out[need.module] = file.read_bytes()
+                out[need.module] = _content(file)
                 to_read += _imported(file)
         elif not need.name or file_of(f"{need.module}.{need.name}") is None:
             texts, needs = outline_of(file).definition(need)
@@ -95,9 +95,15 @@ def _is_own(package: str) -> bool:
     return not any(Path(sysconfig.get_path(each)) in path.parents for each in ("stdlib", "platstdlib"))
 
 
+@cache
 def _own_file(module: str) -> Path | None:
     """The file of a module; None for what is none, compiled, of Python or installed."""
     return file_of(module) if _is_own(module.partition(".")[0]) else None
+
+
+@cache
+def _content(path: Path) -> bytes:
+    return path.read_bytes()
 
 
 @cache
@@ -105,7 +111,7 @@ def _imported(path: Path) -> tuple[Need, ...]:
     """What a module of a whole room imports."""
     needs: list[Need] = []
     # parsing all of nivel would take a third of a second
-    for package, what, plain in _IMPORT.findall(path.read_text(encoding="utf-8")):
+    for package, what, plain in _IMPORT.findall(_content(path).decode()):
         names = _NAME.findall(_COMMENT.sub("", what))
         needs += [Need(plain)] if plain else [need for name in names for need in either(Need(package, name))]
     return tuple(needs)

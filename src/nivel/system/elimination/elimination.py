@@ -71,33 +71,32 @@ def plan(rows: Sequence[Sequence[int]], block_row: Sequence[int], block_body: Se
 @lru_cache(maxsize=8)
 def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ...]) -> Elimination:
     count = sum(len(group) for group in rows)
-    group_of = np.empty(count, dtype=int)
-    for g, group in enumerate(rows):
-        group_of[list(group)] = g
+    group_of = {row: g for g, group in enumerate(rows) for row in group}
     of_body: dict[int, list[int]] = {}
     for block, body in enumerate(block_body):
         of_body.setdefault(body, []).append(block)
     neighbours: list[set[int]] = [set() for _ in rows]
     for blocks in of_body.values():
-        around = {int(group_of[block_row[block]]) for block in blocks}
+        around = {group_of[block_row[block]] for block in blocks}
         for g in around:
             neighbours[g] |= around - {g}
     order = [row for g in minimum_degree([len(group) for group in rows], neighbours) for row in rows[g]]
-    position = np.empty(count, dtype=int)
-    position[order] = np.arange(count)
+    position = {row: k for k, row in enumerate(order)}
+    at = [position[row] for row in block_row]
 
     columns: list[set[int]] = [{k} for k in range(count)]
     pairs: list[tuple[int, int, int, int]] = []
     for blocks in of_body.values():
         for n, a in enumerate(blocks):
             for b in blocks[: n + 1]:
-                low, high = sorted((int(position[block_row[a]]), int(position[block_row[b]])))
+                low, high = (at[a], at[b]) if at[a] < at[b] else (at[b], at[a])
                 columns[high].add(low)
                 pairs.append((high, low, a, b))
                 if a != b and high == low:
                     pairs.append((high, low, b, a))  # a row that touches a body twice
-    S_start, S_row = _compressed([sorted(column) for column in columns])
-    entry = {(k, int(S_row[p])): p for k in range(count) for p in range(S_start[k], S_start[k + 1])}
+    S_start, S_row = _compressed(in_order := [sorted(column) for column in columns])
+    places = ((k, row) for k, column in enumerate(in_order) for row in column)
+    entry = {place: number for number, place in enumerate(places)}
     pair = sorted((entry[high, low], a, b) for high, low, a, b in pairs)
     P = _row_patterns(columns)
     L_columns: list[list[int]] = [[] for _ in range(count)]
@@ -105,7 +104,7 @@ def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ..
         for j in pattern:
             L_columns[j].append(k)
     L_start, L_row = _compressed(L_columns)
-    filled = L_start[:-1].astype(int)
+    filled = L_start[:-1].tolist()
     P_entry = []
     for pattern in P:
         for j in pattern:

@@ -19,14 +19,12 @@ from scipy.special import ellipj
 
 import nivel
 from lanes import tail
-from nivel import MachineRecord
 from nivel.elements.circuits import COMPONENTS
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.tanks import Volume, volume_nodes
 from nivel.elements.forces import FORCES
+from nivel.elements.joints import JOINTS
 from nivel.looks.circuit.drawing import circuit_diagram
-from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS, Joint
-from nivel.system.joints.joints import JOINTS, register_joint
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
@@ -57,13 +55,6 @@ def cart(folder):
     del sys.modules["maxwell"]
     # other tests speak of the package's own forces
     FORCES.withdraw("maxwell")
-
-
-def withdraw_words(word):
-    """Let no machine have a type of joint any longer."""
-    del JOINT_WORDS[word], JOINT_COORDINATES[word]
-    Joint.model_fields["type"].annotation = Literal[*JOINT_WORDS]
-    Joint.model_rebuild(force=True)
 
 
 @pytest.fixture(scope="module")
@@ -115,9 +106,8 @@ def seat(folder):
     """The same with the joint of the page."""
     importlib.import_module("parallel_cranks")
     yield nivel.load(folder / "swing_seat.yaml")
-    del sys.modules["parallel_cranks"], JOINTS["parallel-cranks"]
-    withdraw_words("parallel-cranks")
-    MachineRecord.model_rebuild(force=True)
+    del sys.modules["parallel_cranks"]
+    JOINTS.withdraw("parallel-cranks")
 
 
 def test_the_joint_of_the_page_is_a_pendulum_in_all_coordinates(seat):
@@ -185,9 +175,7 @@ def test_the_joint_of_the_page_has_its_sign_and_convention(seat, tmp_path):
 
 def test_a_joint_outside_the_package_is_checked(seat):
     with pytest.raises(ValueError, match="already"):
-        register_joint(JOINTS["parallel-cranks"], JOINT_WORDS["parallel-cranks"])
-    with pytest.raises(ValueError, match="coordinates"):
-        register_joint(replace(JOINTS["parallel-cranks"], type="other"), JOINT_WORDS["spherical"])
+        JOINTS.register(JOINTS["parallel-cranks"])
     with pytest.raises(nivel.ModelError, match=r"needs two, one on each body|`points`"):
         nivel.Joint(name="j", type="parallel-cranks", bodies=("ground", "seat"), point=(0, 0, 0))
 

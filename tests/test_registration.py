@@ -15,6 +15,7 @@ from nivel.cli.run import command as run_command
 from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
+from nivel.elements.joints import JOINTS
 from nivel.integrate.catalogue import FAMILIES, INTEGRATORS, all_facts
 from nivel.integrate.stabilise import STABILISATIONS
 from nivel.judge.after.report import every_check
@@ -22,12 +23,10 @@ from nivel.judge.during.failure import FAILURES
 from nivel.judge.during.stop import Status
 from nivel.kernels.core import status
 from nivel.lazy import PLACES, provided
-from nivel.machine.joints.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import known_words
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.native.entry import Entry
-from nivel.system.joints.joints import JOINTS
 from settings_keywords import kind_of
 
 
@@ -44,10 +43,12 @@ def test_help_lists_the_words_that_a_file_may_name(setting):
     assert tuple(option.words) == known_words(setting)
 
 
-def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
-    assert set(get_args(JointType)) == set(JOINTS)
-    for name, joint in JOINTS.items():
-        assert tuple(coordinate.name for coordinate in joint.composition.coordinates) == JOINT_COORDINATES[name]
+def test_joints_are_found_by_their_words_without_being_imported():
+    assert set(JOINTS) == set(JOINTS.homes)
+    script = "import sys; from nivel.elements.joints import JOINTS; JOINTS['revolute']; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
+    assert "nivel.elements.joints.in_trees" in loaded
+    assert not {"numba", "nivel.elements.joints.constraints", "nivel.machine.machine_record"} & {*loaded}
 
 
 def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():

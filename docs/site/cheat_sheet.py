@@ -6,6 +6,7 @@ import re
 from html import escape
 from typing import Any
 
+from nivel.elements.joints import JOINTS
 from reference import kind_of, parts_of, read_before, sections
 
 ENDS = ("markers", "bodies", "points")
@@ -55,10 +56,9 @@ def _block(section: str, records: list[type]) -> str:
 
 def _joints(record: Any) -> str:
     """Joints by type: what places them, what size they need, and their coordinates."""
-    from nivel.machine.joints.joint import JOINT_WORDS
 
     lines = []
-    for name, kind in JOINT_WORDS.items():
+    for name, kind in JOINTS.items():
         given = " ".join(f"<b>{key}</b>" for key in (*kind.place, *kind.size))
         more = " ".join(kind.may_size)
         found = f" → {' '.join(kind.coordinates)}" if kind.coordinates else ""

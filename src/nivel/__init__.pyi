@@ -32,6 +32,13 @@ from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
 from nivel.elements.forces.springs import SpringDamper as SpringDamper
 from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
+from nivel.elements.joints.couplings import Belt as Belt
+from nivel.elements.joints.couplings import FunctionCoupling as FunctionCoupling
+from nivel.elements.joints.couplings import Gear as Gear
+from nivel.elements.joints.couplings import LinearCoupling as LinearCoupling
+from nivel.elements.joints.couplings import Rack as Rack
+from nivel.elements.joints.drivers import Driver as Driver
+from nivel.elements.joints.joint import Joint as Joint
 from nivel.errors import ModelError as ModelError
 from nivel.errors import NivelError as NivelError
 from nivel.errors import SolveError as SolveError
@@ -42,13 +49,6 @@ from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
 from nivel.machine.core.marker import Marker as Marker
 from nivel.machine.forces.contact import Contact as Contact
-from nivel.machine.joints.coupling import Belt as Belt
-from nivel.machine.joints.coupling import FunctionCoupling as FunctionCoupling
-from nivel.machine.joints.coupling import Gear as Gear
-from nivel.machine.joints.coupling import LinearCoupling as LinearCoupling
-from nivel.machine.joints.coupling import Rack as Rack
-from nivel.machine.joints.driver import Driver as Driver
-from nivel.machine.joints.joint import Joint as Joint
 from nivel.machine.laws.time_function import Expression as Expression
 from nivel.machine.laws.time_function import PythonLaw as PythonLaw
 from nivel.machine.laws.time_function import Table as Table

@@ -15,6 +15,9 @@ from nivel.analysis.progress.log import Listener
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.forces import Force
+from nivel.elements.joints.couplings import Coupling
+from nivel.elements.joints.drivers import Driver
+from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
@@ -24,9 +27,6 @@ from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.control.block import Block
 from nivel.machine.core.marker import Marker
-from nivel.machine.joints.coupling import Coupling
-from nivel.machine.joints.driver import Driver
-from nivel.machine.joints.joint import Joint
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
@@ -151,7 +151,7 @@ class Machine(Model):
             nivel.analysis.plan.compilation.preparation_entries(plan.methods), listener
         )
         with self._faults_in_file():
-            place = partial(nivel.system.joints.joint_frames.as_placed, self.record)
+            place = partial(nivel.system.joint_frames.as_placed, self.record)
             ropes = [finding.fault for finding in nivel.judge.before.unusual.stretched_ropes(self.record, place)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
             return replace(

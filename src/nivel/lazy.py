@@ -135,6 +135,7 @@ if TYPE_CHECKING:
     import nivel.elements.circuits.actuators
     import nivel.elements.circuits.chambers
     import nivel.elements.forces.ropes
+    import nivel.elements.joints
     import nivel.exchange
     import nivel.exchange.gltf_writer
     import nivel.exchange.mjcf_writer
@@ -222,8 +223,7 @@ if TYPE_CHECKING:
     import nivel.system.circuit_elements
     import nivel.system.circuit_tangent
     import nivel.system.elimination.topology
-    import nivel.system.joints.joint_frames
-    import nivel.system.joints.joints
+    import nivel.system.joint_frames
     import nivel.system.signals.c_instance
     import nivel.system.signals.fmu_instance
     import nivel.system.signals.own_process

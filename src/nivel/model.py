@@ -12,6 +12,9 @@ from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
+from nivel.elements.joints.couplings import Coupling
+from nivel.elements.joints.drivers import Driver
+from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError
 from nivel.files.outline import Known
 from nivel.files.reader import Origin
@@ -29,9 +32,6 @@ from nivel.machine.changes import changed
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry
-from nivel.machine.joints.coupling import Coupling
-from nivel.machine.joints.driver import Driver
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.signals.event import Event

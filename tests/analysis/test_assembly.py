@@ -9,9 +9,9 @@ import machines
 from nivel import AssemblySettings, Body, Joint, MachineRecord, Marker
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.kind import Combination
 from nivel.errors import ModelError
-from nivel.system.joints.composition import Combination
-from nivel.system.joints.joints import JOINTS
 
 pytestmark = pytest.mark.covering
 
@@ -80,7 +80,7 @@ def _by_markers(machine):
 
 
 def _as_marker(machine, side):
-    from nivel.system.joints.joint_frames import joint_frames
+    from nivel.system.joint_frames import joint_frames
 
     body, point, axes = joint_frames(machine, machine.joints[0])[side]
     return Marker(body=body, position=tuple(point), orientation={"matrix": axes.tolist()})

@@ -8,9 +8,9 @@ from checking import check
 from nivel import Body, MachineRecord, SimulationSettings
 from nivel.analysis.plan.choice import _absolute_cost, _relative_cost, choose_coordinates
 from nivel.analysis.plan.settings import complete
+from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.system.joints.joints import JOINTS
 
 
 def test_facts_of_the_slider_crank():

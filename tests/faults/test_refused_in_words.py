@@ -12,11 +12,11 @@ from click.testing import CliRunner
 
 from nivel import Body
 from nivel.cli import main
+from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError, SolveError
 from nivel.judge.before.unusual import remarks
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import surface_text
-from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from simulating import hinge, machine, solid
@@ -70,11 +70,11 @@ def joint(kind):
         "locked": ["x", "y", "rx"],
         "radius": 0.3,
     }
-    facts = JOINT_WORDS[kind]
+    facts = JOINTS[kind]
     return {"type": kind, "bodies": ["ground", "a"], **{key: keys[key] for key in (*facts.place, *facts.size)}}
 
 
-PLACED = [kind for kind, facts in JOINT_WORDS.items() if not facts.rail]
+PLACED = [kind for kind, facts in JOINTS.items() if not facts.rail]
 COUPLINGS = {
     "gear": {"type": "gear", "ratio": 2},
     "belt": {"type": "belt", "radii": [1, 2]},
@@ -93,8 +93,8 @@ def coupled(kind, coupling, reference):
 
 @pytest.mark.parametrize(("kind", "coupling"), list(itertools.product(PLACED, COUPLINGS)))
 def test_a_coupling_takes_a_joint_with_one_coordinate_of_its_kind(kind, coupling):
-    names = JOINT_COORDINATES[kind]
-    held = JOINT_WORDS[kind].held
+    names = JOINTS[kind].coordinates
+    held = JOINTS[kind].held
     right = [COORDINATE_KINDS[name] for name in names if name not in held] == [
         "length" if coupling == "rack" else "angle"
     ]

@@ -8,9 +8,9 @@ from pydantic import BaseModel
 
 from nivel import Body, Driver, Expression, Joint, Marker, PointForce, PythonLaw, Sensor, Table
 from nivel.elements.forces import FORCES
+from nivel.elements.joints.couplings import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.files import read_machine
 from nivel.files.substitution import MENTIONS, NotRepresentableError, renamed
-from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
 RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, FunctionCoupling, Driver, *FORCES.records, Sensor)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from nivel import Body, Joint, Marker, PointForce
+from nivel.elements.joints import JOINTS
 from nivel.files import parse_machine
 from nivel.files.placed import placed
 from nivel.files.placement import Placement, Scene
@@ -12,7 +13,6 @@ from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.orientation import Orientation, matrix_from_euler_parameters, rotation_matrix
 from nivel.machine.core.placement import frame_from_axes, initial_velocity, marker_frame, placement
 from nivel.machine.core.record import GROUND
-from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.uses.references import SECTIONS
 
 pytestmark = pytest.mark.covering
@@ -86,9 +86,9 @@ NO_AXES = (
 )  # where they are placed by points
 WITH_AXES = [
     (kind, by)
-    for kind in JOINT_WORDS
+    for kind in JOINTS
     for by in ("points", "markers")
-    if not JOINT_WORDS[kind].rail and (by == "markers" or kind not in NO_AXES)
+    if not JOINTS[kind].rail and (by == "markers" or kind not in NO_AXES)
 ]
 
 
@@ -99,11 +99,11 @@ def joint_of(kind, by):
         first = Marker(body="a", position=(0.1, 0.2, 0.3), axis=(1, 2, 0.5), x_axis=(0.3, 0, 1))
         second = Marker(body="b", position=(-0.1, 0.2, 0), orientation=Orientation(euler=(1, 2, 3), sequence="xyz"))
         return Joint(name="j", type=kind, markers=(first, second), **size)
-    axes = ((0, 1, 0.2), (1, 0, 0)) if JOINT_WORDS[kind].axes == "perpendicular" else ((0, 1, 0.2), (1, 0.3, 0))
+    axes = ((0, 1, 0.2), (1, 0, 0)) if JOINTS[kind].axes == "perpendicular" else ((0, 1, 0.2), (1, 0.3, 0))
     if kind == "translational-universal":
         axes = ((0.3, 0, -0.2), (0.2, 1, 0.3))  # the first across the way
     given = {"point": (0.4, 0, 0.1), "points": ((0.4, 0, 0.1), (1, 2, 0)), "axis": (0.2, 1, 0.3), "axes": axes}
-    return Joint(name="j", type=kind, bodies=("a", "b"), **{key: given[key] for key in JOINT_WORDS[kind].place}, **size)
+    return Joint(name="j", type=kind, bodies=("a", "b"), **{key: given[key] for key in JOINTS[kind].place}, **size)
 
 
 def ends(joint):
@@ -159,7 +159,7 @@ def test_joints_keep_the_meaning_of_their_coordinates(kind, by, placing, rng):
     images = [(np.array(placing.point(r)), placing.polar @ axes * placing.reflection) for r, axes in poses]
     values, rows = coordinates(joint, bodies, poses)
     of_image, its_rows = coordinates(made["joints"][0], made["bodies"], images)
-    for name in JOINT_WORDS[kind].coordinates:
+    for name in JOINTS[kind].coordinates:
         opposite = placing.mirrored and kind in ("cylindrical", "screw", "generic") and name == "displacement"
         opposite |= placing.mirrored and kind == "rolling" and name == "y"
         assert of_image[name] == pytest.approx(-values[name] if opposite else values[name], abs=1e-12), name

@@ -4,11 +4,11 @@ import pytest
 
 from nivel import Beam, Body, Joint, MachineRecord, Sensor, SimulationSettings
 from nivel.elements.forces import FORCES
+from nivel.elements.joints.couplings import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.files import schema
 from nivel.files.outline import FILE_WORDS, SETS
 from nivel.machine.bodies.shape import Box
 from nivel.machine.core.record import field_words
-from nivel.machine.joints.coupling import Belt, FunctionCoupling, Gear, LinearCoupling, Rack
 from nivel.machine.uses.references import SECTIONS
 
 SCHEMA = schema()

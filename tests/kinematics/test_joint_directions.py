@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.machine.joints.joint import JOINT_WORDS
+from nivel.elements.joints import JOINTS
 from nivel.system.elimination.topology import carries
 
 # of every joint of a tree that has coordinates: those that are its velocities, where it carries its second body, and its first
@@ -37,7 +37,7 @@ class Chain:
             inertia = tuple(rng.uniform(1.0, 1.4, 3))
             bodies.append(nivel.Body(name=f"b_{kind}", mass=rng.uniform(1, 3), inertia=inertia, position=tuple(at)))
             axes = {"axes": (tuple(z), tuple(np.cross(z, x)))} if kind == "universal" else {"axis": tuple(z)}
-            free = ["angle"] if kind == "screw" else JOINT_WORDS[kind].coordinates
+            free = ["angle"] if kind == "screw" else JOINTS[kind].coordinates
             joints.append(
                 nivel.Joint(
                     name=kind,
@@ -58,7 +58,7 @@ class Chain:
         self.bodies = [body.name for body in bodies]
         self.result = self.machine.simulate(duration="1 us", step="1 us", coordinates="absolute")
         self.mechanics = self.machine.mechanics(coordinates="relative")
-        coordinates = [f"{kind}.{name}" for kind in CARRIED for name in JOINT_WORDS[kind].coordinates]
+        coordinates = [f"{kind}.{name}" for kind in CARRIED for name in JOINTS[kind].coordinates]
         self.value = {name: self.result.array(name)[0] for name in coordinates}
         self.rate = {name: self.result.array(f"{name}.rate")[0] for name in coordinates}
         x, y, angle = (self.value[f"planar.{name}"] for name in ("x", "y", "angle"))
@@ -83,7 +83,7 @@ def chain(backwards):
 
 
 def test_every_joint_of_a_tree_with_coordinates_is_here():
-    assert set(CARRIED) == {kind for kind, words in JOINT_WORDS.items() if words.coordinates and carries(kind)}
+    assert set(CARRIED) == {kind for kind, words in JOINTS.items() if words.coordinates and carries(kind)}
 
 
 def test_positions_and_velocities_have_the_names_and_values_of_the_result(chain, backwards):

@@ -12,10 +12,10 @@ from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.control.units import CBlock, FmuBlock
 from nivel.elements.forces import FORCES
+from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
 from nivel.machine.core.index import SECTIONS
-from nivel.machine.joints.joint import JOINT_COORDINATES
 
 MACHINE = MachineRecord(**EVERYTHING)
 PARTS, PARTS_MISSING = 48, 24
@@ -48,7 +48,7 @@ def test_every_kind_is_in_it():
     }
     assert {coupling.type for coupling in MACHINE.couplings} == {"gear", "belt", "rack", "linear", "function"}
     assert all(getattr(MACHINE, section) for section in SECTIONS)
-    assert {joint.type for joint in MACHINE.joints} <= set(JOINT_COORDINATES)
+    assert {joint.type for joint in MACHINE.joints} <= set(JOINTS)
 
 
 def test_it_comes_back_from_json_and_pickle():

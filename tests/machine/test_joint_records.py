@@ -1,12 +1,11 @@
 """Joints: what each type is placed by, its coordinates and their start."""
 
-from typing import get_args
-
 import pytest
 from refusals import refused
 
 from nivel import Joint
-from nivel.machine.joints.joint import JOINT_COORDINATES, JOINT_WORDS, CoordinateRates, CoordinateValues, JointType
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import CoordinateRates, CoordinateValues
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 
 PAIR = {"bodies": ("crank", "rod")}
@@ -23,34 +22,33 @@ KEYS = {
     "rim_radius": 0.1,
     "x_axis": (1, 0, 0),
 }
-TYPES = get_args(JointType)
-BETWEEN_BODIES = [type_ for type_ in TYPES if not JOINT_WORDS[type_].rail]
+TYPES = tuple(JOINTS)
+BETWEEN_BODIES = [type_ for type_ in TYPES if not JOINTS[type_].rail]
 
 
 def by_points(type_):
-    kind = JOINT_WORDS[type_]
+    kind = JOINTS[type_]
     return {**PAIR, **{key: KEYS[key] for key in (*kind.place, *kind.size)}}
 
 
 def test_facts_are_those_of_all_types():
-    assert set(JOINT_WORDS) == set(JOINT_COORDINATES) == set(TYPES)
-    assert {name for names in JOINT_COORDINATES.values() for name in names} == set(COORDINATE_KINDS)
-    free = {name for kind in JOINT_WORDS.values() for name in kind.coordinates if name not in kind.held}
+    assert {name for kind in JOINTS.values() for name in kind.coordinates} == set(COORDINATE_KINDS)
+    free = {name for kind in JOINTS.values() for name in kind.coordinates if name not in kind.held}
     assert set(CoordinateValues.model_fields) == set(CoordinateRates.model_fields) == free
 
 
 @pytest.mark.parametrize("type_", BETWEEN_BODIES)
 def test_every_joint_can_be_placed_by_markers_and_by_points(type_):
-    kind = JOINT_WORDS[type_]
+    kind = JOINTS[type_]
     assert Joint(name="j", type=type_, **MARKERS, **{key: KEYS[key] for key in kind.size})
     assert Joint(name="j", type=type_, **by_points(type_))
     more = {key: KEYS[key] for key in (*kind.may, *kind.may_size)}
-    assert Joint(name="j", type=type_, **by_points(type_), **more).coordinates == JOINT_COORDINATES[type_]
+    assert Joint(name="j", type=type_, **by_points(type_), **more).coordinates == JOINTS[type_].coordinates
 
 
 @pytest.mark.parametrize("type_", TYPES)
 def test_what_a_joint_needs_must_be_given_and_what_it_has_not_is_refused(type_):
-    kind = JOINT_WORDS[type_]
+    kind = JOINTS[type_]
     given = by_points(type_)
     for key in given:
         rest = {name: value for name, value in given.items() if name != key}

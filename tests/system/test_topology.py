@@ -10,8 +10,8 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
 from nivel import MachineRecord
+from nivel.elements.joints import JOINTS
 from nivel.system.elimination.topology import FREE, Edge, carries, spanning_tree
-from nivel.system.joints.joints import JOINTS
 from nivel.system.states.relative import tree_of
 
 # what carries nothing whatever the tree: links, couplings of two freedoms, points on lines

@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 
 from machines import GRAVITY, random_body
 from nivel import Joint, MachineRecord, Marker, PointForce
+from nivel.elements.joints import JOINTS
 from nivel.system.elimination.topology import carries
-from nivel.system.joints.joints import JOINTS
 from simulating import G, hinge, machine, slide, solid
 
 CARRIERS = tuple(kind for kind in JOINTS if carries(kind))

@@ -4,9 +4,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
-from nivel.machine.joints.joint import JOINT_WORDS
-from nivel.system.joints.joints import JOINTS
-from nivel.system.joints.kinds.constraints import generic
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.constraints import generic
 
 GRAVITY = (0.0, -9.81, 0.0)
 
@@ -29,7 +28,7 @@ def random_body(name, rng, *, centre=True):
 
 
 PARALLEL_LINK = "revolute-cylindrical, parallel"
-BETWEEN_BODIES = tuple(kind for kind in JOINTS if not JOINT_WORDS[kind].rail)
+BETWEEN_BODIES = tuple(kind for kind in JOINTS if not JOINTS[kind].rail)
 LOCKED = ("rx", "ry")  # of the generic joint
 KINDS = (*BETWEEN_BODIES, PARALLEL_LINK)
 
@@ -46,7 +45,7 @@ def composition(kind):
 def joint_at(name, kind, first, second, rng, point=None):
     """A joint of `kind` between two bodies at random points and directions."""
     joint_type = "revolute-cylindrical" if kind == PARALLEL_LINK else kind
-    facts = JOINT_WORDS[joint_type]
+    facts = JOINTS[joint_type]
     point = tuple(rng.uniform(-1, 1, 3)) if point is None else point
     z = rng.standard_normal(3)
     x = np.cross(z, rng.standard_normal(3))

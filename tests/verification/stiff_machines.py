@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 
 from nivel import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings, SpringDamper
-from nivel.machine.joints.driver import Driver
+from nivel.elements.joints.drivers import Driver
 from references.solution import Solution
 
 GRAVITY = 9.81

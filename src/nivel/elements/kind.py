@@ -8,7 +8,7 @@ from functools import cached_property, reduce
 from importlib import import_module
 from operator import or_
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Protocol, TypeVar
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter, ValidationInfo
 from pydantic_core import CoreSchema, PydanticKnownError, core_schema
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from nivel.kernels.record.hook import Family
     from nivel.machine.machine_record import MachineRecord
     from nivel.system.builder import SystemBuilder
-
-_WORD = re.compile(r'^    type: Literal\["([\w-]+)"\]', re.MULTILINE)
 
 
 def _nothing(builder: SystemBuilder, element: Any) -> None:
@@ -47,17 +45,24 @@ class Kind:
         return str(self.record.model_fields["type"].default)
 
 
-KindT = TypeVar("KindT", bound=Kind)
+class Worded(Protocol):
+    """What has a word in machine files."""
+
+    @property
+    def type(self) -> str: ...
+
+
+KindT = TypeVar("KindT", bound=Worded)
 
 
 class Kinds(Mapping[str, KindT], Generic[KindT]):
     """Kinds of some rooms by their words. A module is imported when its word is asked for, and all of them where kinds are counted.
 
-    noun : what one of them is called in messages.
+    noun : what one of them is called in messages. mark : what a word stands behind in the file of its kind.
     """
 
-    def __init__(self, *rooms: str, noun: str) -> None:
-        self._rooms, self._noun = rooms, noun
+    def __init__(self, *rooms: str, noun: str, mark: str = r'^    type: Literal\["([\w-]+)"\]') -> None:
+        self._rooms, self._noun, self._mark = rooms, noun, re.compile(mark, re.MULTILINE)
         self._kinds: dict[str, KindT] = {}
 
     @cached_property
@@ -74,7 +79,9 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
     @cached_property
     def homes(self) -> dict[str, str]:
         """Word → module whose record has it, found without importing it."""
-        return {word: module for module, file in self._files.items() for word in _WORD.findall(file.read_text("utf-8"))}
+        return {
+            word: module for module, file in self._files.items() for word in self._mark.findall(file.read_text("utf-8"))
+        }
 
     @cached_property
     def _all(self) -> bool:
@@ -102,7 +109,8 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
     @property
     def records(self) -> list[Any]:
         """The records of all kinds."""
-        return [kind.record for kind in self.values()]
+        kinds: list[Any] = [*self.values()]
+        return [kind.record for kind in kinds]
 
     def record_named(self, name: str) -> Any:
         """The record whose class has this name: an attribute of its room. Raises AttributeError with all names."""
@@ -156,6 +164,26 @@ class OneOf:
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         records: Any = Annotated[reduce(or_, self._kinds.records), Field(discriminator="type")]
         return handler(TypeAdapter(records).core_schema)
+
+
+class WordOf:
+    """Annotation of the word of one of some kinds."""
+
+    def __init__(self, kinds: Kinds[Any]) -> None:
+        self._kinds = kinds
+
+    def read(self, value: Any) -> str:
+        """The word. Raises PydanticKnownError."""
+        if isinstance(value, str) and value in self._kinds:
+            return value
+        *others, last = map(repr, self._kinds)
+        raise PydanticKnownError("literal_error", {"expected": f"{', '.join(others)} or {last}"})
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"enum": [*self._kinds], "type": "string"}
 
 
 _NONE: Any = object()

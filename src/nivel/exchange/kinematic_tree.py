@@ -13,6 +13,8 @@ import numpy as np
 from nivel.elements.forces.actuators import Motor, Stop
 from nivel.elements.forces.friction import Friction
 from nivel.elements.forces.springs import JointSpringDamper
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
@@ -22,11 +24,10 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
-from nivel.machine.joints.joint import JOINT_COORDINATES, Joint
 from nivel.machine.laws.time_function import Expression
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
-from nivel.system.joints.joint_frames import joint_frames
+from nivel.system.joint_frames import joint_frames
 
 # joints that are better in the tree than closing a loop come first
 IN_TREE: Final = ("fixed", "planar", "cylindrical", "screw", "translational", "universal", "revolute", "spherical")
@@ -277,7 +278,7 @@ def placed_value(machine: MachineRecord, coordinate: str) -> float:
     """The value of a joint coordinate as the file places the bodies."""
     name, _, which = coordinate.partition(".")
     joint = next(each for each in machine.joints if each.name == name)
-    assert which in JOINT_COORDINATES[joint.type]
+    assert which in JOINTS[joint.type].coordinates
     one, two = (
         (Frame() if body == GROUND else Frame(machine.placed[body][1], machine.placed[body][0])) @ Frame(axes, point)
         for body, point, axes in joint_frames(machine, joint)

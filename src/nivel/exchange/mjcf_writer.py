@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.joints.joint import Joint
 from nivel.exchange.kinematic_tree import Branch, KinematicTree, kinematic_tree
 from nivel.exchange.mechanism import Frame
 from nivel.exchange.xml_writer import Lines, geometries, words
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.record import GROUND
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints.joint_frames import joint_frames
+from nivel.system.joint_frames import joint_frames
 
 WAY: float = 1e4  # [m or rad] the other end of a way that has one end
 APART: float = 0.1  # [m] between the two points that hold the axis of a revolute joint in a loop

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from nivel.elements.joints.couplings import FunctionCoupling, LinearCoupling, Rack
+from nivel.elements.joints.drivers import MOTIONS, Driver
 from nivel.errors import ModelError
 from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
 from nivel.files.placed_forces import placed_ends, placed_force
@@ -13,8 +15,6 @@ from nivel.files.substitution import NotRepresentableError, negative
 from nivel.machine.control.block import Block
 from nivel.machine.core.between import Ends
 from nivel.machine.core.record import Record, entry
-from nivel.machine.joints.coupling import FunctionCoupling, LinearCoupling, Rack
-from nivel.machine.joints.driver import MOTIONS, Driver
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.sensor import Sensor

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
 from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, Scene, triple
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine.beams.beam import Beam
@@ -16,7 +18,6 @@ from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface,
 from nivel.machine.bodies.surface import surface_arrays, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import frame_from_axes, placement
-from nivel.machine.joints.joint import JOINT_WORDS, Joint
 
 KEPT = {"arms": AXIAL, "sliding": POLAR_Z, "turning": AXIAL_Z}
 
@@ -146,7 +147,7 @@ def placed_joint(joint: Joint, scene: Scene) -> Joint:
     changes: dict[str, Any] = {}
     if joint.markers is not None:
         first, second = joint.markers
-        kept = KEPT[JOINT_WORDS[joint.type].mirror]
+        kept = KEPT[JOINTS[joint.type].mirror]
         changes["markers"] = (scene.end(first, kept), scene.end(second, kept))
     if joint.point is not None:
         changes["point"] = placing.point(joint.point)
@@ -170,7 +171,7 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
     """The axes of a joint; its x axis as well, which would else come from another global axis."""
     changes: dict[str, Any] = {}
     if joint.axis is not None:
-        turned = placing.direction if JOINT_WORDS[joint.type].mirror == "sliding" else placing.turning
+        turned = placing.direction if JOINTS[joint.type].mirror == "sliding" else placing.turning
         changes["axis"] = turned(joint.axis)
     if joint.axis is not None and joint.axes is None:
         changes["x_axis"] = placing.direction(triple(frame_from_axes(joint.axis, joint.x_direction)[:, 0]))

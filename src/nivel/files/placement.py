@@ -22,6 +22,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
 from nivel.files.substitution import Linear, NotRepresentableError, same, substituted
 from nivel.lazy import dataclass, field
 from nivel.machine.beams.beam import Beam
@@ -35,7 +37,6 @@ from nivel.machine.core.orientation import (
 )
 from nivel.machine.core.placement import marker_frame, placement
 from nivel.machine.core.record import GROUND, Record
-from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
@@ -168,7 +169,7 @@ class Scene:
         joint, _, coordinate = reference.partition(".")
         if not self.placement.mirrored or joint not in self.joints:
             return False
-        opposite = JOINT_WORDS[self.joints[joint].type].opposite
+        opposite = JOINTS[self.joints[joint].type].opposite
         if not opposite:
             return False
         return coordinate.removesuffix("_rate") == opposite if coordinate else kind == "length"

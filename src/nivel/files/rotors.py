@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from nivel.elements.joints import drawn
 from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine.core.record import GROUND
-from nivel.machine.joints.joint import JOINT_COORDINATES
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import shown
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
@@ -27,7 +27,7 @@ def add_rotors(tree: Tree) -> None:
         if not isinstance(joint, dict) or KEY not in joint:
             continue
         given, path = joint.pop(KEY), ("joints", name, KEY)
-        free = JOINT_COORDINATES.get(str(joint.get("type")), ())
+        free = drawn(str(joint.get("type"))).coordinates
         if not isinstance(given, dict):
             if len(free) != 1:
                 tree.report(path, f"{_which(free)}, got {shown(given)}")

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.joints.joint import JOINT_WORDS
-from nivel.system.joints.joints import looks_of
+from nivel.elements.joints import JOINTS, drawn
 
 Array = NDArray[np.float64]
 Pose = tuple[Array, Array]  # position (3,) [m] and rotation matrix (3, 3) of a body frame, global axes
@@ -51,25 +50,27 @@ def upwards(gravity: Any) -> Array:
 
 def turning_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(k, 3) axes that bodies turn about and about nothing else, global; a link between two hinges has two."""
-    axes = [joint_axis(joint, poses, which) for joint in scene["joints"] for which in looks_of(joint["type"]).turns]
+    axes = [joint_axis(joint, poses, which) for joint in scene["joints"] for which in drawn(joint["type"]).looks.turns]
     return np.reshape(np.array(axes), (-1, 3))
 
 
 def sliding_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(k, 3) axes that bodies slide along and along nothing else, global."""
-    axes = [joint_axis(joint, poses, slides) for joint in scene["joints"] if (slides := looks_of(joint["type"]).slides)]
+    axes = [
+        joint_axis(joint, poses, slides) for joint in scene["joints"] if (slides := drawn(joint["type"]).looks.slides)
+    ]
     return np.reshape(np.array(axes), (-1, 3))
 
 
 def slides_on_beam(joint: dict[str, Any]) -> bool:
     """Whether a joint slides along a beam, whose node in it is only where it began."""
-    words = JOINT_WORDS.get(joint["type"])
+    words = JOINTS.get(joint["type"])
     return words is not None and words.rail
 
 
 def stands_at_second(joint: dict[str, Any]) -> bool:
     """Whether the sign of a joint stands at its point on the second body."""
-    at = looks_of(joint["type"]).at
+    at = drawn(joint["type"]).looks.at
     return at == "second" or (at == "moving" and joint["bodies"][1] != "ground")
 
 

@@ -22,6 +22,9 @@ from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
+from nivel.elements.joints.couplings import Coupling
+from nivel.elements.joints.drivers import Driver
+from nivel.elements.joints.joint import Joint
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -37,9 +40,6 @@ from nivel.machine.core.placement import placement
 from nivel.machine.core.record import entry, restated
 from nivel.machine.core.usual import GRAVITY, SIZE
 from nivel.machine.given import Field, ManyNames, ManyRecords, OneRecord, Usual
-from nivel.machine.joints.coupling import Coupling
-from nivel.machine.joints.driver import Driver
-from nivel.machine.joints.joint import Joint
 from nivel.machine.laws.functions import MachineFunction, functions_of
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.signals.event import Event

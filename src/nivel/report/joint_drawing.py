@@ -9,18 +9,18 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
+from nivel.elements.joints import drawn
+from nivel.elements.joints.constraints import PLANE_GAP
 from nivel.looks.poses import Pose, ends_in_space, joint_axis, stands_at_second
 from nivel.report.drawing import Array, Drawing, Frame, Label
 from nivel.report.strokes import Point, ground_sign, plane_sign, rail_sign, rod_sign
-from nivel.system.joints.joints import looks_of, symbol_of
-from nivel.system.joints.symbols import PLANE_GAP
 
 
 def draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> None:
     """Draw a joint with its name."""
     title = f"{joint['name']}: {joint['type']}, {joint['bodies'][0]} – {joint['bodies'][1]}"
     drawing.signs.append(f"<g><title>{escape(title)}</title>")
-    if looks_of(joint["type"]).ends is not None:
+    if drawn(joint["type"]).looks.ends is not None:
         x, y = _draw_link(drawing, frame, joint, poses)
     else:
         x, y = _draw_at_point(drawing, frame, joint, poses)
@@ -34,7 +34,7 @@ def _draw_link(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dic
     first, second = (_point(end) for end in ends)
     drawing.links.append(rod_sign(first, second, frame.sign))
     drawing.lines.append(ends)
-    kinds = looks_of(joint["type"]).ends or ()
+    kinds = drawn(joint["type"]).looks.ends or ()
     for which, kind, body, end in zip(("first", "second"), kinds, joint["bodies"], ends, strict=True):
         x, y = _point(end)
         axis = _on_screen(frame, joint_axis(joint, poses, which))
@@ -58,7 +58,7 @@ def _draw_at_point(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses:
 
 def _ground_of(joint: dict[str, Any], x: float, y: float, axis: Point, scale: float) -> str:
     """Ground along a rail, a plane or a slot, or under a point."""
-    ground, (first, second) = looks_of(joint["type"]).ground, joint["bodies"]
+    ground, (first, second) = drawn(joint["type"]).looks.ground, joint["bodies"]
     length = float(np.hypot(*axis))
     if length <= END_ON:
         return ground_sign(x, y, scale)
@@ -98,13 +98,13 @@ def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 
     length = math.hypot(*axis)
     seen = length > END_ON
     angle = math.degrees(math.atan2(axis[1], axis[0])) if seen else 0.0
-    body = symbol_of(kind)(seen)
+    body = drawn(kind).symbol(seen)
     return f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f}) scale({scale:.2f})" class="joint">{body}</g>'
 
 
 def joint_icon(kind: str) -> Markup:
     """The sign of a joint by itself, for tables."""
-    sign = joint_sign(kind, 18.0, 10.0, looks_of(kind).icon)
+    sign = joint_sign(kind, 18.0, 10.0, drawn(kind).looks.icon)
     return Markup(
         f'<svg class="machine icon" viewBox="0 0 36 20" width="36" height="20" aria-hidden="true">{sign}</svg>'
     )

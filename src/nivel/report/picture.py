@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.joints import drawn
 from nivel.looks.poses import Array, Pose, body_poses, in_space, sliding_axes, turning_axes
 from nivel.looks.solids import (
     FACETS,
@@ -44,7 +45,6 @@ from nivel.report.drawing import (
 from nivel.report.force_drawing import Plane, belt_points, draw_belt, draw_force, draw_plane, force_points, planes
 from nivel.report.joint_drawing import draw_joint
 from nivel.report.strokes import centre_of_mass_sign
-from nivel.system.joints.joints import looks_of
 
 
 def draw_body(
@@ -192,7 +192,7 @@ def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touche
         if body["name"] in swept:
             continue
         draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of_body(body, k), facets)
-    for joint in sorted(scene["joints"], key=lambda joint: looks_of(joint["type"]).ground != "rail"):
+    for joint in sorted(scene["joints"], key=lambda joint: drawn(joint["type"]).looks.ground != "rail"):
         draw_joint(drawing, frame, joint, poses)
     for force in scene.get("forces", []):
         draw_force(drawing, frame, force, poses)

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 
 from nivel.elements.forces import FORCES
+from nivel.elements.joints.couplings import add_couplings
+from nivel.elements.joints.drivers import add_drivers
 from nivel.errors import located
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
@@ -57,9 +59,8 @@ from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.implicit import no_newton, no_residual
-from nivel.system.joints.driver_rows import add_drivers
-from nivel.system.joints.interfaces import refuse_unknown_interfaces
-from nivel.system.joints.rows import RowTable, add_couplings, add_joint, coordinate_units
+from nivel.system.joint_frames import refuse_unknown_interfaces
+from nivel.system.joint_rows import RowTable, add_joint, coordinate_units
 from nivel.system.layout import first_columns, frame_layout
 from nivel.system.saddle import friction_parts, friction_tables, moved_masses, saddle_tables
 from nivel.system.signals.control import add_control

@@ -18,14 +18,14 @@ from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.marker import Marker
 from nivel.machine.laws.symbols import find_symbol, is_output
 from nivel.machine.laws.table import Table
+from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve
 from nivel.system.circuit_tables import CircuitTable
-from nivel.system.joints.interfaces import marker_place
-from nivel.system.joints.joint_frames import Placed, as_placed, seen_from
-from nivel.system.joints.parallel_axes import Directions
+from nivel.system.joint_frames import Directions, Placed, as_placed, marker_place, seen_from
 from nivel.system.laws.functions import FunctionTable, Signal
+from nivel.system.laws.integrated import integrated
 from nivel.system.tables import Array, CoordinateTable, ElementTable, MarkerTable, OutputTable
 
 GROUND = "ground"
@@ -239,6 +239,10 @@ class SystemBuilder:
         return self.functions.add(
             value, find, motion=motion, end=end, switching=switching and not sampled, beyond=not sampled
         )
+
+    def way(self, rate: TimeFunction, order: int, start: float = 0.0) -> int:
+        """Index of the function of time whose derivative of this order is `rate`; start : its first derivative at t = 0, of order two."""
+        return self.functions.add_way(*integrated(rate, order, self.machine.simulation.duration, start))
 
     def spline(self, table: Table, order: int) -> int:
         """Index of the derivative of this order (0: the value) of a cubic table of a signal, which goes on straight beyond its ends."""

@@ -12,7 +12,7 @@ from nivel.kernels.elements.friction import LEVER, WAY
 from nivel.kernels.record.record import NONE, Friction, Saddle
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.elimination import plan
-from nivel.system.joints.rows import RowTable
+from nivel.system.joint_rows import RowTable
 from nivel.system.system import Equations
 from nivel.system.tables import index_array, padded
 

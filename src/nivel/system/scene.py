@@ -47,6 +47,8 @@ from nivel.elements.forces import Force
 from nivel.elements.forces.ropes import Rope, first_wheel, way_around
 from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
+from nivel.elements.joints.couplings import Belt
+from nivel.elements.joints.joint import Joint
 from nivel.files.rotors import rotors_of
 from nivel.flexible.body.body import moving_surface
 from nivel.lazy import nivel
@@ -58,15 +60,12 @@ from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.between import Between, BetweenMarkers
 from nivel.machine.forces.contact import Contact
-from nivel.machine.joints.coupling import Belt
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
 from nivel.system.forces.height_fields import ground_surface
-from nivel.system.joints.interfaces import marker_place
-from nivel.system.joints.joint_frames import as_placed, slot_frame
+from nivel.system.joint_frames import as_placed, marker_place, slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
 

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.circuits.nodes import Node
+from nivel.elements.joints.on_beams import element_of
 from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.record.record import Control, Record
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.units.tree import Node as Tree
-from nivel.system.joints.rails import element_of
 from nivel.system.layout import FrameLayout
 from nivel.system.tables import Array, index_array
 

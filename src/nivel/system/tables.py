@@ -81,15 +81,6 @@ class Wheel:
     crown: float
 
 
-@dataclass(frozen=True)
-class Target:
-    """An orientation that a marker is driven to: the first of its functions, and the axes of its turns, see
-    `nivel.kernels.bodies.driven_turn`."""
-
-    function: int
-    axes: str
-
-
 @dataclass
 class CoordinateTable:
     """Scalars measured between two markers, or a slider and the nodes of its rail, or combined of others; the same one is measured once."""
@@ -97,7 +88,8 @@ class CoordinateTable:
     what: list[tuple[int, int, int, int]] = field(default_factory=list)  # kind, first marker, second marker, axis
     rails: dict[int, Rail] = field(default_factory=dict)  # of sliders
     wheels: dict[int, Wheel] = field(default_factory=dict)  # of what rolls
-    targets: dict[int, Target] = field(default_factory=dict)  # of driven orientations
+    # of driven orientations the first function, and the axes of the turns, see `nivel.kernels.bodies.driven_turn`
+    targets: dict[int, tuple[int, str]] = field(default_factory=dict)
     sums: dict[int, tuple[tuple[int, float], ...]] = field(
         default_factory=dict
     )  # of combined ones: coordinates, factors
@@ -125,8 +117,8 @@ class CoordinateTable:
         self.wheels[index] = wheel
         return index
 
-    def on_target(self, kind: int, reference: int, marker: int, target: Target) -> int:
-        """The same for a component of the turn of a marker against its target."""
+    def on_target(self, kind: int, reference: int, marker: int, target: tuple[int, str]) -> int:
+        """The same for a component of the turn of a marker against its target: its first function, and the axes of its turns."""
         index = self.add(kind, reference, marker, NONE)
         self.targets[index] = target
         return index
@@ -183,9 +175,9 @@ class CoordinateTable:
         if coordinate in self.rails:
             return 0.0, *self.rails[coordinate].stations
         if coordinate in self.targets:
-            target = self.targets[coordinate]
-            digits = ("xyz".index(axis) + 1 for axis in target.axes)
-            return float(target.function), float(reduce(lambda code, digit: BASE * code + digit, digits, 0))
+            function, axes = self.targets[coordinate]
+            digits = ("xyz".index(axis) + 1 for axis in axes)
+            return float(function), float(reduce(lambda code, digit: BASE * code + digit, digits, 0))
         wheel = self.wheels.get(coordinate)
         return (wheel.circle, wheel.crown) if wheel is not None else (0.0, 0.0)
 

@@ -11,8 +11,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.looks.poses import rotation
-from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
 from nivel.view.coordinate_places import CoordinatePlace, coordinate_place, triple
 from nivel.view.records import Coupling, End, Track, Wheel

@@ -9,11 +9,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints import drawn
 from nivel.lazy import dataclass, field, replace
 from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
-from nivel.system.joints.joints import looks_of
 from nivel.view.acting import drivers, forces
 from nivel.view.coordinate_places import triple
 from nivel.view.package import Block
@@ -211,6 +211,6 @@ def _joint(joint: dict[str, Any], places: dict[str, int]) -> Joint:
         (triple(x_axes[0]), triple(x_axes[1])) if x_axes else None,
         triple(joint["slot"]) if "slot" in joint else None,
         1 if stands_at_second(joint) else 0,
-        looks_of(joint["type"]).ends is not None,
+        drawn(joint["type"]).looks.ends is not None,
         facts=[("type", joint["type"]), ("first body", first), ("second body", second)],
     )

@@ -21,12 +21,12 @@ from nivel.analysis.assembly.velocities import (
     section_of,
     taken_along,
 )
+from nivel.elements.joints import JOINTS
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.bodies.driven_turn import TURN_X
 from nivel.lazy import dataclass
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints.joints import composition_of
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array, System
 
@@ -248,7 +248,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
     system, record = motion.system, motion.system.record
     share = np.abs(record.constraints.C / record.constraints.scale)[: system.machine_rows]
     faults = []
-    parallel = {joint.name: k for k, joint in enumerate(machine.joints) if composition_of(joint).parallel}
+    parallel = {joint.name: k for k, joint in enumerate(machine.joints) if JOINTS[joint.type].of(joint).parallel}
     for owner, rows in _rows_by_owner(system).items():
         worst = rows[int(np.argmax(share[rows]))]
         if not share[worst] <= OPEN:

@@ -18,10 +18,10 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
+from nivel.elements.joints import JOINTS
 from nivel.lazy import scipy
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints.joints import JOINTS
 from nivel.system.system import Array
 
 MOST: Final = 4  # joints that are changed among those that repeat each other

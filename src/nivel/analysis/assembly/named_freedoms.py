@@ -9,13 +9,13 @@ import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
 from nivel.files.rotors import rotors_of
 from nivel.lazy import dataclass
 from nivel.machine.core.record import GROUND
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
-from nivel.system.joints.joints import JOINTS
 from nivel.system.system import Array
 
 

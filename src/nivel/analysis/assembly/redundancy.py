@@ -18,7 +18,7 @@ from nivel.kernels.core.status import OK
 from nivel.lazy import dataclass, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import Bending, bending_bodies
-from nivel.system.joints.parallel_axes import tilted_axes
+from nivel.system.joint_frames import tilted_axes
 from nivel.system.states.floating import carried_markers
 from nivel.system.system import Array, System
 

@@ -9,12 +9,12 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints.on_beams import stretches
 from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import MODAL, NONE, POINT_ON_BEAM, Record
 from nivel.system.beams.tangent import rail_of
 from nivel.system.builder import NOTHING
-from nivel.system.joints.rails import stretches
 from nivel.system.system import System
 
 # where sliders are, (node of the tree, at which nodes of its beam), and the nodes of the tree that move a body then

@@ -9,8 +9,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.lazy import dataclass
-from nivel.machine.joints.coupling import FunctionCoupling
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table

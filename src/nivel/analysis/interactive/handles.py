@@ -18,9 +18,9 @@ from nivel.analysis.assembly.turned_frame import (
     TurnedFrame,
     rates_of_angles,
 )
+from nivel.elements.joints import JOINTS
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints.joints import JOINTS
 from nivel.system.system import Array
 
 

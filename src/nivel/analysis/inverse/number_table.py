@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.kinematics.drive import released
+from nivel.elements.joints.drivers import Driver
 from nivel.errors import Fault, ModelError, refuse
-from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.system.system import Array

@@ -25,11 +25,11 @@ from nivel.analysis.kinematics.singular import MovingState, moving_states
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.prepared_state import at_start
+from nivel.elements.joints.drivers import Driver
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Actuated
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
-from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result

@@ -11,12 +11,12 @@ import numpy as np
 
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
+from nivel.elements.joints.drivers import Driver
+from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Reach
 from nivel.kernels.output.observe import observe
-from nivel.machine.joints.driver import Driver
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.results.analyses.configuration_curve import ConfigurationCurve

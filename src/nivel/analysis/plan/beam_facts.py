@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints.joint import Joint
 from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
 from nivel.system.beams.gradient_frequencies import fastest_of_gradients

@@ -20,12 +20,12 @@ from math import ceil
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.friction import Friction
+from nivel.elements.joints import JOINTS
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.lazy import nivel
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.forces.sticking import is_sticking
-from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
@@ -125,7 +125,7 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     frictions = [force for force in machine.forces if isinstance(force, Friction) or is_sticking(force)]
     if frictions and (not facts.residual or any(map(is_sticking, frictions))):
         # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
-        sliders = (joint.name for joint in machine.joints if JOINT_WORDS[joint.type].rail)
+        sliders = (joint.name for joint in machine.joints if JOINTS[joint.type].rail)
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
     if machine.simulation.cut or not facts.residual or facts.first_order:
         return settings
@@ -135,7 +135,7 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
 
 def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: SimulationSettings | None = None) -> bool:
     """Whether with these methods a beam carries a body that slides along it. cut : as `choose_cut` has it, where it is known."""
-    if coordinates != "relative" or not any(JOINT_WORDS[joint.type].rail for joint in machine.joints):
+    if coordinates != "relative" or not any(JOINTS[joint.type].rail for joint in machine.joints):
         return False
     machine = with_nodes(machine)
     return nivel.system.states.relative.has_sliders(
@@ -147,7 +147,7 @@ def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
     """Owner, number of rows and bodies of every joint, coupling and driver."""
     bodies = {joint.name: set(nivel.system.states.relative.bodies_of(machine, joint)) for joint in machine.joints}
     rows = [
-        (joint.name, len(nivel.system.joints.joints.composition_of(joint).rows), bodies[joint.name])
+        (joint.name, len(nivel.elements.joints.JOINTS[joint.type].of(joint).rows), bodies[joint.name])
         for joint in machine.joints
     ]
     for coupling in machine.couplings:

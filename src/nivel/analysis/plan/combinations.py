@@ -7,9 +7,9 @@ from math import pi
 
 import numpy as np
 
+from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses

@@ -13,6 +13,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.elements.circuits.phase import SLOPES
 from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces import FORCES
+from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.forces.held_beam import apply as hold
@@ -24,7 +25,6 @@ from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import nivel, rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.forces.sticking import is_sticking
-from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library
@@ -32,7 +32,6 @@ from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
 from nivel.system.beams.beams import ELASTIC, family_of
 from nivel.system.beams.beams import FAMILIES as BEAMS
-from nivel.system.joints.joints import JOINTS
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -334,7 +333,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
     needed = {
         MEASURE: bool(measured),
         FRICTION: "friction" in types or any(map(is_sticking, machine.forces)),
-        RAIL: any(JOINT_WORDS[joint.type].rail for joint in machine.joints),
+        RAIL: any(JOINTS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states)

@@ -33,7 +33,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
 from nivel.system.forces.contacts import tangent_stiffness
 from nivel.system.forces.heaps import spheres_between
-from nivel.system.joints.joint_frames import as_placed
+from nivel.system.joint_frames import as_placed
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.plan.equations_only import with_smooth_contacts
+from nivel.elements.joints.drivers import Driver
 from nivel.errors import SolveError
-from nivel.machine.joints.driver import Driver
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.machine.uses.coordinate_reference import resolve

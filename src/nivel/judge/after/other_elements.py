@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints import JOINTS
 from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.other_elements import changed, doubled
-from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import Estimate
 from nivel.results.motion import common_frames
@@ -52,7 +52,7 @@ def other_elements(machine: MachineRecord, *, doubles: bool = False) -> Pair | N
     no beams."""
     if not machine.beams:
         return None
-    held = {name for joint in machine.joints if not JOINT_WORDS[joint.type].rail for name in bodies_of(machine, joint)}
+    held = {name for joint in machine.joints if not JOINTS[joint.type].rail for name in bodies_of(machine, joint)}
     found: list[Beam] = []
     longer = shorter = False
     for beam in machine.beams:

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from nivel.analysis.preparation.preparation import Prepared
     from nivel.analysis.run.dynamics import RunOutcome
     from nivel.analysis.run.second_run import Verified
+    from nivel.elements.joints.drivers import Driver
     from nivel.judge.after.other_elements import Compared, Pair
-    from nivel.machine.joints.driver import Driver
     from nivel.machine.machine_record import MachineRecord
     from nivel.results.analyses.configuration_curve import ConfigurationCurve, JointPath
     from nivel.results.analyses.efforts import Efforts

@@ -15,6 +15,8 @@ from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.preparation import prepare
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
 from nivel.errors import SolveError
 from nivel.files.rotors import rotors_of
 from nivel.judge.before.in_words import (
@@ -31,10 +33,8 @@ from nivel.judge.before.in_words import (
 )
 from nivel.kernels.core.status import OK
 from nivel.lazy import dataclass, nivel, replace
-from nivel.machine.joints.joint import JOINT_WORDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
-from nivel.system.joints.joints import JOINTS, composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 from nivel.words.wording import set_in_motion
@@ -372,7 +372,7 @@ def _pressures(system: System) -> dict[str, float]:
 def _cut(methods: Methods) -> tuple[str, ...]:
     """Joints that stay constraints in relative coordinates; those that constrain nothing are none."""
     cut = [methods.machine.joints[k] for k in tree_of(methods.machine, methods.cut).cut]
-    return tuple(joint.name for joint in cut if composition_of(joint).rows)
+    return tuple(joint.name for joint in cut if JOINTS[joint.type].of(joint).rows)
 
 
 def _modes(machine: MachineRecord) -> list[str]:
@@ -397,11 +397,11 @@ def _turn(theta: Array) -> tuple[tuple[float, ...], float]:
 
 
 def _joint(system: System, k: int, joint: Joint, values: dict[str, tuple[float, str]]) -> JointFacts:
-    record, name, kind, made = system.record, joint.name, joint.type, composition_of(joint)
+    record, name, kind, made = system.record, joint.name, joint.type, JOINTS[joint.type].of(joint)
     first = int(record.joints.first_marker[k])
     bodies = [*system.bodies, "ground"]
     second = bodies[int(record.markers.body[first + 1])]
-    if JOINT_WORDS[kind].rail:
+    if JOINTS[kind].rail:
         second = second.rpartition(".")[0]  # the beam, not a node of it
     return JointFacts(
         name=name,

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from nivel.elements.circuits.component import Component
 from nivel.elements.forces.loads import PointForce
+from nivel.elements.joints.couplings import Coupling, FunctionCoupling
+from nivel.elements.joints.drivers import Driver
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import PartFunction
 from nivel.machine.control.unit_output import UnitOutput
@@ -14,8 +16,6 @@ from nivel.machine.core.between import Between, BetweenMany, BetweenMarkers, End
 from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
-from nivel.machine.joints.coupling import Coupling, FunctionCoupling
-from nivel.machine.joints.driver import Driver
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction

@@ -12,6 +12,7 @@ from nivel.analysis.plan.combinations import screws_as_couplings
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.drive_lines import TransmissionLoss
 from nivel.elements.forces.friction import Friction
+from nivel.elements.joints.drivers import RATES
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.lazy import dataclass
@@ -19,7 +20,6 @@ from nivel.machine.core.element import ForceElement
 from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.contacts import Contacts
 from nivel.machine.forces.sticking import holds_by_capacity, is_sticking
-from nivel.machine.joints.driver import RATES
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table

@@ -9,12 +9,12 @@ import numpy as np
 
 from nivel.elements.forces import FORCES
 from nivel.elements.forces.loads import PointForce
+from nivel.elements.joints import JOINTS
 from nivel.machine.core.between import Between, BetweenMany
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
-from nivel.machine.joints.joint import JOINT_WORDS
 
 if TYPE_CHECKING:
     from nivel.machine.machine_record import MachineRecord
@@ -59,7 +59,7 @@ def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
             continue
         if not may:
             held = "; `type: spherical` holds it" if type_ == "fixed" else ""
-            others = ", ".join(sorted(filter(_may, JOINT_WORDS), key=_may))
+            others = ", ".join(sorted(filter(_may, JOINTS), key=_may))
             yield (*place, *where), f"`{body}`: {_TURN}; it can be in the joints {others}{held}"
         elif where[-1] == 0:
             yield (*place, *where), f"`{body}`: {_TURN}; in a {type_} joint it can only be the second body"
@@ -67,7 +67,7 @@ def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
 
 def _may(type_: object) -> str:
     """Which body of a joint of this type may be a point mass; empty: none."""
-    return JOINT_WORDS[type_].point_mass if isinstance(type_, str) and type_ in JOINT_WORDS else ""
+    return JOINTS[type_].point_mass if isinstance(type_, str) and type_ in JOINTS else ""
 
 
 def _bodies(element: Any, index: Index) -> Iterator[tuple[Place, str]]:

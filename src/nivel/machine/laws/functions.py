@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from nivel.elements.joints.drivers import RATES, Driver
 from nivel.lazy import dataclass
 from nivel.machine.control.block import Block
 from nivel.machine.core.record import Record
-from nivel.machine.joints.driver import RATES, Driver
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.signals.state import State

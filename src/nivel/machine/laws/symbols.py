@@ -14,10 +14,10 @@ from typing import Any, Final, Literal
 from nivel.elements.circuits import record_of
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
+from nivel.elements.joints import drawn
 from nivel.lazy import dataclass
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
-from nivel.machine.joints.joint import JOINT_COORDINATES
 from nivel.machine.laws.table import SIGNAL_PATH
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind
@@ -124,7 +124,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
 
 
 def _of_joint(type_: str) -> tuple[str, ...]:
-    names = JOINT_COORDINATES.get(type_, ())
+    names = drawn(type_).coordinates
     return (*names, *(f"{name}_rate" for name in names))
 
 

@@ -8,8 +8,9 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, WithJsonSchema
 
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
 from nivel.machine.core.record import NAME, unknown_word
-from nivel.machine.joints.joint import JOINT_COORDINATES, Joint
 from nivel.machine.units.quantity import fault, shown
 from nivel.words.vocabulary import translated
 
@@ -63,9 +64,9 @@ def find(reference: str, types: Mapping[str, str], kind: Kind | None = None) -> 
     joint, _, coordinate = reference.partition(".")
     if joint not in types:
         raise UnknownCoordinateError(unknown_name("joint", joint, list(types)))
-    if types[joint] not in JOINT_COORDINATES:
+    if types[joint] not in JOINTS:
         raise UnknownCoordinateError(f"the type of joint `{joint}` is not known")
-    having = JOINT_COORDINATES[types[joint]]
+    having = JOINTS[types[joint]].coordinates
     suitable = [name for name in having if kind in (None, COORDINATE_KINDS[name])]
     what = "coordinate" if kind is None else "angle" if kind == "angle" else "displacement"
     if coordinate:

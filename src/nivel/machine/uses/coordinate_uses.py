@@ -6,16 +6,15 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final
 
-from nivel.machine.core.index import Index, Place, as_list, as_mapping, elements
-from nivel.machine.core.record import GROUND, Record, entry
-from nivel.machine.joints.joint import (
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import (
     COORDINATE_OF,
-    JOINT_COORDINATES,
-    JOINT_WORDS,
     CoordinateRates,
     CoordinateValues,
     held_by,
 )
+from nivel.machine.core.index import Index, Place, as_list, as_mapping, elements
+from nivel.machine.core.record import GROUND, Record, entry
 from nivel.machine.uses.coordinate_reference import Kind, UnknownCoordinateError, find
 
 Faults = Iterator[tuple[Place, str]]
@@ -76,9 +75,9 @@ def _of_coupling(coupling: Any, index: Index, place: Place) -> Faults:
         found = yield from _find(reference, index, kinds[at] if at < len(kinds) else None, where)
         if found is None:
             continue
-        if "." not in reference and len(JOINT_COORDINATES[index.joints[found[0]]]) > 1:
+        if "." not in reference and len(JOINTS[index.joints[found[0]]].coordinates) > 1:
             whole = [".".join(found) if k == at else str(each) for k, each in enumerate(references)]
-            count = len(JOINT_COORDINATES[index.joints[found[0]]])
+            count = len(JOINTS[index.joints[found[0]]].coordinates)
             yield where, f"joint `{reference}` has {count} coordinates; write `{key}: [{', '.join(whole)}]`"
             continue
         if found in seen:
@@ -108,7 +107,7 @@ def _find(reference: Any, index: Index, kind: Kind | None, place: Place) -> Iter
         found = find(reference, index.joints, kind)
     except UnknownCoordinateError as problem:
         joint = reference.partition(".")[0]
-        if joint not in index.joints or index.joints[joint] in JOINT_WORDS:  # else the type of the joint is at fault
+        if joint not in index.joints or index.joints[joint] in JOINTS:  # else the type of the joint is at fault
             yield place, str(problem)
         return None
     return found
@@ -116,7 +115,7 @@ def _find(reference: Any, index: Index, kind: Kind | None, place: Place) -> Iter
 
 def _held(found: tuple[str, str], index: Index, place: Place) -> Faults:
     joint, coordinate = found
-    if coordinate in JOINT_WORDS[index.joints[joint]].held:
+    if coordinate in JOINTS[index.joints[joint]].held:
         yield (
             place,
             f"`{joint}.{coordinate}` is held by the joint itself; one that changes is of `type: variable-distance`",

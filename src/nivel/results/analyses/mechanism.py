@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints import drawn
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, provided, xarray
@@ -18,7 +19,6 @@ from nivel.machine.units.quantity import read_quantity
 from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
-from nivel.system.joints.joints import looks_of
 
 if TYPE_CHECKING:
     import xarray
@@ -159,7 +159,7 @@ def _line(result: Result, at: str, to: str) -> Array:
 def _slide(result: Result, name: str) -> Array | None:
     """(frames, 3) direction in which a joint slides; None where it turns."""
     joint = _joints(result).get(name)
-    if joint is None or looks_of(joint["type"]).ground not in ("rail", "line"):
+    if joint is None or drawn(joint["type"]).looks.ground not in ("rail", "line"):
         return None
     body, axis = joint["bodies"][0], np.array(joint["axes"][0], dtype=float)
     bodies = list(result.coordinates.get("body", ()))

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.joints.on_beams import on_beams
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import Inertia
@@ -14,7 +15,6 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.elements import masses_of
 from nivel.system.beams.gradient_nodes import gradient_nodes
 from nivel.system.beams.segments import Segments, segments_of
-from nivel.system.joints.rails import on_beams
 
 # how unwilling nodes are to be moved by the assembly, which would stress the beam: bodies beside it are moved instead
 HELD = 1e6

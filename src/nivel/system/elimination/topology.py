@@ -14,16 +14,15 @@ import heapq
 from collections.abc import Collection, Sequence
 from typing import Final
 
+from nivel.elements.joints import JOINTS
 from nivel.lazy import dataclass
-from nivel.machine.joints.joint import JOINT_WORDS
-from nivel.system.joints.joints import JOINTS
 
 FREE: Final = -1
 
 
 def carries(kind: str) -> bool:
     """Whether a joint of this kind may carry a body on another one."""
-    return JOINTS[kind].tree is not None and not JOINT_WORDS[kind].rail
+    return JOINTS[kind].tree is not None and not JOINTS[kind].rail
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.elimination import plan
 from nivel.system.elimination.partition import RELUCTANCE, partition, velocities_named
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
-from nivel.system.joints.interfaces import marker_place
+from nivel.system.joint_frames import marker_place
 from nivel.system.layout import first_columns, with_modal_coordinates
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array

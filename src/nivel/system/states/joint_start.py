@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nivel.elements.joints.kind import Seen, TreeJoint
+from nivel.elements.joints.on_beams import between, element_of
 from nivel.kernels.record.record import NONE, Coordinates, Markers
 from nivel.lazy import dataclass, scipy
 from nivel.machine.core.orientation import (
@@ -17,8 +19,6 @@ from nivel.machine.core.orientation import (
 )
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints.kind import Seen, TreeJoint
-from nivel.system.joints.rails import between, element_of
 from nivel.system.system import Array, System
 
 if TYPE_CHECKING:

@@ -11,20 +11,20 @@ from numpy.typing import NDArray
 
 from nivel.elements.forces.drive_lines import TransmissionLoss
 from nivel.elements.forces.friction import Friction
+from nivel.elements.joints.joint import Joint
+from nivel.elements.joints.on_beams import OnBeam
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Hooks, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs
 from nivel.machine.bodies.inertia import mass_of
-from nivel.machine.joints.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.elimination.elimination import plan
 from nivel.system.elimination.topology import FREE, Edge, SpanningTree, spanning_tree
 from nivel.system.elimination.tree_tables import empty_tree
-from nivel.system.joints.rails import OnBeam
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.tree_nodes import (

@@ -7,18 +7,17 @@ from typing import Final
 
 import numpy as np
 
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.in_trees import FREE_BODY
+from nivel.elements.joints.kind import TreeJoint
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE
 from nivel.kernels.record import record as kernels
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, U1, U2, Coordinates, Record
 from nivel.kernels.tree.joints import BY_ADDRESS
 from nivel.lazy import dataclass, replace
-from nivel.machine.joints.joint import JOINT_WORDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.elimination.topology import FREE, Branch
-from nivel.system.joints.joints import JOINTS
-from nivel.system.joints.kind import TreeJoint
-from nivel.system.joints.kinds.in_trees import FREE_BODY
 from nivel.system.states.joint_start import Node
 from nivel.system.system import Array, System
 from nivel.system.tables import index_array
@@ -106,7 +105,7 @@ def joint_node(machine: MachineRecord, old: Record, branch: Branch) -> Node:
     if branch.joint != FREE:
         kind, near = machine.joints[branch.joint].type, int(old.joints.first_marker[branch.joint])
         near, far = (near + 1, near) if branch.turned else (near, near + 1)
-    if kind in JOINT_WORDS and JOINT_WORDS[kind].rail:
+    if kind in JOINTS and JOINTS[kind].rail:
         return Node(branch.child, branch.parent, branch.joint, kind, NONE, far, 0, 0, along=_along(old, far))
     return Node(branch.child, branch.parent, branch.joint, kind, near, far, 0, 0)
 

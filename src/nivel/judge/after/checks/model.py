@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.joints.joint import CoordinateRates
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria, Linearisation, Positions, Run
 from nivel.judge.before.unusual import excess, in_words, remarks, stretched_ropes
 from nivel.lazy import dataclass
 from nivel.machine.bodies.body import Body
 from nivel.machine.given import Usual
-from nivel.machine.joints.joint import CoordinateRates
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
-from nivel.system.joints.joint_frames import as_placed
+from nivel.system.joint_frames import as_placed
 
 
 @dataclass(frozen=True)

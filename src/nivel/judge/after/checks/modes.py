@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.kind import POINT
 from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.flexible_bodies import Bent, ModalBody, numbered_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check, Need
@@ -22,9 +24,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number
 from nivel.system.beams.nodes import with_nodes
-from nivel.system.joints.composition import POINT
-from nivel.system.joints.joint_frames import joint_frames
-from nivel.system.joints.joints import composition_of
+from nivel.system.joint_frames import joint_frames
 
 if TYPE_CHECKING:
     from nivel.analysis.preparation.preparation import Prepared
@@ -182,7 +182,7 @@ def _held(whole: MachineRecord, body: ModalBody, interfaces: list[Interface]) ->
             at = _nearest(interfaces, point)
             there = np.linalg.norm(interfaces[at].position - point) < NEAR * body.extent
             # of one point, the reaction on the second body is that on the first, turned round
-            if name == body.name and there and (k == 0 or POINT in composition_of(joint).constraints):
+            if name == body.name and there and (k == 0 or POINT in JOINTS[joint.type].of(joint).constraints):
                 yield Held(joint.name, at, 1.0 if k == 0 else -1.0)
 
 

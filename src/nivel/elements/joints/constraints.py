@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import Final
+from collections.abc import Callable, Collection
+from typing import Any, Final
 
-from nivel.kernels.bodies.coordinate import COSINE, DISTANCE, MOMENT, POLAR, RADIUS, TRANSLATION
-from nivel.kernels.bodies.rolling import CONTACT, SLIP
-from nivel.system.joints import symbols
-from nivel.system.joints.composition import (
+from nivel.elements.joints.in_trees import ARMS, CROSS, draw_translational, draw_universal
+from nivel.elements.joints.kind import (
     ALONG_Z,
     ANGLE,
     DISPLACEMENT,
@@ -16,18 +14,22 @@ from nivel.system.joints.composition import (
     ON_AXIS,
     PARALLEL,
     POINT,
+    WITH_AXIS,
     Basic,
     Combination,
     Composition,
     JointCoordinate,
+    JointKind,
+    Looks,
     Measured,
     PerpendicularAxes,
     PerpendicularDistance,
     X,
     Y,
+    unknown,
 )
-from nivel.system.joints.kind import JointKind, Looks
-from nivel.system.joints.kinds.in_trees import ARMS
+from nivel.kernels.bodies.coordinate import COSINE, DISTANCE, MOMENT, POLAR, RADIUS, TRANSLATION
+from nivel.kernels.bodies.rolling import CONTACT, SLIP
 
 ALL_TURNS: Final = {"rx", "ry", "rz"}
 # perpendicular axes of the first and the second marker: one pair locks one turn, or both pairs of an axis the turns of that axis
@@ -90,12 +92,75 @@ IN_SLOT = JointCoordinate(
 )
 ROD = Composition((Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),), (HELD,))
 SAME_ANGLE = Combination("axes", ((Measured(COSINE, 8), 1.0),), units="1")
+NOT_PARALLEL: dict[str, Any] = {"axes": "not parallel"}
+BETWEEN: dict[str, Any] = {
+    "place": ("points",),
+    "may_size": ("distance",),
+    "held": ("distance",),
+    "point_mass": "either",
+}
 BALLS, ON_LEVEL = Looks(ends=("spherical", "spherical")), (0.0, -1.0)
 
+
+PLANE_GAP: Final = 5.0  # from a point on a plane to the plane in the sign
+BALL: Final = '<circle r="4.6"/><circle r="2.4" class="dot"/>'
+HINGE: Final = '<circle r="4.6"/><circle r="1.3" class="dot"/>'
+SLEEVE: Final = '<rect x="-3.5" y="-6" width="7" height="12" rx="2"/><path d="M0 -9.5V9.5" class="axis"/>'
+
+
+def _point_on_line(seen: bool) -> str:
+    if not seen:
+        return '<circle r="5"/><path d="M-2.6 0H2.6M0 -2.6V2.6" class="axis"/>'
+    return '<path d="M-17 0H17" class="axis"/><circle r="4.6" class="solid"/>'
+
+
+def _point_on_plane(seen: bool) -> str:
+    if not seen:
+        return '<rect x="-9" y="-9" width="18" height="18" class="thin"/><circle r="4.2" class="solid"/>'
+    return f'<path d="M{-PLANE_GAP} -15V15" class="axis"/><circle r="4.2" class="solid"/>'
+
+
+def _rolling(seen: bool) -> str:
+    if not seen:
+        return '<circle r="9"/><circle r="1.6" class="dot"/>'
+    return '<path d="M-9 -15V15" class="axis"/><circle r="9"/><circle r="1.6" class="dot"/>'
+
+
+def _pin_in_slot(seen: bool) -> str:
+    if not seen:
+        return '<rect x="-6" y="-6" width="12" height="12" rx="3"/><circle r="2.6" class="solid"/>'
+    return '<rect x="-15" y="-5.5" width="30" height="11" rx="5.5"/><circle r="3.8" class="solid"/>'
+
+
+def _rod(first: str, second: str) -> Callable[[bool], str]:
+    """A massless link, small, between the signs of its ends."""
+    bar = '<path d="M-11 0H11" class="axis"/>'
+    return lambda seen: f'{bar}<g transform="translate(-11 0)">{first}</g><g transform="translate(11 0)">{second}</g>'
+
+
+def _cylinder(seen: bool) -> str:
+    """A cylinder with its rod, between two balls."""
+    barrel = '<rect x="-9" y="-4" width="11" height="8" rx="1"/><path d="M-4 -4V4M-4 0H11" class="axis"/>'
+    ends = f'<g transform="translate(-12 0)">{BALL}</g><g transform="translate(12 0)">{BALL}</g>'
+    return f"{barrel}{ends}"
+
+
+def _skew_universal(seen: bool) -> str:
+    return f'{draw_universal(seen)}<path d="M-2 8L2 4" class="axis"/>'
+
+
+def _translational_universal(seen: bool) -> str:
+    return f'{draw_translational(seen)}<path d="M0 -4V4M-4 0H4" class="axis"/>'
+
+
+def _generic(seen: bool) -> str:
+    return f'{unknown(seen)}<circle r="2.4" class="dot"/>'
+
+
 KINDS = (
-    JointKind("distance", ROD, None, symbols.rod(symbols.BALL, symbols.BALL), BALLS),
-    JointKind("spherical-spherical", ROD, None, symbols.rod(symbols.BALL, symbols.BALL), BALLS),
-    JointKind("variable-distance", Composition((), (VARIED,)), None, symbols.cylinder, BALLS),
+    JointKind("distance", ROD, None, _rod(BALL, BALL), BALLS, **BETWEEN),
+    JointKind("spherical-spherical", ROD, None, _rod(BALL, BALL), BALLS, **BETWEEN),
+    JointKind("variable-distance", Composition((), (VARIED,)), None, _cylinder, BALLS, place=("points",)),
     # a link that turns about the first marker's z axis and holds the second point
     JointKind(
         "revolute-spherical",
@@ -103,8 +168,11 @@ KINDS = (
             (Combination("distance", ((Measured(DISTANCE), 1.0),)), Combination("axial", ((ALONG_Z, 1.0),))), (OF_LINK,)
         ),
         None,
-        symbols.rod(symbols.HINGE, symbols.BALL),
+        _rod(HINGE, BALL),
         Looks(ends=("revolute", "spherical"), turns=("first",)),
+        place=("points", "axis"),
+        may=("x_axis",),
+        point_mass="second",
     ),
     # a link that turns about the axis a = z_1 and holds the line b = z_2: angle, common normal (times the sine of the angle),
     # and foot of the common normal on the first axis, s (1 - (aᵀb)²) = aᵀd - (aᵀb) bᵀd, keep their values
@@ -119,31 +187,46 @@ KINDS = (
             when_parallel=Composition((*PARALLEL, Combination("normal", ((Measured(RADIUS), 1.0),)))),
         ),
         None,
-        symbols.rod(symbols.HINGE, symbols.SLEEVE),
+        _rod(HINGE, SLEEVE),
         Looks(ends=("revolute", "cylindrical"), turns=("first", "second")),
+        place=("points", "axes"),
     ),
     # arms of the cross at any angle to each other, which stays as placed: also a cone that rolls on its tip
-    JointKind("skew-universal", Composition((POINT, SAME_ANGLE), ARMS), None, symbols.skew_universal),
+    JointKind(
+        "skew-universal",
+        Composition((POINT, SAME_ANGLE), ARMS),
+        None,
+        _skew_universal,
+        **(CROSS | NOT_PARALLEL),
+    ),
     # a universal joint whose cross slides along z of the first marker, with its arms along x of the first and z of the second
     JointKind(
         "translational-universal",
         Composition((*ON_AXIS, PerpendicularAxes("x", "z")), (DISPLACEMENT,)),
         None,
-        symbols.translational_universal,
+        _translational_universal,
+        place=("point", "axis", "axes"),
+        axes="perpendicular",
+        mirror="sliding",
     ),
     JointKind(
         "point-on-line",
         Composition(ON_AXIS, (DISPLACEMENT,)),
         None,
-        symbols.point_on_line,
+        _point_on_line,
         Looks("second", ground="line", slides="first"),
+        mirror="sliding",
+        point_mass="second",
+        **WITH_AXIS,
     ),
     JointKind(
         "point-on-plane",
         Composition((PerpendicularDistance("z"),), (X, Y)),
         None,
-        symbols.point_on_plane,
+        _point_on_plane,
         Looks("second", ground="plane", icon=ON_LEVEL),
+        point_mass="second",
+        **WITH_AXIS,
     ),
     # a pin about z in a slot along z of a third marker
     JointKind(
@@ -152,16 +235,33 @@ KINDS = (
             (*PARALLEL, PerpendicularDistance("x", "slot"), PerpendicularDistance("y", "slot")), (ANGLE, IN_SLOT)
         ),
         None,
-        symbols.pin_in_slot,
+        _pin_in_slot,
         Looks(turns=("first",), slides="slot"),
+        place=("point", "axes"),
+        axes="not parallel",
     ),
     JointKind(
         "rolling",
         Composition((ON_PLANE, _slip(0), _slip(1)), OF_WHEEL),
         None,
-        symbols.rolling,
+        _rolling,
         Looks("second", icon=ON_LEVEL),
+        place=("points", "axes"),
+        may=("x_axis",),
+        size=("radius",),
+        may_size=("rim_radius",),
+        mirror="sliding",
+        opposite="y",
     ),
     # locks nothing by itself
-    JointKind("generic", generic(()), None, symbols.generic, composed=lambda joint: generic(joint.locked or ())),
+    JointKind(
+        "generic",
+        generic(()),
+        None,
+        _generic,
+        composed=lambda joint: generic(joint.locked or ()),
+        size=("locked",),
+        opposite="displacement",
+        **WITH_AXIS,
+    ),
 )

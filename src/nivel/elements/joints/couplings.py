@@ -8,8 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import combinations_with_replacement
-from typing import Annotated, ClassVar, Final, Literal
+from math import pi
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal
 
+from nivel.elements.output import is_angle
+from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
 from nivel.machine.core.record import Name
@@ -21,8 +24,12 @@ from nivel.machine.laws.time_function import TimeFunction, signals_of
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.quantity import Length, PositiveLength, Scalar
-from nivel.machine.units.tree import Call, ExpressionError, Lookup, Node, Number, Signal, parts
+from nivel.machine.units.tree import Call, ExpressionError, Lookup, Node, Number, Operation, Signal, parts
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind
+
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+    from nivel.system.joint_rows import RowTable
 
 Terms = tuple[tuple[str, float], ...]
 _TWO = Field(description="two joint coordinates, or joints that have only one")
@@ -240,3 +247,70 @@ def _function(node: Node) -> Expression | float:
 
 
 Coupling = Annotated[Gear | Belt | Rack | LinearCoupling | FunctionCoupling, Field(discriminator="type")]
+TURN: Final = 2.0 * pi
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A function of coordinates in numbers of functions: its value, ∂/∂q of each coordinate q, and (q, r, function) of its second
+    derivatives, those of two different coordinates in both orders."""
+
+    value: int
+    slopes: dict[int, int]
+    bends: list[tuple[int, int, int]]
+
+
+def add_couplings(builder: SystemBuilder, rows: RowTable) -> None:
+    """Rows of all couplings, scaled so that the first coordinate has the factor one: its effort is what is reported."""
+    for coupling in builder.machine.couplings:
+        terms = [
+            (builder.coordinate(reference, kind), factor)
+            for (reference, factor), kind in zip(coupling.terms, coupling.kinds, strict=True)
+        ]
+        leading = terms[0][1]
+        units = "rad" if is_angle(builder, terms[0][0]) else "m"
+        row = rows.row(coupling.name, "coupling", units)
+        follows = isinstance(coupling, FunctionCoupling)
+        curve = _curve(builder, coupling) if follows else None
+        offset = 0.0 if follows and not coupling.from_start else None
+        effort = "N m" if units == "rad" else "N"
+        output = builder.outputs.add(
+            (f"coupling.{coupling.name}.effort", effort, f"effort of {coupling.name} on its first coordinate")
+        )
+        scaled = [(coordinate, factor / leading) for coordinate, factor in terms]
+        builder.transmissions[coupling.name] = row, {each: factor for each, factor in scaled if factor}
+        rows.combine(builder, row, scaled, offset=offset, curve=curve, report=(output, 0))
+
+
+def _curve(builder: SystemBuilder, coupling: FunctionCoupling) -> Curve:
+    """The value that a coordinate follows, and its derivatives. A cubic table goes on straight beyond its ends, where it has no corner."""
+    coordinate = {path: builder.coordinate(path) for path in coupling.coordinates}
+    slopes: dict[int, int] = {}
+    bends: list[tuple[int, int, int]] = []
+    for paths, function in coupling.slopes.items():
+        number = _smooth(builder, function, len(paths))
+        first, *others = [coordinate[path] for path in paths]
+        if not others:
+            slopes[first] = number
+        else:
+            bends += [(one, two, number) for one, two in dict.fromkeys([(first, *others), (*others, first)])]
+    return Curve(_smooth(builder, _counted(builder, coupling), 0), slopes, bends)
+
+
+def _counted(builder: SystemBuilder, coupling: FunctionCoupling) -> TimeFunction:
+    """The value that a coordinate follows, g; of an angle b by inverse tangents g + 2π n with the whole n that is nearest to b, as these
+    come back after a turn while b goes on."""
+    g, index = coupling.value, builder.coordinate(coupling.coordinate)
+    if not isinstance(g, Expression) or not coupling.counts_turns or not is_angle(builder, index):
+        return g
+    path = next(name for name, each in builder.joint_coordinates.items() if each == index)
+    turns = Operation("/", Operation("-", Signal(path), g.tree), Number(TURN))
+    nearest = Call("floor", (Operation("+", turns, Number(0.5)),))
+    return expression_of(Operation("+", g.tree, Operation("*", Number(TURN), nearest)))
+
+
+def _smooth(builder: SystemBuilder, function: TimeFunction, order: int) -> int:
+    """Number of a function, of a cubic table of its derivative of this order."""
+    if isinstance(function, Table) and function.interpolation == "cubic":
+        return builder.spline(function, order)
+    return builder.function(function, switching=False)

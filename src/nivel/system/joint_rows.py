@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.bodies.coordinate import LAST_ANGLE
-from nivel.kernels.record.record import NONE, Constraints
-from nivel.lazy import dataclass, field
-from nivel.machine.joints.coupling import FunctionCoupling
-from nivel.machine.joints.joint import Joint
-from nivel.machine.laws.table import Table
-from nivel.machine.laws.time_function import TimeFunction
-from nivel.machine.units.expression import Expression, expression_of
-from nivel.machine.units.tree import Call, Number, Operation, Signal
-from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
-from nivel.system.builder import SystemBuilder
-from nivel.system.joints.composition import (
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.couplings import Curve
+from nivel.elements.joints.joint import Joint
+from nivel.elements.joints.kind import (
     AXES,
     Basic,
     Coincident,
@@ -25,25 +17,18 @@ from nivel.system.joints.composition import (
     PerpendicularAxes,
     PerpendicularDistance,
 )
-from nivel.system.joints.joint_frames import cosine_as_placed, joint_frames, slot_frame
-from nivel.system.joints.joints import composition_of
-from nivel.system.joints.rails import OnBeam
+from nivel.elements.joints.on_beams import OnBeam
+from nivel.kernels.bodies.coordinate import LAST_ANGLE
+from nivel.kernels.record.record import NONE, Constraints
+from nivel.lazy import dataclass, field
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
+from nivel.system.builder import SystemBuilder
+from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.tables import Rail, Wheel, index_array
 
 # cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad
 PARALLEL = 5e-7
-TURN = 2.0 * np.pi
 Views = dict[str, tuple[int, int | Rail | Wheel]]  # from which marker to which, or to a beam or wheel
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A function of coordinates in numbers of functions: its value, ∂/∂q of each coordinate q, and (q, r, function) of its second
-    derivatives, those of two different coordinates in both orders."""
-
-    value: int
-    slopes: dict[int, int]
-    bends: list[tuple[int, int, int]]
 
 
 @dataclass
@@ -156,7 +141,7 @@ class RowTable:
 def add_joint(builder: SystemBuilder, rows: RowTable, joint: Joint) -> None:
     """Markers, joint coordinates and rows of a joint."""
     placed = joint_frames(builder.machine, joint)
-    if composition_of(joint).parallel:
+    if JOINTS[joint.type].of(joint).parallel:
         placed = (
             builder.directions.straightened(builder.machine, placed[0]),
             builder.directions.straightened(builder.machine, placed[1]),
@@ -185,7 +170,7 @@ def add_joint(builder: SystemBuilder, rows: RowTable, joint: Joint) -> None:
 
 def composition(joint: Joint, cosine: float) -> Composition:
     """What the joint is made of; `cosine` is that of the angle between the z axes as placed."""
-    kind = composition_of(joint)
+    kind = JOINTS[joint.type].of(joint)
     return kind.when_parallel if kind.when_parallel is not None and 1.0 - abs(cosine) < PARALLEL else kind
 
 
@@ -237,62 +222,6 @@ def _add_basic(builder: SystemBuilder, rows: RowTable, joint: Joint, basic: Basi
             rows.d1.append((first, AXES[a], second, AXES[b], row, part))
         case PerpendicularDistance(a):
             rows.d2.append((first, AXES[a], second, row, part))
-
-
-def add_couplings(builder: SystemBuilder, rows: RowTable) -> None:
-    """Rows of all couplings, scaled so that the first coordinate has the factor one: its effort is what is reported."""
-    for coupling in builder.machine.couplings:
-        terms = [
-            (builder.coordinate(reference, kind), factor)
-            for (reference, factor), kind in zip(coupling.terms, coupling.kinds, strict=True)
-        ]
-        leading = terms[0][1]
-        units = units_of(builder, terms[0][0])
-        row = rows.row(coupling.name, "coupling", units)
-        follows = isinstance(coupling, FunctionCoupling)
-        curve = _curve(builder, coupling) if follows else None
-        offset = 0.0 if follows and not coupling.from_start else None
-        effort = "N m" if units == "rad" else "N"
-        output = builder.outputs.add(
-            (f"coupling.{coupling.name}.effort", effort, f"effort of {coupling.name} on its first coordinate")
-        )
-        scaled = [(coordinate, factor / leading) for coordinate, factor in terms]
-        builder.transmissions[coupling.name] = row, {each: factor for each, factor in scaled if factor}
-        rows.combine(builder, row, scaled, offset=offset, curve=curve, report=(output, 0))
-
-
-def _curve(builder: SystemBuilder, coupling: FunctionCoupling) -> Curve:
-    """The value that a coordinate follows, and its derivatives. A cubic table goes on straight beyond its ends, where it has no corner."""
-    coordinate = {path: builder.coordinate(path) for path in coupling.coordinates}
-    slopes: dict[int, int] = {}
-    bends: list[tuple[int, int, int]] = []
-    for paths, function in coupling.slopes.items():
-        number = _smooth(builder, function, len(paths))
-        first, *others = [coordinate[path] for path in paths]
-        if not others:
-            slopes[first] = number
-        else:
-            bends += [(one, two, number) for one, two in dict.fromkeys([(first, *others), (*others, first)])]
-    return Curve(_smooth(builder, _counted(builder, coupling), 0), slopes, bends)
-
-
-def _counted(builder: SystemBuilder, coupling: FunctionCoupling) -> TimeFunction:
-    """The value that a coordinate follows, g; of an angle b by inverse tangents g + 2π n with the whole n that is nearest to b, as these
-    come back after a turn while b goes on."""
-    g, index = coupling.value, builder.coordinate(coupling.coordinate)
-    if not isinstance(g, Expression) or not coupling.counts_turns or units_of(builder, index) != "rad":
-        return g
-    path = next(name for name, each in builder.joint_coordinates.items() if each == index)
-    turns = Operation("/", Operation("-", Signal(path), g.tree), Number(TURN))
-    nearest = Call("floor", (Operation("+", turns, Number(0.5)),))
-    return expression_of(Operation("+", g.tree, Operation("*", Number(TURN), nearest)))
-
-
-def _smooth(builder: SystemBuilder, function: TimeFunction, order: int) -> int:
-    """Number of a function, of a cubic table of its derivative of this order."""
-    if isinstance(function, Table) and function.interpolation == "cubic":
-        return builder.spline(function, order)
-    return builder.function(function, switching=False)
 
 
 def units_of(builder: SystemBuilder, coordinate: int) -> str:

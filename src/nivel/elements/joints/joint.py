@@ -1,6 +1,6 @@
 """A joint in words: which two bodies, where, and what motion stays free.
 
-What a joint of each type is placed by, and its coordinates, are the facts of JOINT_WORDS.
+What a joint of each type is placed by, and its coordinates, are facts of its kind.
 """
 
 from __future__ import annotations
@@ -8,9 +8,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, ClassVar, Final, Literal
+from typing import ClassVar, Final, Literal
 
-from nivel.lazy import dataclass, replace
+from nivel.elements.joints import JOINTS, JointType
+from nivel.elements.joints.kind import JointKind
 from nivel.machine.core.axes import Triple, bad_axis_pair, no_direction, parallel
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.marker import TwoMarkers
@@ -20,105 +21,12 @@ from nivel.machine.core.usual import ANGULAR_SPEED, SLIDING_SPEED
 from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces, Usual
 from nivel.machine.units.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
 
-JointType = Literal[
-    "spherical",
-    "universal",
-    "revolute",
-    "cylindrical",
-    "translational",
-    "fixed",
-    "planar",
-    "point-on-line",
-    "point-on-plane",
-    "screw",
-    "distance",
-    "spherical-spherical",
-    "variable-distance",
-    "skew-universal",
-    "translational-universal",
-    "generic",
-    "revolute-spherical",
-    "revolute-cylindrical",
-    "revolute-translational",
-    "rolling",
-    "point-on-beam",
-    "keyed-on-beam",
-    "cylindrical-on-beam",
-    "translational-on-beam",
-]
-
 Motion = Literal["x", "y", "z", "rx", "ry", "rz"]
 # of a generic joint: the coordinate of each motion that has one
 COORDINATE_OF: Final[dict[str, str]] = {"x": "x", "y": "y", "z": "displacement", "rz": "angle"}
 
 PERPENDICULAR: Final = 1e-3  # [rad] by which the two axes of a universal joint may miss the right angle
 
-
-@dataclass(frozen=True)
-class JointWords:
-    """What a joint of one type is given by.
-
-    place : keys that it needs beside `bodies` where it is placed by points. may : keys that it may have there.
-    size : keys that it needs however it is placed. may_size : keys that it may have however it is placed.
-    coordinates : names of its joint coordinates. held : the joint itself holds these coordinates.
-    axes : what the two `axes` are to each other. rail : the second of its `bodies` is a beam, along which it slides.
-    point_mass : which of its bodies may be a point mass. mirror : what a mirror image keeps of its axes: that they turn, that they slide,
-    or both arms. opposite : the coordinate that counts the other way there.
-    """
-
-    place: tuple[str, ...]
-    coordinates: tuple[str, ...] = ()
-    may: tuple[str, ...] = ()
-    size: tuple[str, ...] = ()
-    may_size: tuple[str, ...] = ()
-    held: tuple[str, ...] = ()
-    axes: Literal["", "perpendicular", "not parallel"] = ""
-    rail: bool = False
-    point_mass: Literal["", "either", "second"] = ""
-    mirror: Literal["turning", "sliding", "arms"] = "turning"
-    opposite: str = ""
-
-
-def _on_axis(*coordinates: str, **more: Any) -> JointWords:
-    """Of a joint at a point with an axis."""
-    return JointWords(("point", "axis"), coordinates, may=("x_axis",), **more)
-
-
-_ROD: Final = JointWords(("points",), ("distance",), may_size=("distance",), held=("distance",), point_mass="either")
-_CROSS: Final = JointWords(("point", "axes"), ("angle_1", "angle_2"), axes="perpendicular", mirror="arms")
-_ON_BEAM: Final = JointWords(("point",), ("displacement",), rail=True)
-
-JOINT_WORDS: Final[dict[str, JointWords]] = {
-    "spherical": JointWords(("point",), point_mass="either"),
-    "universal": _CROSS,
-    "revolute": _on_axis("angle"),
-    "cylindrical": _on_axis("angle", "displacement", opposite="displacement"),
-    "translational": _on_axis("displacement", mirror="sliding"),
-    "fixed": JointWords(("point",)),
-    "planar": _on_axis("x", "y", "angle"),
-    "point-on-line": _on_axis("displacement", mirror="sliding", point_mass="second"),
-    "point-on-plane": _on_axis("x", "y", point_mass="second"),
-    "screw": _on_axis("angle", "displacement", size=("pitch",), opposite="displacement"),
-    "distance": _ROD,
-    "spherical-spherical": _ROD,
-    "variable-distance": JointWords(("points",), ("distance",)),
-    "skew-universal": replace(_CROSS, axes="not parallel"),
-    "translational-universal": JointWords(
-        ("point", "axis", "axes"), ("displacement",), axes="perpendicular", mirror="sliding"
-    ),
-    "generic": _on_axis("x", "y", "displacement", "angle", size=("locked",), opposite="displacement"),
-    "revolute-spherical": JointWords(("points", "axis"), ("angle",), may=("x_axis",), point_mass="second"),
-    "revolute-cylindrical": JointWords(("points", "axes")),
-    "revolute-translational": JointWords(("point", "axes"), ("angle", "displacement"), axes="not parallel"),
-    "rolling": JointWords(
-        ("points", "axes"), ("x", "y"), ("x_axis",), ("radius",), ("rim_radius",), mirror="sliding", opposite="y"
-    ),
-    "point-on-beam": _ON_BEAM,
-    "keyed-on-beam": _ON_BEAM,
-    "cylindrical-on-beam": _ON_BEAM,
-    "translational-on-beam": _ON_BEAM,
-}
-JOINT_COORDINATES: Final = {name: words.coordinates for name, words in JOINT_WORDS.items()}
 
 _PLACE: Final = ("point", "interface", "points", "axis", "axes", "x_axis")
 _SIZE: Final = ("pitch", "distance", "locked", "radius", "rim_radius")
@@ -219,12 +127,12 @@ class Joint(Checked):
     @property
     def coordinates(self) -> tuple[str, ...]:
         """Names of the joint coordinates."""
-        return JOINT_COORDINATES[self.type]
+        return JOINTS[self.type].coordinates
 
     @property
     def held(self) -> tuple[str, ...]:
         """Those of them that the joint itself holds."""
-        return (*JOINT_WORDS[self.type].held, *held_by(self.locked or ()))
+        return (*JOINTS[self.type].held, *held_by(self.locked or ()))
 
     @property
     def x_direction(self) -> Triple | None:
@@ -234,7 +142,7 @@ class Joint(Checked):
         return _line(self.points)
 
     def problems(self) -> Iterator[Problem]:
-        kind = JOINT_WORDS[self.type]
+        kind = JOINTS[self.type]
         if kind.rail and self.markers is not None:
             yield superfluous(
                 "markers", f"do not place a {self.type} joint: give `bodies`, the second a beam, and a `point`"
@@ -291,7 +199,7 @@ class Joint(Checked):
             if self._gives(key):
                 yield superfluous(key, "must not be given with `markers`, which say where the joint is")
 
-    def _problems_by_points(self, kind: JointWords) -> Iterator[Problem]:
+    def _problems_by_points(self, kind: JointKind) -> Iterator[Problem]:
         where = kind.place[0]
         by_interface = where == "point" and self.interface is not None and not kind.rail
         if by_interface and self.point is not None:
@@ -337,7 +245,7 @@ class Joint(Checked):
         elif _along(self.axes[0], points):
             yield Problem(("axes",), "the two `axes` are one line: that is a cylindrical joint, without a link")
 
-    def _problems_of_axes(self, kind: JointWords) -> Iterator[Problem]:
+    def _problems_of_axes(self, kind: JointKind) -> Iterator[Problem]:
         if self.axes is None:
             return
         zero = [problem for axis in self.axes for problem in no_direction("axes", axis)]
@@ -356,7 +264,7 @@ class Joint(Checked):
         if kind.axes == "not parallel" and parallel(*self.axes):
             yield Problem(("axes",), f"`axes` of a {self.type} joint are not parallel; these are")
 
-    def _problems_of_start(self, kind: JointWords) -> Iterator[Problem]:
+    def _problems_of_start(self, kind: JointKind) -> Iterator[Problem]:
         free = [name for name in kind.coordinates if name not in self.held]
         for key in ("start", "start_rates"):
             values: CoordinateValues | CoordinateRates | None = getattr(self, key)
@@ -364,14 +272,6 @@ class Joint(Checked):
                 if name not in free:
                     message = f"for a {self.type} joint {unknown_word(name, free, 'coordinate')}"
                     yield Problem((key, name), message, at_key=True)
-
-
-def register(word: str, words: JointWords) -> None:
-    """Add a type of joint. Machines know it from when their record is built anew (`MachineRecord.model_rebuild`)."""
-    JOINT_WORDS[word] = words
-    JOINT_COORDINATES[word] = words.coordinates
-    Joint.model_fields["type"].annotation = Literal[*JOINT_WORDS]  # type: ignore[assignment]
-    Joint.model_rebuild(force=True)
 
 
 def held_by(locked: Iterable[object]) -> tuple[str, ...]:

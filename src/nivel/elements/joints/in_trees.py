@@ -4,25 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import pi
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nivel.kernels.bodies.coordinate import (
-    ACROSS_Y,
-    ACROSS_Z,
-    ALONG,
-    CROSS_FIRST,
-    CROSS_SECOND,
-    LEAN_X,
-    LEAN_Y,
-    ROTATION,
-    TWIST,
-)
-from nivel.kernels.record import record as kernels
-from nivel.machine.core.orientation import euler_parameters_from_matrix, product
-from nivel.machine.joints.joint import Joint
-from nivel.system.joints import symbols
-from nivel.system.joints.composition import (
+from nivel.elements.joints.kind import (
     ALONG_Z,
     ANGLE,
     DISPLACEMENT,
@@ -30,18 +16,36 @@ from nivel.system.joints.composition import (
     ON_AXIS,
     PARALLEL,
     POINT,
+    SIGN,
     SLIDE,
+    WITH_AXIS,
+    Array,
     Combination,
     Composition,
     JointCoordinate,
+    JointKind,
+    Looks,
     Measured,
     PerpendicularAxes,
     PerpendicularDistance,
+    Seen,
+    Start,
+    TreeJoint,
     X,
     Y,
 )
-from nivel.system.joints.kind import JointKind, Looks, Seen, Start, TreeJoint
-from nivel.system.tables import Array
+from nivel.kernels.bodies.coordinate import (
+    CROSS_FIRST,
+    CROSS_SECOND,
+    ROTATION,
+)
+from nivel.kernels.record import record as kernels
+from nivel.machine.core.orientation import euler_parameters_from_matrix, product
+
+if TYPE_CHECKING:
+    from nivel.elements.joints.joint import Joint
+
+    Numbers = Callable[[Joint, float, float], tuple[float, float]]
 
 
 def _by_coordinates(
@@ -94,7 +98,6 @@ def _turn_of_cross(q: list[float], number: Array) -> Array:
     return product(product(_about_z(q[0]), np.array([0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)])), _about_z(q[1]))
 
 
-Numbers = Callable[[Joint, float, float], tuple[float, float]]
 NONE, HALF = np.array([1.0, 0.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, 1.0])  # turns about z
 FREE_BODY = TreeJoint(
     kernels.FREE,
@@ -129,36 +132,56 @@ ARMS = (
         "of the second body about its arm (z of the second marker), zero where the second x axis lies along the first body's arm",
     ),
 )
+CROSS: dict[str, Any] = {"place": ("point", "axes"), "axes": "perpendicular", "mirror": "arms"}
 END_ON = (0.0, 0.0)
 
 
-def _on_rail(name: str, kind: int, units: str = "m") -> Combination:
-    """A row that holds a coordinate of a slider on a beam at zero."""
-    return Combination(name, ((Measured(kind, seen_from="rail"), 1.0),), units=units, zero=True)
+def _revolute(seen: bool) -> str:
+    if not seen:
+        return f'<circle r="{SIGN}"/><circle r="1.6" class="dot"/>'
+    return '<rect x="-9" y="-5" width="18" height="10" rx="2.5"/><path d="M-14 0H14" class="axis"/>'
 
 
-ON_LINE = (_on_rail("across.y", ACROSS_Y), _on_rail("across.z", ACROSS_Z))
-WITH_LINE = (_on_rail("lean.x", LEAN_X, "1"), _on_rail("lean.y", LEAN_Y, "1"))
-KEY = _on_rail("twist", TWIST, "1")
-BLOCK, DOT = '<rect x="-8" y="-5" width="16" height="10"', '<circle r="4.2" class="solid"/>'
-LINE = '<path d="M0 -9.5V-4" class="axis"/>'
-PLACE_ON_BEAM = JointCoordinate(
-    "displacement",
-    Measured(ALONG, seen_from="rail"),
-    "m",
-    "of the point along the beam, in unstressed length from its start; the joint's z axis is that of the beam, its x axis the sections' y",
-)
+def _cylindrical(seen: bool) -> str:
+    if not seen:
+        return f'<circle r="{SIGN}"/><circle r="3" class="thin"/>'
+    arrows = '<path d="M-15.5 0l4-2.6v5.2zM15.5 0l-4-2.6v5.2z" class="dot"/>'
+    return f'<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="2.5"/>{arrows}'
 
 
-def _slider(motion: int, *turns: str, turning: bool = False) -> TreeJoint:
-    """Of a body that a beam carries: its place along the beam, and angles in the axes of the beam there."""
-    units = ("m", *("1",) * (4 if turning else len(turns)))
-    return TreeJoint(motion, units, turning=turning, coordinates=("displacement", *turns))
+def draw_translational(seen: bool) -> str:
+    if not seen:
+        return '<rect x="-6" y="-6" width="12" height="12"/><rect x="-2.5" y="-2.5" width="5" height="5" class="thin"/>'
+    return '<path d="M-17 -6.5H17M-17 6.5H17" class="axis"/><rect x="-9" y="-4.5" width="18" height="9"/>'
 
 
-def _on_beam(word: str, rows: tuple[Combination, ...], tree: TreeJoint, slider: str) -> JointKind:
-    """Of a body that a beam carries; its start is in `nivel.system.states.joint_start`."""
-    return JointKind(word, Composition((*ON_LINE, *rows), (PLACE_ON_BEAM,)), tree, symbols.on_beam(slider))
+def _spherical(seen: bool) -> str:
+    return f'<circle r="{SIGN}"/><circle r="3.6" class="dot"/>'
+
+
+def draw_universal(seen: bool) -> str:
+    return f'<circle r="{SIGN}"/><path d="M-4.4 -4.4L4.4 4.4M-4.4 4.4L4.4 -4.4" class="axis"/>'
+
+
+def _fixed(seen: bool) -> str:
+    return '<rect x="-5.5" y="-5.5" width="11" height="11" class="solid"/>'
+
+
+def _planar(seen: bool) -> str:
+    if not seen:
+        arrows = "M0 -10l-2.6 4h5.2zM0 10l-2.6 -4h5.2zM-10 0l4 -2.6v5.2zM10 0l-4 -2.6v5.2z"
+        return f'<rect x="-10.5" y="-10.5" width="21" height="21" rx="2"/><path d="{arrows}" class="dot"/>'
+    return '<rect x="-2.5" y="-8" width="7" height="16"/><path d="M-5 -15V15" class="axis"/>'
+
+
+def _screw(seen: bool) -> str:
+    if not seen:
+        return f'<circle r="{SIGN}"/><path d="M3.4 0A3.4 3.4 0 1 1 0 -3.4" class="axis"/>'
+    thread = "".join(f"M{k} 5l4 -10" for k in (-8, -4, 0, 4))
+    return (
+        '<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="1"/>'
+        f'<path d="{thread}" class="thin"/>'
+    )
 
 
 KINDS = (
@@ -166,26 +189,31 @@ KINDS = (
         "revolute",
         Composition((POINT, *PARALLEL), (ANGLE,)),
         _by_coordinates(kernels.REVOLUTE, "angle"),
-        symbols.revolute,
+        _revolute,
         Looks(turns=("first",), icon=END_ON),
         {"spherical": OF_POINT, "cylindrical": ("s.axis", "d1.xz", "d1.yz"), "point-on-line": ("s.axis",)},
+        **WITH_AXIS,
     ),
     JointKind(
         "translational",
         Composition((*PARALLEL, *ON_AXIS, NO_SPIN), (DISPLACEMENT,)),
         _by_coordinates(kernels.TRANSLATIONAL, "displacement"),
-        symbols.translational,
+        draw_translational,
         Looks("moving", ground="rail", slides="first"),
         {"cylindrical": ("d1.xz", "d1.yz", "d2.x", "d2.y"), "point-on-line": ("d2.x", "d2.y")},
+        mirror="sliding",
+        **WITH_AXIS,
     ),
     JointKind(
         "cylindrical",
         Composition((*PARALLEL, *ON_AXIS), (ANGLE, DISPLACEMENT)),
         _by_coordinates(kernels.CYLINDRICAL, "angle", "displacement"),
-        symbols.cylindrical,
+        _cylindrical,
         Looks("moving", ground="rail", turns=("first",)),
         {"point-on-line": ("d2.x", "d2.y")},
         without_turn="translational",
+        opposite="displacement",
+        **WITH_AXIS,
     ),
     JointKind(
         "screw",
@@ -193,8 +221,11 @@ KINDS = (
         _by_coordinates(
             kernels.SCREW, "angle", numbers=lambda joint, angle, d: (_lead(joint), d - _lead(joint) * angle)
         ),
-        symbols.screw,
+        _screw,
         Looks("moving", ground="rail", slides="first"),
+        size=("pitch",),
+        opposite="displacement",
+        **WITH_AXIS,
     ),
     JointKind(
         "universal",
@@ -208,42 +239,38 @@ KINDS = (
             coordinates=("angle_1", "angle_2"),
             backwards=("angle_2", "angle_1"),
         ),
-        symbols.universal,
+        draw_universal,
         Looks(icon=END_ON),
         {"spherical": OF_POINT},
+        **CROSS,
     ),
     JointKind(
         "spherical",
         Composition((POINT,)),
         TreeJoint(kernels.SPHERICAL, ("1",) * 4, _start_spherical, lambda q, _: np.array(q), turning=True),
-        symbols.spherical,
+        _spherical,
         Looks(icon=END_ON),
         without_turn="universal",
+        place=("point",),
+        point_mass="either",
     ),
     JointKind(
         "planar",
         Composition((*PARALLEL, PerpendicularDistance("z")), (X, Y, ANGLE)),
         # along the axes of the second marker, which turn against those of the first
         _by_coordinates(kernels.PLANAR, "x", "y", "angle", backwards=("x_from_second", "y_from_second", "angle")),
-        symbols.planar,
+        _planar,
         Looks("second", ground="plane", turns=("first",), icon=(0.0, -1.0)),
         {"point-on-plane": ("d2.z",)},
+        **WITH_AXIS,
     ),
     JointKind(
         "fixed",
         Composition((POINT, *PARALLEL, NO_SPIN)),
         _by_coordinates(kernels.FIXED),
-        symbols.fixed,
+        _fixed,
         Looks(icon=END_ON),
         {"spherical": OF_POINT, "revolute": (*OF_POINT, "d1.xz", "d1.yz")},
-    ),
-    _on_beam("point-on-beam", (), _slider(kernels.POINT_ON_BEAM, turning=True), DOT),
-    _on_beam("keyed-on-beam", (KEY,), _slider(kernels.KEYED_ON_BEAM, "turn_1", "turn_2"), f"{DOT}{LINE}"),
-    _on_beam("cylindrical-on-beam", WITH_LINE, _slider(kernels.CYLINDRICAL_ON_BEAM, "turn"), f'{BLOCK} rx="2.5"/>'),
-    _on_beam(
-        "translational-on-beam",
-        (*WITH_LINE, KEY),
-        _slider(kernels.TRANSLATIONAL_ON_BEAM),
-        f'{BLOCK} class="solid"/>',
+        place=("point",),
     ),
 )

@@ -1,18 +1,21 @@
-"""Joints that slide along a beam: which nodes they may come by, and where they start."""
+"""Joints that slide along a beam: what holds them on it, which nodes they may come by, and where they start."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
+from nivel.elements.joints import JOINTS
+from nivel.elements.joints.joint import Joint
+from nivel.elements.joints.kind import Array, Combination, Composition, JointCoordinate, JointKind, Measured, TreeJoint
 from nivel.errors import Fault, ModelError
+from nivel.kernels.bodies.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, LEAN_Y, TWIST
+from nivel.kernels.record import record as kernels
 from nivel.lazy import scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.core.checked import Problem
-from nivel.machine.joints.joint import JOINT_WORDS, Joint
-from nivel.system.tables import Array
 
 SAMPLES = 8  # of the line between two nodes, from which the nearest point is looked for
 OFF = 1e-3  # of the length of a beam by which the point of a joint may miss its line: the joint is on the line
@@ -54,7 +57,7 @@ def stretches(nodes: Sequence[int], *, turned: bool) -> Iterator[tuple[int, ...]
 
 
 def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
-    if not JOINT_WORDS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
+    if not JOINTS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
         return joint
     assert joint.point is not None  # the record was checked
     beam = beams[joint.bodies[1]]
@@ -112,3 +115,53 @@ def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> t
     )
     place = min((float(found.x), low, high), key=square)
     return place, line(place)
+
+
+def _on_rail(name: str, kind: int, units: str = "m") -> Combination:
+    """A row that holds a coordinate of a slider on a beam at zero."""
+    return Combination(name, ((Measured(kind, seen_from="rail"), 1.0),), units=units, zero=True)
+
+
+ON_LINE = (_on_rail("across.y", ACROSS_Y), _on_rail("across.z", ACROSS_Z))
+WITH_LINE = (_on_rail("lean.x", LEAN_X, "1"), _on_rail("lean.y", LEAN_Y, "1"))
+KEY = _on_rail("twist", TWIST, "1")
+BLOCK, DOT = '<rect x="-8" y="-5" width="16" height="10"', '<circle r="4.2" class="solid"/>'
+LINE = '<path d="M0 -9.5V-4" class="axis"/>'
+PLACE_ON_BEAM = JointCoordinate(
+    "displacement",
+    Measured(ALONG, seen_from="rail"),
+    "m",
+    "of the point along the beam, in unstressed length from its start; the joint's z axis is that of the beam, its x axis the sections' y",
+)
+
+
+def _slider(motion: int, *turns: str, turning: bool = False) -> TreeJoint:
+    """Of a body that a beam carries: its place along the beam, and angles in the axes of the beam there."""
+    units = ("m", *("1",) * (4 if turning else len(turns)))
+    return TreeJoint(motion, units, turning=turning, coordinates=("displacement", *turns))
+
+
+def _sign(slider: str) -> Callable[[bool], str]:
+    """What slides on a line that bends."""
+    line = '<path d="M-17 4Q0 -4 17 4" class="axis"/>'
+    return lambda seen: f"{line}{slider}"
+
+
+def _sliding(word: str, rows: tuple[Combination, ...], tree: TreeJoint, slider: str) -> JointKind:
+    """Of a body that a beam carries; its start is in `nivel.system.states.joint_start`."""
+    return JointKind(
+        word, Composition((*ON_LINE, *rows), (PLACE_ON_BEAM,)), tree, _sign(slider), place=("point",), rail=True
+    )
+
+
+KINDS = (
+    _sliding("point-on-beam", (), _slider(kernels.POINT_ON_BEAM, turning=True), DOT),
+    _sliding("keyed-on-beam", (KEY,), _slider(kernels.KEYED_ON_BEAM, "turn_1", "turn_2"), f"{DOT}{LINE}"),
+    _sliding("cylindrical-on-beam", WITH_LINE, _slider(kernels.CYLINDRICAL_ON_BEAM, "turn"), f'{BLOCK} rx="2.5"/>'),
+    _sliding(
+        "translational-on-beam",
+        (*WITH_LINE, KEY),
+        _slider(kernels.TRANSLATIONAL_ON_BEAM),
+        f'{BLOCK} class="solid"/>',
+    ),
+)

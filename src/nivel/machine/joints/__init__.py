@@ -1,1 +1,0 @@
-"""Joints, couplings between them, and drivers."""

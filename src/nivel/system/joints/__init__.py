@@ -1,1 +1,0 @@
-"""Arrays of joints: constraint rows, joint frames, drivers, rails and interfaces."""

@@ -1,1 +1,0 @@
-"""Kinds of joints: every module of this folder says in KINDS which it has."""

@@ -166,6 +166,7 @@ if TYPE_CHECKING:
     import nivel.judge.before.circuits
     import nivel.judge.before.refusals
     import nivel.judge.before.unusual
+    import nivel.kernels.bodies.driven_turn
     import nivel.kernels.output.observe
     import nivel.live.budget
     import nivel.live.datagrams

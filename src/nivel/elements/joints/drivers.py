@@ -12,7 +12,7 @@ from nivel.elements.joints.kind import AXES
 from nivel.elements.output import is_angle
 from nivel.errors import located
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
-from nivel.kernels.bodies.driven_turn import TURN_X, TURN_Y, TURN_Z
+from nivel.lazy import nivel
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import CoordinateRate, Truth
 from nivel.machine.core.orientation import AxisSequence
@@ -257,10 +257,6 @@ class Driver(Checked):
             yield Problem(("relative_to",), "a marker does not move relative to itself")
 
 
-# of the three coordinates of a turn, in the order of the axes
-TURNS = (TURN_X, TURN_Y, TURN_Z)
-
-
 def add_drivers(builder: SystemBuilder, rows: RowTable) -> None:
     """Rows of all drivers."""
     for driver in builder.machine.drivers:
@@ -335,8 +331,8 @@ def _add_pose(builder: SystemBuilder, rows: RowTable, driver: Driver) -> None:
         axes, functions = driver.orientation.turns
         place = f"drivers.{driver.name}.orientation"
         first, *_ = [_function(builder, place, each) for each in functions]
-        nothing = _function(builder, place, 0.0)
-        for axis, kind in zip("xyz", TURNS, strict=True):
+        nothing, turn = _function(builder, place, 0.0), nivel.kernels.bodies.driven_turn
+        for axis, kind in zip("xyz", (turn.TURN_X, turn.TURN_Y, turn.TURN_Z), strict=True):
             coordinate = builder.coordinates.on_target(kind, reference, marker, (first, axes))
             _add_row(builder, rows, driver, (f"about_{axis}", f"about {axis} of {driver.marker}"), coordinate, nothing)
 

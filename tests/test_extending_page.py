@@ -325,7 +325,7 @@ def is_of_integrators(path):
 def package(tmp_path_factory):
     """A copy of the package with the edits of the page, but those of integrators."""
     edits = [each for each in EDIT.findall(PAGE) if not is_of_integrators(each[0])]
-    assert len(edits) == 12
+    assert len(edits) == 10
     return edited(tmp_path_factory.mktemp("package"), edits)
 
 

@@ -18,7 +18,7 @@ from nivel.lazy import nivel
 
 
 class CommandPlace(NamedTuple):
-    """Where a sub-command lives, and what it is for in one line."""
+    """Where a sub-command lives, `module` or `module:function` (default: `command`), and what it is for in one line."""
 
     module: str
     help: str
@@ -37,8 +37,10 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),
     "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
     "sweep": CommandPlace("nivel.cli.sweep", "Compute many variants of a machine: data file, report, summary."),
-    "optimise": CommandPlace("nivel.cli.optimise", "Find the best values of a machine's parameters."),
-    "identify": CommandPlace("nivel.cli.identify", "Find the values of a machine's parameters from measurements."),
+    "optimise": CommandPlace("nivel.cli.search_command:optimise", "Find the best values of a machine's parameters."),
+    "identify": CommandPlace(
+        "nivel.cli.search_command:identify", "Find the values of a machine's parameters from measurements."
+    ),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
     "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
     "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),
@@ -57,7 +59,7 @@ NEW_OBJECTS: Final = 20_000
 
 
 class LazyGroup(click.Group):
-    """A group whose commands are the `command` of the modules in COMMANDS. What they raise is told in failures.py."""
+    """A group whose commands are those of COMMANDS. What they raise is told in failures.py."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -70,7 +72,8 @@ class LazyGroup(click.Group):
         for variable in ONE_THREAD:
             os.environ.setdefault(variable, "1")
         gc.set_threshold(NEW_OBJECTS)
-        return import_module(place.module).command
+        module, _, name = place.module.partition(":")
+        return getattr(import_module(module), name or "command")
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

@@ -1,9 +1,11 @@
-"""Course of the commands that search, `nivel optimise` and `nivel identify`: the study, the search, its data file and its report."""
+"""Commands that search: `nivel optimise STUDY`, values of parameters with which an output is least within limits of others; `nivel identify
+STUDY`, those that explain measurements, and how certain they are. Each writes a data file and a report."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +25,8 @@ from nivel.errors import ModelError, SolveError
 from nivel.lazy import dataclass, nivel, rich
 
 if TYPE_CHECKING:
+    from nivel.analysis.optimise.identify import Identified
+    from nivel.analysis.optimise.optimise import Optimum
     from nivel.studies import Study
 
 Command = Callable[..., Any]
@@ -140,3 +144,93 @@ def numbers_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     for row in rows:
         table.add_row(*row)
     rich.console.Console().print(table)
+
+
+@click.command(short_help="Find the best values of a machine's parameters.")
+@search_options
+def optimise(**given: Any) -> None:
+    """Find the values of the parameters of STUDY with which one of its outputs is least, within the limits of the others.
+
+    The study says so with `optimise: {output: NAME}`. The data file and the report have every variant that was computed. The best
+    machine is run once more, with a second run beside it, to say how exact it is.
+
+    Exit codes: 0 a best one within all limits was found, 2 fault in the input, 3 no values keep all limits, or runs fail.
+    """
+    kind = Kind(
+        lambda study, **options: study.optimise(**options),
+        facts=_facts_of_optimum,
+        say=_say_optimum,
+        is_found=lambda found: found.kept,
+    )
+    make_search(Given(**given), kind)
+
+
+def _facts_of_optimum(found: Optimum) -> dict[str, Any]:
+    return {
+        "values": dict(found.values),
+        "outputs": dict(found.outputs),
+        "kept": found.kept,
+        "reached": found.reached.tolist(),
+        "evaluations": found.evaluations,
+        "message": found.message,
+    }
+
+
+def _say_optimum(found: Optimum) -> None:
+    rows = [*((path, value, "parameter") for path, value in found.values.items())]
+    rows += [(name, value, "output") for name, value in found.outputs.items() if name != "objective"]
+    numbers_table(("name", "value", ""), [(name, f"{value:.6g}", what) for name, value, what in rows])
+    kept = "all limits are kept" if found.kept else "NOT ALL LIMITS ARE KEPT"
+    click.echo(f"{kept}; {found.message}", err=True)
+
+
+@click.command(short_help="Find the values of a machine's parameters from measurements.")
+@search_options
+def identify(**given: Any) -> None:
+    """Find the values of the parameters of STUDY with which the machine moves as it was measured, by least squares.
+
+    The study names the measurements with `identify: {data: FILE.csv}`. The data file and the report have every variant that was
+    computed, and the covariance of what was found. The machine that was found is run once more, with a second run beside it, to
+    say how exact it is.
+
+    Exit codes: 0 all parameters were found, 2 fault in the input, 3 the measurements do not tell some of them apart, or runs fail.
+    """
+    kind = Kind(
+        lambda study, **options: study.identify(**options),
+        facts=_facts_of_fit,
+        say=_say_fit,
+        is_found=lambda found: not found.undetermined,
+    )
+    make_search(Given(**given), kind)
+
+
+def _facts_of_fit(found: Identified) -> dict[str, Any]:
+    deviations = {path: None if path in found.on_bounds else each for path, each in found.deviations.items()}
+    return {
+        "values": dict(found.values),
+        "standard_deviations": deviations,
+        "covariance": [[None if isnan(each) else each for each in row] for row in found.covariance.tolist()],
+        "deviation_of": dict(found.deviation_of),
+        "undetermined": list(found.undetermined),
+        "on_bounds": list(found.on_bounds),
+        "reached": found.reached.tolist(),
+        "evaluations": found.evaluations,
+    }
+
+
+def _say_fit(found: Identified) -> None:
+    rows = [(path, f"{value:.6g}", _deviation(found, path)) for path, value in found.values.items()]
+    numbers_table(("parameter", "value", "standard deviation"), rows)
+    for name, deviation in found.deviation_of.items():
+        click.echo(f"{name}: what is left has a standard deviation of {deviation:.3g}", err=True)
+    if found.on_bounds:
+        listed = ", ".join(found.on_bounds)
+        click.echo(
+            f"on a bound, without a deviation: {listed}; move the bound to see where the squares are least", err=True
+        )
+    if found.undetermined:
+        click.echo(f"the measurements do not tell apart: {', '.join(found.undetermined)}", err=True)
+
+
+def _deviation(found: Identified, path: str) -> str:
+    return "on its bound" if path in found.on_bounds else f"{found.deviations[path]:.2g}"

@@ -19,8 +19,7 @@ from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, 
 from nivel.analysis.assembly.penalties import bound_pivots, penalise, refuse_unknown_rows, soft_rows
 from nivel.analysis.assembly.redundancy import Redundancy, analyse, modal_rows
 from nivel.analysis.assembly.unique_reactions import leave_out, rows_everywhere
-from nivel.analysis.curves.corners import corners, jumping_functions
-from nivel.analysis.curves.step_limits import allowed_steps
+from nivel.analysis.curves.corners import allowed_steps, corners, jumping_functions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.memory import in_one_piece
 from nivel.errors import Fault, ModelError, refuse

@@ -51,7 +51,7 @@ def _of_matrix(mass: MatrixMass, modes: Array) -> Invariants:
     )
 
 
-DEPENDENT = 1e-8  # share of the mass of a vector that is left beside kept modes, below which it is one of them
+BESIDE_OTHERS = 1e-8  # share of the mass of a vector that is left beside kept modes, below which it is one of them
 
 
 def left_out(body: FreeBody, modes: Array, candidates: Array, nodes: Whole) -> LeftOut:
@@ -69,14 +69,14 @@ def beside_kept(body: FreeBody, kept: Array, candidates: Array) -> Array:
     unit = candidates[:, weight > 0.0] / np.sqrt(weight[weight > 0.0])
     for _ in range(2):  # twice is enough (Parlett, Kahan)
         unit = unit - spanned @ (spanned.T @ (body.M @ unit))
-    return unit[:, np.einsum("ij,ij->j", unit, body.M @ unit) > DEPENDENT]
+    return unit[:, np.einsum("ij,ij->j", unit, body.M @ unit) > BESIDE_OTHERS]
 
 
 def _diagonal(body: FreeBody, vectors: Array) -> tuple[Array, Array]:
     """Modes (N, k) of unit modal mass in the span of `vectors`, and their eigenvalues."""
     mass = vectors.T @ (body.M @ vectors)
     values, turned = la.eigh(0.5 * (mass + mass.T)) if vectors.shape[1] else (np.zeros(0), np.zeros((0, 0)))
-    keep = values > DEPENDENT * values.max(initial=0.0)
+    keep = values > BESIDE_OTHERS * values.max(initial=0.0)
     spanned = vectors @ (turned[:, keep] / np.sqrt(values[keep]))
     stiffness = spanned.T @ (body.K @ spanned)
     if not spanned.shape[1]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.curves.step_limits import rounding_of_times
+from nivel.analysis.curves.corners import rounding_of_times
 from nivel.judge.after.report import FRAMES, SECOND_RUN, STEPS, Check, Need, blindness
 from nivel.judge.after.subject import Run, Scales
 from nivel.lazy import dataclass

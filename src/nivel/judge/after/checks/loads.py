@@ -10,11 +10,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.curves.corners import corners
+from nivel.analysis.curves.corners import corners, with_features
 from nivel.analysis.curves.functions import LawCurve, SideOf, Varying, varying
 from nivel.analysis.curves.missed_impulse import Unseen, beyond_samples, unseen_loads
 from nivel.analysis.curves.path import Path, Steps, path_of, steps_between, steps_of
-from nivel.analysis.curves.step_limits import with_features
 from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run

@@ -224,7 +224,3 @@ class Mechanism:
         """Links that are the second of no connection."""
         carried = {each.bodies[1] for each in self.connections}
         return [name for name in self.links if name not in carried]
-
-    def carried_by(self, name: str) -> Iterator[Connection]:
-        """Connections whose first link is `name`."""
-        return (each for each in self.connections if each.bodies[0] == name)

@@ -20,11 +20,6 @@ def magnitude_and_power(units: str, words: str = "magnitude") -> tuple[Output, O
     return ("magnitude", units, words), ("power", "W", "power into the machine")
 
 
-def effort_and_power(angle: bool, words: str) -> tuple[Output, Output]:
-    """The same of what acts on a coordinate: a torque on an angle, a force on a length."""
-    return magnitude_and_power("N m" if angle else "N", words)
-
-
 def is_angle(builder: SystemBuilder, coordinate: int) -> bool:
     """Whether a coordinate is an angle [rad] and not a length [m]."""
     return builder.coordinates.what[coordinate][0] <= LAST_ANGLE

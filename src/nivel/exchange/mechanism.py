@@ -7,7 +7,6 @@ of a link.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Final, Literal
 
 import numpy as np

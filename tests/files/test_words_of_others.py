@@ -204,7 +204,6 @@ MISTAKES = {
         "write `Nm*s`",
     ),
     "position of a body": ("gravity: [0, -9.81, 0]", "sensors: {s: rod.position.x}", 2, "write `s: {value: rod.x}`"),
-    "velocity of a body": ("vector: [1, 0, 0]", "vector: [-5*rod.velocity.x, 0, 0]", 12, "write `rod.vx`"),
     "moments with other names": (
         "inertia: [0.1, 0.1, 0.1]",
         "inertia: [0.1, 0.1, 0.1, 0, 0, 0]",

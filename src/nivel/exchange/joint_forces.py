@@ -13,7 +13,7 @@ STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
 RESTITUTION: Final = 0.2
 LARGEST: Final = 1e6  # [rad or m] an end of the way beyond this is none
 
-CREEPS: Final = "friction of a joint is dry friction that gives way as slowly as that of the model"
+CREEPS: Final = "friction of a joint is dry friction that creeps as slowly as that of the model"
 STOPS: Final = f"limits are stops: their stiffness lets what the joint moves vibrate at {STOP_FREQUENCY:g} Hz, restitution {RESTITUTION:g}"
 FRICTION: Final = "friction of a joint is dry friction with sticking, of the same effort in both directions"
 ENDS: Final = f"limits of tendons are springs, with which what they move vibrates at {STOP_FREQUENCY:g} Hz"

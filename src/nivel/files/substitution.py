@@ -179,6 +179,7 @@ MENTIONS: Final = (
     "event",
     "ports",
     "valves",
+    "wheel",
     "fluid",
 )
 

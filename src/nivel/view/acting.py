@@ -47,7 +47,7 @@ def place_of(
     known: dict[str, Any], record: dict[str, Any], places: dict[str, int], bodies: list[Body]
 ) -> tuple[int, Triple] | None:
     """Body and point of what stands at a marker, or at a body: a torque at the centre of mass; None on the ground."""
-    marker = known.get("marker")
+    marker = known.get("marker") or known.get("wheel")
     if isinstance(marker, str):
         marker = next((each for each in record.get("markers", []) if each.get("name") == marker), None)
     named = marker if isinstance(marker, dict) else known
@@ -86,7 +86,11 @@ def _elsewhere(
     joints: list[Joint],
 ) -> Force:
     """What acts on one body, or on a joint coordinate; without a place where that is not known."""
-    words = [(word, str(known[word])) for word in ("body", "marker", "coordinate") if isinstance(known.get(word), str)]
+    words = [
+        (word, str(known[word]))
+        for word in ("body", "marker", "wheel", "plane", "coordinate")
+        if isinstance(known.get(word), str)
+    ]
     facts = [("type", kind), *words]
     at = coordinate_place(known.get("coordinate"), joints)
     if at is not None:

@@ -125,6 +125,14 @@ def test_an_equilibrium_is_that_of_the_carcass_and_none_is_beyond_the_grip(acros
         sled(gravity=slope(1.3, across)).statics()
 
 
+def test_a_standing_machine_vibrates_on_its_carcass():
+    """√(4 c/m) along, across and up; turns have other inertias. Damping takes less than a thousandth."""
+    linear = sled(gravity=slope(0.02), start="equilibrium", duration=1).linearise()
+    found = np.abs(np.imag(linear.eigenvalues))
+    for c in (SOFTER["along"] * C, SOFTER["across"] * C, C):
+        assert np.abs(found / math.sqrt(4.0 * c / 1600.0) - 1.0).min() < 2e-3
+
+
 @pytest.mark.parametrize("turn", [0.0, math.pi / 2])
 def test_locked_wheels_stop_in_the_distance_of_their_sliding_force(turn):
     """v²/(2 a), a = 4 F_S/m; the carcass stretches by some centimetres first."""

@@ -293,8 +293,8 @@ def look_at_loads(subject: Run | Equilibria) -> list[Laden]:
     """Every tyre."""
     out = []
     for force in subject.machine.forces:
-        if force.type == "tyre":
-            load = subject.result.array(f"force.{force.name}.magnitude") / force.nominal_load
+        if (nominal := getattr(force, "nominal_load", None)) is not None:  # of tyres
+            load = subject.result.array(f"force.{force.name}.magnitude") / nominal
             k = int(np.argmax(load))
             out.append(Laden(force.name, float(load[k]), float(subject.result.time[k])))
     return out

@@ -15,6 +15,7 @@ from nivel.elements.circuits.actuators import Cushion
 from nivel.elements.circuits.composed import CHECK_OPENS_AT, CHECK_RANGE
 from nivel.elements.circuits.edges import Edge
 from nivel.elements.circuits.fluids import Fluid, Gas
+from nivel.elements.circuits.pipe_losses import CRITICAL, RESISTANCE, loss
 from nivel.elements.circuits.pistons import (
     COULOMB,
     SEAL,
@@ -26,6 +27,7 @@ from nivel.elements.circuits.pistons import (
     PistonFriction,
     friction_force,
 )
+from nivel.elements.circuits.smooth import ramp, root_flow, step
 from nivel.elements.circuits.spool_valves import conductances
 from nivel.files import parse_machine
 
@@ -93,6 +95,9 @@ def formula_of(row: str, begin: str, end: str, **names: float) -> float:
     text = (
         text.replace("²", "**2").replace("√(", "sqrt(").replace("ρ₀", "rho").replace("ρ_l", "rho_l").replace("Δp", "dp")
     )
+    for sign, power in (("³", "**3"), ("⁴", "**4"), ("⁶", "**6"), ("^", "**")):
+        text = text.replace(sign, power)
+    text = re.sub(r"(?<=\d)(?=t\b)", "*", text)
     text = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text)
     text = text.replace("sqrt*(", "sqrt(").replace("exp*(", "exp(").replace("tanh*(", "tanh(")
     known = {each: getattr(np, each) for each in ("sqrt", "exp", "tanh")}
@@ -118,6 +123,24 @@ def test_the_edge_of_an_area_is_the_formula_of_the_page():
     _, (curve,) = conductances(valve, edge, density)
     page = formula_of("edge of a spool valve", "K = C A", ",", C=0.65, A=3e-5, rho=density)
     assert curve.values[-1] == pytest.approx(page, rel=1e-12)
+
+
+def test_openings_and_flows_are_the_formulas_of_the_page():
+    """S of poppets, R of spools, the root of a restriction, the loss of a pipe."""
+    for t in (0.0, 0.2, 0.7, 1.0):
+        assert step(t) == pytest.approx(formula_of("check, relief, …", "S = 3t²", ";", t=t), abs=1e-15)
+        width = 0.02
+        page = formula_of("directional valve", "r (t³", " with", r=width, t=t)
+        assert ramp(t * width, width) == pytest.approx(page, abs=1e-15)
+    assert ramp(0.3, 0.02) == formula_of("directional valve", "R(z) = z", " beyond", z=0.3, r=0.02)
+    for dp in (-3e5, -10.0, 0.0, 2e4, 2e7):
+        page = formula_of("restriction", "Q = K", ", K", K=2e-8, x=0.4, c=5e4, G=1e-13, dp=dp)
+        assert 2e-8 * 0.4 * root_flow(dp, 5e4, 0) + 1e-13 * dp == pytest.approx(page, rel=1e-12, abs=1e-18)
+    numbers = np.zeros(8)
+    numbers[[RESISTANCE, CRITICAL]] = 3e4, 1e-4
+    for flow in (-1e-3, 0.0, 9e-5, 4e-4):
+        page = formula_of("pipe", "Δp = R", ":", R=3e4 * 870.0, Q=flow, Q_c=1e-4)
+        assert loss(numbers, 1.0, 870.0, flow) == pytest.approx(page, rel=1e-12, abs=1e-9)
 
 
 def test_check_valves_of_brake_valves_are_those_of_the_page():

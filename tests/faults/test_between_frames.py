@@ -159,6 +159,14 @@ def test_a_run_that_keeps_one_frame_a_period_is_not_green():
     assert "peak power of force.coil between frames" in str(result.powers().attrs["headline"])
 
 
+@pytest.mark.parametrize("interval", [1.0, 3.0])
+def test_a_run_that_keeps_a_few_frames_of_many_periods_is_not_green(interval):
+    """25 Hz; frames so few that no polynomial goes through five of them are held against probes too."""
+    result = nivel.Machine.from_record(parse_machine(RINGING)).simulate(duration=3.0, output_interval=interval)
+    assert result.trust.light != "green"
+    assert any("beyond what frames show" in each.text for each in result.trust.items if each.verdict == "amber")
+
+
 def test_outputs_of_studies_do_not_depend_on_frames():
     """Amplitude √(x₀² + (v₀/ω)²), and the spring's largest tension and mean square."""
     machine = nivel.Machine.from_record(parse_machine(RINGING))

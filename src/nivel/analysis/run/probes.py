@@ -15,7 +15,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.integrate.loop.run import EVERY, HORIZON, SHOWN, TIME, Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
-from nivel.results.curve import RATES, ROUNDED, TOLD, curve
+from nivel.results.curve import RATES, ROUNDED, STENCIL, TOLD, curve
 from nivel.system.layout import FrameLayout
 
 Array = NDArray[np.float64]
@@ -147,7 +147,9 @@ class Probes:
         beyond = np.maximum(probes - beside.max(axis=1), beside.min(axis=1) - probes)
         for columns, rate in ((self._known, near[:, self._rate]), (~self._known, None)):
             of = curve(near[:, 0], near[:, columns], rate)
-            off = np.minimum(np.abs(of.at(time) - probes[:, columns]) - of.doubt_at(time), beyond[:, columns])
+            # the doubt of so few frames that no polynomial goes through them is none that is known better than by probes
+            doubt = of.doubt_at(time) if len(near) >= STENCIL else 0.0
+            off = np.minimum(np.abs(of.at(time) - probes[:, columns]) - doubt, beyond[:, columns])
             off = np.max(np.nan_to_num(off[inside]), axis=0, initial=0.0)
             self.off[columns] = np.maximum(self.off[columns], off)
 

@@ -10,8 +10,8 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.curves.corners import with_features
 from nivel.analysis.curves.functions import ExpressionCurve, TableCurve
-from nivel.analysis.curves.step_limits import with_features
 from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete

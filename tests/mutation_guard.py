@@ -118,8 +118,6 @@ COVER = {
     ),
     "kernels/forces/ancf": verification("gradient_beams"),
     "kernels/forces/beam": (*verification("statics_beams"), *BEAMS),
-    "kernels/forces/elastic": (*verification("statics_beams"), *BEAMS),
-    "kernels/forces/held": (*verification("statics_beams"), *BEAMS),
     "kernels/forces/hull": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
     "kernels/forces/pressure_cells": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
     "elements/forces/ropes": (*verification("ropes"), *STATES),

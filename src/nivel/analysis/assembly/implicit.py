@@ -12,7 +12,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknown_groups import frictions_with_stiction, integrals, unknown_groups
 from nivel.kernels.core.arrays import dual_twin
 from nivel.kernels.core.block import Handle
-from nivel.kernels.forces import held_beam
+from nivel.kernels.forces.beam import hold
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.implicit_record import Newton, Residual
 from nivel.kernels.record.record import (
@@ -282,7 +282,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
         address[hook] = _on_duals(record.hooks.address[hook])
     families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[elastic_family(record)] = held_beam.apply.dual_address
+        families[elastic_family(record)] = hold.dual_address
     laws = np.array([dual_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(

@@ -16,7 +16,7 @@ from nivel.elements.forces import FORCES
 from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
-from nivel.kernels.forces.held_beam import apply as hold
+from nivel.kernels.forces.beam import hold
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.c_function import output as c_output

@@ -7,7 +7,7 @@ stiffness k. At a point, with the potential M·T(ψ) ψ' of given moments and N�
 
 Nodes feel f_a = R_r P_a and t_a = R_a T_a⁻ᵀ P_ψa; the reference node what balances them. Their changes for a motion (δx, δθ) of the nodes
 follow from k and from how these forces turn, and rows are their work on the motions of the unknowns. While the other derivatives are
-found on dual numbers the elements keep their wrenches (`nivel.kernels.forces.held_beam`), which gives what turns of rows do to them; for
+found on dual numbers the elements keep their wrenches (`nivel.kernels.forces.beam`), which gives what turns of rows do to them; for
 plain nodes that is done here too, with their inertia.
 """
 

@@ -9,7 +9,7 @@ import numpy as np
 from nivel.elements.forces.bushing import apply as bushing
 from nivel.elements.states import Coupled
 from nivel.kernels.forces.beam import apply as beam_family
-from nivel.kernels.forces.elastic_beam import apply as elastic_beam
+from nivel.kernels.forces.beam import apply_elastic as elastic_beam
 from nivel.kernels.record.beam_record import BeamTangent, SharedMass
 from nivel.kernels.record.hook import FAMILIES as COMPILED
 from nivel.kernels.record.hook import Family

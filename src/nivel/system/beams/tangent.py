@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.forces.elastic_beam import apply as elastic_beam
+from nivel.kernels.forces.beam import apply_elastic as elastic_beam
 from nivel.kernels.record.beam_record import BeamTangent
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import FREE, NONE, Record

@@ -39,6 +39,8 @@ from nivel.machine.core.record import GROUND
 
 NEARLY: Final = 2e-6  # [rad] between axes that a machine may take as parallel
 ROUND_OFF: Final = 1e-15  # [rad]
+MOST_STICKING: Final = 60  # contacts whose friction implicit methods have in their matrices, which are full
+MANY: Final = f"with more than {MOST_STICKING} contacts that can stick the method is dopri5: implicit ones would have large full matrices"
 LIGHT: Final = "a link without mass between joints has 1e-15 of the mass that it carries: exact to round-off in relative coordinates"
 
 
@@ -125,6 +127,9 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     settings: dict[str, Any] = {} if mechanism.step is None or contacts else {"step": mechanism.step}
     if any(LIGHT in each for each in mechanism.notes.changed):
         settings["coordinates"] = "relative"
+    if sum("friction" in each for each in contacts.values()) > MOST_STICKING:
+        settings["integrator"] = "dopri5"
+        mechanism.notes.change(MANY)
     data |= {"simulation": settings} if settings else {}
     if losses := mechanism.notes.losses():
         data["left_out"] = losses

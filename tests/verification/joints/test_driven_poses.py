@@ -98,7 +98,7 @@ def efforts(t, turned, h=1e-3):
         pytest.param({"coordinates": "independent"}, marks=pytest.mark.full),
         pytest.param({"formulation": "lagrange"}, marks=pytest.mark.full),
         pytest.param({"formulation": "augmented-lagrangian"}, marks=pytest.mark.full),
-        pytest.param({"integrator": "newmark"}, marks=pytest.mark.full),
+        pytest.param({"integrator": "newmark", "step": 0.001}, marks=pytest.mark.full),
         pytest.param({"integrator": "radau"}, marks=pytest.mark.full),
     ],
     ids=lambda each: next(iter(each.values())),

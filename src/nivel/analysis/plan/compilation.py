@@ -24,6 +24,7 @@ from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import nivel, rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
+from nivel.machine.forces.contact import Contact
 from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, PATHS
@@ -160,7 +161,7 @@ def run_entries(plan: Plan) -> list[Entry]:
     """What a run takes."""
     methods = plan.methods
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
-    if any(force.type == "contact" and force.heights is not None for force in methods.machine.forces):
+    if any(isinstance(force, Contact) and force.heights is not None for force in methods.machine.forces):
         modules.append(HEIGHT_WAY)
     path = methods.path
     if methods.machine.is_flexible:

@@ -120,7 +120,8 @@ def _waits(machine: MachineRecord, path: str) -> bool:
         # blocks may follow each other, and their own parts: each is looked at once
         if symbol.section == "control" and (block := blocks.pop(symbol.name, None)) is not None:
             present = [part.function for part in block.parts if part.role == "signal"]
-            open_paths += [each for function in present for each in signals_of(function)]
+            varying = [function for function in present if not isinstance(function, float | int)]
+            open_paths += [each for function in varying for each in function.signals]
     return True
 
 

@@ -18,6 +18,7 @@ from nivel.judge.after.subject import Run
 from nivel.kernels.forces import ground_contact
 from nivel.lazy import dataclass, replace
 from nivel.machine.core.element import Acts, Holds
+from nivel.machine.forces.contact import Contact
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.results.motion import peak
@@ -184,7 +185,7 @@ class Frames:
 def passed_over(run: Run) -> Iterator[Contradiction]:
     """Contacts with ground that has heights, into which steps of fixed size go deeper than at any of their ends."""
     elements = run.prepared.motion.system.record.elements
-    names = [force.name for force in run.machine.forces if force.type == "contact" and force.heights is not None]
+    names = [force.name for force in run.machine.forces if isinstance(force, Contact) and force.heights is not None]
     first, last = rows_over_heights(elements)
     for name, numbers in zip(names, elements.number[first:last], strict=True):
         missed, seen = float(numbers[ground_contact.MISSED]), max(float(numbers[ground_contact.SEEN]), 0.0)

@@ -221,6 +221,9 @@ def _energy(subject: Actuated) -> float:
 def _of_variable(result: Any, variable: str, off: NDArray[np.float64], positions: bool) -> Iterator[Otherwise]:
     """The worst number of a variable."""
     values = result.array(variable).reshape(len(result.time), -1)
+    off = np.where(off > ROUNDED * np.abs(values).max(initial=0.0), off, 0.0)
+    if not off.any():
+        return
     ranges = np.ptp(values, axis=0)
     # a column that hardly moves beside the others of its variable moves by their round-off
     share = off / np.maximum(ranges, max(STILL * float(ranges.max(initial=0.0)), 1e-300))

@@ -432,6 +432,7 @@ def test_the_setting_of_the_page_is_one_field(package):
     checked = subprocess.run(
         [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable, "script.py"],
         cwd=package,
+        env={**os.environ, "PYTHONPATH": str(package)},
         capture_output=True,
         text=True,
         check=False,

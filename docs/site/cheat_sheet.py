@@ -21,7 +21,8 @@ given. <em>ends</em>: markers, or bodies and points. Joint coordinates (→) are
 
 def cheat_sheet() -> str:
     """The page: sections, kinds of elements with their keys, units."""
-    from nivel.files.assembly import Assembly, Include
+    from nivel.files.assembly import Assembly
+    from nivel.files.include import Include
 
     records = sections()
     used = parts_of(record for found in records.values() for record in found)

@@ -1,7 +1,6 @@
 """Words that people read are the standard ones of the field: home-made terms stand in no page and no message."""
 
 import ast
-import importlib
 import inspect
 import re
 from pathlib import Path
@@ -10,7 +9,7 @@ import click
 import pytest
 
 import nivel
-from nivel.cli import COMMANDS
+from nivel.cli import COMMANDS, main
 
 ROOT = Path(__file__).parents[2]
 PAGES = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
@@ -123,7 +122,7 @@ def test_no_page_has_a_home_made_term(path):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_no_help_of_a_command_has_a_home_made_term(name):
-    command = importlib.import_module(COMMANDS[name].module).command
+    command = main.get_command(click.Context(main), name)
     text = command.get_help(click.Context(command, info_name=name))
     wrong = [what for _, what in home_made(" ".join(text.split()), HOME_MADE | IN_PAGES)]
     assert not wrong, "\n".join(wrong)

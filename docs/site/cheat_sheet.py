@@ -29,6 +29,9 @@ def cheat_sheet() -> str:
     blocks = [_block(section, found) for section, found in records.items() if section != "joints"]
     blocks.insert(3, _joints(records["joints"][0]))
     blocks.append(f"<h4>files</h4>{_line('include', Include, ())}{_line('assemblies', Assembly, ())}")
+    blocks.append(
+        '<h4>tyres, ground</h4><p class="key">sets of keys for several forces: <b>tyre</b>, <b>ground</b></p>'
+    )
     blocks.append(f"<h4>parts of elements</h4>{''.join(_line(_title(part), part, ()) for part in used)}")
     return "\n".join(
         [

@@ -15,6 +15,7 @@ from nivel.machine.uses.references import SECTIONS
 
 RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, FunctionCoupling, Driver, *FORCES.records, Sensor)
 TEXTS = {
+    "type",
     "name",
     "units",
     "quantity",

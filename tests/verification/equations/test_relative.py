@@ -163,9 +163,13 @@ def assert_frames_agree(machine, prepared, y):
     # where no body can turn, angular accelerations are round-off of what the same forces accelerate
     if largest["angular_acceleration"] < 1e-12 * largest["acceleration"]:
         largest["angular_acceleration"] = largest["acceleration"]
+    # and where forces have no lever, torques of joints are round-off of these
+    load = max(size for name, size in largest.items() if name == "joint_force" or name.endswith(".magnitude"))
+    if largest["joint_torque"] < 1e-9 * load:
+        largest["joint_torque"] = load
     # components of a vector are on the scale of the vector
     for name in [each for each in largest if each.startswith("force.") and each.endswith("_x")]:
-        parts = [name[:-1] + axis for axis in "xyz"]
+        parts = [part for part in (name[:-1] + axis for axis in "xyz") if part in largest]
         largest |= dict.fromkeys(parts, max(largest[part] for part in parts))
     # the middle of forces that are round-off is anywhere; what is apart says zero
     loose = tuple(

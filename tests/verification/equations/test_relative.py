@@ -166,7 +166,7 @@ def assert_frames_agree(machine, prepared, y):
     # and where forces have no lever, torques of joints are round-off of these
     load = max(size for name, size in largest.items() if name == "joint_force" or name.endswith(".magnitude"))
     if largest["joint_torque"] < 1e-9 * load:
-        largest["joint_torque"] = load
+        largest["joint_torque"] = largest["joint_torque_local"] = load
     # components of a vector are on the scale of the vector
     for name in [each for each in largest if each.startswith("force.") and each.endswith("_x")]:
         parts = [part for part in (name[:-1] + axis for axis in "xyz") if part in largest]

@@ -106,7 +106,7 @@ def test_joints_with_axes_on_the_first_body_hold_point_masses_at_the_second(type
         ),
         (
             {"joints": ({"name": "j", "type": "fixed", "bodies": ("bead", "rod"), "point": (0, 0, 0)},)},
-            "joints.j.bodies.0: `bead`: a point mass does not turn; it can be in the joints spherical, distance",
+            "joints.j.bodies.0: `bead`: a point mass does not turn; it can be in the joints distance, spherical",
         ),
         (
             {"joints": ({"name": "j", "type": "spherical", "bodies": ("rod", "bead"), "point": (0, "1 cm", 0)},)},

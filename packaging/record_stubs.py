@@ -10,6 +10,7 @@ import nivel
 from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
+from nivel.elements.joints import JOINTS
 
 ROOMS: Final = {"forces": FORCES, "circuits": COMPONENTS, "control": BLOCKS}
 OTHERS: Final = {"circuits": ("Fluid", "Gas")}  # records of rooms that are no kinds of an element
@@ -34,6 +35,14 @@ def stub(room: str) -> str:
     return "\n".join((HEAD + source.rstrip(), "", *lines, ""))
 
 
+def stub_of_joints() -> str:
+    """The text of `nivel/elements/joints/__init__.pyi`: a joint is one record, whose types are words."""
+    module = import_module("nivel.elements.joints")
+    source = Path(str(module.__file__)).read_text(encoding="utf-8")
+    words = f"Literal[{', '.join(map(repr, sorted(JOINTS.homes)))}]"
+    return HEAD + source.replace("Annotated[str, WordOf(JOINTS)]", words).replace("Annotated, Final", "Final, Literal")
+
+
 def stub_of_package() -> str:
     """The text of `nivel/__init__.pyi`."""
     rooms = [(*module.rsplit(".", 1), name) for name, module in nivel._ROOMS.items()]
@@ -45,6 +54,9 @@ def stub_of_package() -> str:
 def write_stubs() -> None:
     """Write the stubs of the package and of all rooms."""
     Path(str(nivel.__file__)).with_suffix(".pyi").write_text(stub_of_package(), encoding="utf-8")
+    (Path(str(import_module("nivel.elements.joints").__file__)).with_suffix(".pyi")).write_text(
+        stub_of_joints(), encoding="utf-8"
+    )
     for room in ROOMS:
         module = import_module(f"nivel.elements.{room}")
         Path(str(module.__file__)).with_suffix(".pyi").write_text(stub(room), encoding="utf-8")

@@ -11,7 +11,7 @@ from nivel.machine.machine_record import MachineRecord
 
 ROOT = Path(__file__).parents[2]
 sys.path.append(str(ROOT / "packaging"))
-from record_stubs import ROOMS, records_of, stub, stub_of_package  # noqa: E402
+from record_stubs import ROOMS, records_of, stub, stub_of_joints, stub_of_package  # noqa: E402
 
 SECTIONS = set(MachineRecord.model_fields) - {"name"}
 ROOM_OF = {"forces": nivel.forces, "hydraulics": nivel.hydraulics, "fluids": nivel.hydraulics, "control": nivel.control}
@@ -49,6 +49,12 @@ def test_type_checkers_know_every_name_of_the_package():
     written = Path(str(nivel.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
     assert written == stub_of_package(), "python packaging/write_settings.py"
     assert all(hasattr(nivel, name) for name in nivel.__all__)
+
+
+def test_type_checkers_know_the_types_of_joints():
+    module = sys.modules["nivel.elements.joints"]
+    written = Path(str(module.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
+    assert written == stub_of_joints(), "python packaging/write_settings.py"
 
 
 def test_a_record_that_stands_elsewhere_is_told():

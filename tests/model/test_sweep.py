@@ -113,7 +113,10 @@ def test_a_sweep_may_start_from_equilibrium():
         (lambda m: m.sweep({"block.mas": [3]}), "did you mean `mass`"),
         (lambda m: m.sweep({"block.mass": [3]}, save="rail.displacment"), "did you mean `rail.displacement`"),
         (lambda m: m.sweep({"block.mass": [3]}, durtion=1), "did you mean `duration`"),
-        (lambda m: m.sweep({"block.mass": [3]}, combine="all"), "`grid` or `rows` was expected, got `all`"),
+        (
+            lambda m: m.sweep({"block.mass": [3]}, combine="all"),
+            "the combination `all` is not known; there are grid, rows, ",
+        ),
         (lambda m: m.sweep({"block.mass": [3, 4], "gravity.0": [1]}, combine="rows"), "needs lists of one length"),
         (lambda m: m.sweep({"block.mass": 3}, samples=5), "two bounds (1, 3) or a distribution of SciPy"),
         (lambda m: m.sweep({"block.mass": (1, 2)}, samples=0), "a whole number of at least 1"),

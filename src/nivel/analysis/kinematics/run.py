@@ -46,7 +46,7 @@ from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.machine.settings.values import POSITIONS
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import TIME
-from nivel.results.curve import PROBED, TOLD, curve
+from nivel.results.curve import PROBED, ROUNDED, TOLD, curve
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -174,7 +174,7 @@ def hidden(machine: MachineRecord, prepared: Prepared, steps: RunSettings) -> di
             np.maximum(right - near.max(axis=1), near.min(axis=1) - right), np.abs(between.at(at)[:, 0] - right)
         )
         off = np.abs(between.at(inside)[:, 0] - of.values({TIME: inside}))
-        if max(peak.max(), off.mean()) > TOLD * np.ptp(right):
+        if max(peak.max(), off.mean()) > max(TOLD * np.ptp(right), ROUNDED * np.abs(right).max(initial=0.0)):
             found = out.setdefault(variable, [0.0] * len(names))
             found[named[0]] = max(float(peak.max()), float(off.max()))
     return out

@@ -114,6 +114,7 @@ def test_what_becomes_stiff_goes_on_with_the_state_at_hand():
     np.testing.assert_allclose(named.array("rail.displacement")[:before], first, atol=1e-10)
 
 
+@pytest.mark.compiles
 def test_gradients_of_what_becomes_stiff_are_those_of_one_method():
     """x(t) is proportional to its start, as the force is to x."""
     sections = grows()

@@ -123,6 +123,7 @@ def test_pulses_of_drivers_that_no_position_meets_are_told(law, peak, positions)
     assert abs(force.value[0] - peak) <= 1e-2 * peak or found.trust.light != "green"
 
 
+@pytest.mark.compiles
 @pytest.mark.parametrize("interval", [0.05, 0.2])
 def test_the_slope_of_a_maximum_is_that_of_the_curve(interval):
     """x = v/ω sin ω t, largest v √(m/k): the slope along k is -v √m / (2 k^1.5) = -5e-4."""

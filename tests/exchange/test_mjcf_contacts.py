@@ -47,6 +47,22 @@ def test_the_pairs_are_those_that_masks_parents_and_exclusions_leave(path):
     assert any("contact" in each for each in apart.data["left_out"])
 
 
+@pytest.mark.parametrize(("balls", "integrator"), [(9, None), (12, "dopri5")])
+def test_models_with_many_contacts_that_can_stick_are_stepped_explicitly(balls, integrator, tmp_path):
+    """n balls on the ground have n (n + 1)/2 contacts: 45 and 78."""
+    bodies = "".join(
+        f'<body pos="{k} 0 .1"><freejoint/><geom name="ball_{k}" type="sphere" size=".1" mass="1"/></body>'
+        for k in range(balls)
+    )
+    ground = '<geom name="ground" type="plane" size="5 5 1"/>'
+    path = tmp_path / "balls.xml"
+    path.write_text(f"<mujoco><worldbody>{ground}{bodies}</worldbody></mujoco>", encoding="utf-8")
+    found = read_model(path)
+    assert sum(each["type"] == "contact" for each in found.data["forces"].values()) == balls * (balls + 1) // 2
+    assert found.data.get("simulation", {}).get("integrator") == integrator
+    assert any("dopri5" in each for each in found.notes.changed) == (integrator is not None)
+
+
 SOFT = """<mujoco><worldbody><geom name="ground" type="plane" size="5 5 1"/><body name="stool" pos="0 0 0.0"><freejoint/>
 <geom name="seat" type="box" size=".2 .2 .02" pos="0 0 .3" mass="8" contype="0" conaffinity="0"/>
 <body name="one" pos=".2 .2 .03"><joint axis="0 1 0" stiffness="500" damping="5" frictionloss="0.3"/>

@@ -261,6 +261,14 @@ def test_ordinary_machines_stay_on_one_branch():
     assert [each.verdict for each in result.trust.items if each.name == "branches"] == ["green"]
 
 
+def test_a_constant_speed_asks_for_no_more_positions():
+    """The rate of the driver is constant but for round-off, which no further positions would show better."""
+    result = nivel.load(f"{EXAMPLES}/mechanisms/slider-crank.yaml").kinematics(drive="hinge", duration=2)
+    assert len(result.time) == 361
+    assert np.ptp(result.array("hinge.angle.rate")) < 1e-12
+    assert "between_frames" not in [each.name for each in result.trust.items]
+
+
 def test_states_that_keep_their_start_are_told():
     """A controller moves on in a run, but not here: what its motor does is not what it would do."""
     machine = nivel.load(f"{EXAMPLES}/control/servo-axis.yaml")

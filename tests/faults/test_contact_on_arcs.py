@@ -1,9 +1,12 @@
 """Contacts that steps pass on arcs, as of a sphere at the end of an arm that turns by 0.6 rad a step."""
 
+import json
+
 import pytest
 
 from nivel import Machine
 from nivel.files import parse_machine
+from nivel.judge.after import touching_pairs
 
 ARM = """
 format: 1
@@ -76,3 +79,39 @@ def test_a_ball_that_steps_carry_through_another_of_a_heap_is_red():
     assert line.time == pytest.approx(5.25e-3, abs=1e-4)
     assert "ball" in line.text
     assert contacts(SHOT.replace("[%s, 0, 0]", "[0.525, 0.05, 0]")) == []
+
+
+def shots(count):
+    """`count` spheres, each shot through a plate of its own, and contacts of every sphere with every plate."""
+    still = {"density": 7850, "shape": {"type": "box", "size": [0.01, 0.1, 0.1]}}
+    shot = {"density": 7850, "velocity": [100, 0, 0], "shape": {"type": "sphere", "radius": 0.01}}
+    places = range(count)
+    bodies = {f"plate{k}": {**still, "position": [0.23, k, 0]} for k in places}
+    bodies |= {f"shot{k}": {**shot, "position": [0, k, 0]} for k in places}
+    pairs = [(i, j) for i in places for j in places]
+    touch = {"type": "contact", "stiffness": 1e6, "restitution": 1}
+    forces = {f"touch{i}_{j}": {**touch, "bodies": [f"shot{i}", f"plate{j}"]} for i, j in pairs}
+    rates = {"duration": "5 ms", "step": "1 ms", "output_interval": "1 ms", "integrator": "rk4"}
+    return {"format": 1, "name": "shots", "bodies": bodies, "forces": forces, "simulation": rates}
+
+
+def test_only_pairs_that_come_near_are_looked_at(monkeypatch):
+    """Twice the bodies, four times the contacts: the looks double."""
+    looks = []
+    depth = touching_pairs._depth
+    monkeypatch.setattr(touching_pairs, "_depth", lambda *pose: looks.append(1) or depth(*pose))
+    counts = []
+    for count in (3, 6):
+        looks.clear()
+        result = Machine.from_record(parse_machine(json.dumps(shots(count)))).simulate(verify=False)
+        assert len([item for item in result.trust.items if item.name == "contact"]) == min(count, 5)
+        counts.append(len(looks))
+    assert counts[1] == 2 * counts[0] > 0
+
+
+def test_contacts_that_are_not_looked_at_are_told(monkeypatch):
+    monkeypatch.setattr(touching_pairs, "MOST_LOOKS", 0)
+    trust = Machine.from_record(parse_machine(json.dumps(shots(2)))).simulate(verify=False).trust
+    (line,) = [item for item in trust.items if item.name == "unexamined" and "pass through" in item.text]
+    assert "touch0_0" in line.text
+    assert "touch1_1" in line.text

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from nivel.integrate.loop.run import MOVING
+from nivel.judge.after.touching_pairs import Passing, find_passing
 from nivel.lazy import dataclass, field
 from nivel.results.curve import probed
 from nivel.results.motion import Peak, worst_row
@@ -126,6 +127,11 @@ class Run(Motion, Computed):
     def assembly(self) -> Mapping[str, Any]:
         """What the assembly changed of what was given."""
         return json.loads(str(self.result.attributes.get("assembly", "{}")))
+
+    @cached_property
+    def passing(self) -> Passing:
+        """Bodies that went through each other between two frames."""
+        return find_passing(self.machine, self.result)
 
     @property
     def between_frames(self) -> Mapping[str, list[float]]:

@@ -17,9 +17,7 @@ from nivel.analysis.curves.path import Path, Steps, path_of, steps_between, step
 from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run
-from nivel.judge.after.touching_pairs import spheres_among
 from nivel.lazy import dataclass, replace
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
@@ -239,8 +237,8 @@ NAMED = 6  # names in a sentence
 
 @dataclass(frozen=True)
 class Unexamined:
-    """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, and of heaps in
-    which too many spheres are too fast for *Contact*."""
+    """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, and of contacts
+    with more fast pairs than *Contact* looks at."""
 
     functions: tuple[str, ...]
     laws: tuple[str, ...]
@@ -252,15 +250,8 @@ def look_for_unexamined(run: Run) -> Unexamined | None:
     every = list(varying(run.machine))
     hidden = tuple(each.name for each in every if path_of(each, run.machine, run.result) is None)
     laws = tuple(each.name for each in every if isinstance(each.curve, LawCurve) and each.name not in hidden)
-    contacts = _unknown_contacts(run)
+    contacts = run.passing.unexamined
     return Unexamined(hidden, laws, contacts) if hidden or laws or contacts else None
-
-
-def _unknown_contacts(run: Run) -> tuple[str, ...]:
-    """Heaps of which too many spheres are fast."""
-    machine, result = run.machine, run.result
-    heaps = (each for each in machine.forces if isinstance(each, Contacts))
-    return tuple(each.name for each in heaps if spheres_among(machine, each, result) is None)
 
 
 def say_unexamined(found: Unexamined) -> Item:

@@ -29,8 +29,8 @@ from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.body_files import KEY as MASS_PROPERTIES
+from nivel.files.joint_parts import DESCRIBED as PARTS_OF_JOINTS
 from nivel.files.outline import FILE_WORDS, SETS, TOP_WORDS
-from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.files.writer import write_machine
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine.beams import section as sections
@@ -211,7 +211,7 @@ def test_every_key_of_a_part_is_mentioned(title, record):
 def test_every_section_is_described():
     assert {*TOP_WORDS, *FILE_WORDS} == first_column("Shape of a file")
     assert MASS_PROPERTIES in first_column("Bodies")
-    assert ROTOR_INERTIA in first_column("Joints")
+    assert {*PARTS_OF_JOINTS} <= first_column("Joints")
     assert {*FILE_WORDS, MASS_PROPERTIES, "python"} == first_column("Several files")
     assert {"format", "parameters", "functions", *SETS, *field_words(MachineRecord)} == set(TOP_WORDS)
 

@@ -14,7 +14,7 @@ from nivel.machine.uses.references import SECTIONS
 SCHEMA = schema()
 OF_FILES = {
     "Body": {"mass_properties"},
-    "Joint": {"rotor_inertia"},
+    "Joint": {"rotor_inertia", "stops", "friction", "backlash"},
     "Tyre": {"tyre", "ground"},
     "Contact": {"ground"},
 }  # keys that only files have

@@ -276,6 +276,7 @@ EVERYTHING = {
             "rotor_inertia": 1e-4,
             "gear_stiffness": "1e4 N m/rad",
             "gear_damping": 2,
+            "backlash": "0.1 deg",
         },
         {
             "name": "servo",

@@ -1,4 +1,4 @@
-"""Elements at a joint coordinate beside the joint: stops, dampers, springs, friction, couplings, start values."""
+"""What acts at a joint coordinate: stops and friction of the joint, and dampers, springs, couplings, start values beside it."""
 
 from __future__ import annotations
 
@@ -25,42 +25,36 @@ def coordinate_of(each: Connection, names: Names) -> str:
     return f"{names.name('joint', each.name)}.{each.coordinate}"
 
 
-def forces_of(each: Connection, names: Names, effective: float, mechanism: Mechanism) -> dict[str, dict[str, Any]]:
-    """Forces by the end of their names. effective : inertia at the coordinate [kg m²] or mass [kg]."""
-    out: dict[str, dict[str, Any]] = {}
+def parts_of(each: Connection, effective: float, mechanism: Mechanism) -> dict[str, Any]:
+    """Keys of the joint: its stops and its friction. effective : inertia at the coordinate [kg m²] or mass [kg]."""
+    out: dict[str, Any] = {}
     if not each.coordinate:
         return out
-    notes, coordinate = mechanism.notes, coordinate_of(each, names)
-    ends = _ends(each)
+    notes, ends = mechanism.notes, _ends(each)
     if len(ends) == 2 and ends["lower"] >= ends["upper"]:
         notes.leave("limits whose lower end is not below the upper end", each.name, each.line)
     elif ends and effective > 0.0:
         stiffness = float(f"{effective * (2.0 * math.pi * STOP_FREQUENCY) ** 2:.3g}")
-        out["stop"] = {"type": "stop", "coordinate": coordinate, **{key: number(value) for key, value in ends.items()}}
-        out["stop"] |= {"stiffness": stiffness, "restitution": RESTITUTION}
+        out["stops"] = {key: number(value) for key, value in ends.items()}
+        out["stops"] |= {"stiffness": stiffness, "restitution": RESTITUTION}
         notes.change(STOPS, each.name, each.line)
-    spring = {"stiffness": each.stiffness, "damping": each.damping, "free_value": each.free}
-    if each.stiffness or each.damping:
-        given = {key: number(value) for key, value in spring.items() if value}
-        out["spring" if each.stiffness else "damper"] = {
-            "type": "joint-spring-damper",
-            "coordinate": coordinate,
-            **given,
-        }
     if each.friction > 0.0:
-        law = (
-            {"model": "coulomb", "transition_speed": float(f"{each.creep:.6g}")}
-            if each.creep
-            else {"model": "stiction"}
-        )
-        out["friction"] = {"type": "friction", "coordinate": coordinate, **law, "coefficient": 1.0}
-        out["friction"] |= {"normal_load": number(each.friction)} | (
-            {"radius": 1.0} if each.coordinate == "angle" else {}
-        )
+        law = {"model": "coulomb", "transition_speed": float(f"{each.creep:.6g}")} if each.creep else {}
+        out["friction"] = {"effort": number(each.friction), **law} if law else number(each.friction)
         notes.change(CREEPS if each.creep else FRICTION, each.name, each.line)
     if each.effort is not None and 0.0 < each.effort < LARGEST:
         notes.leave(EFFORT, f"{each.name} {each.effort:g} {'N m' if each.coordinate == 'angle' else 'N'}", each.line)
     return out
+
+
+def spring_of(each: Connection, names: Names) -> dict[str, dict[str, Any]]:
+    """A spring or damper at the coordinate by the end of its name, or nothing."""
+    if not each.coordinate or not (each.stiffness or each.damping):
+        return {}
+    spring = {"stiffness": each.stiffness, "damping": each.damping, "free_value": each.free}
+    given = {key: number(value) for key, value in spring.items() if value}
+    force = {"type": "joint-spring-damper", "coordinate": coordinate_of(each, names), **given}
+    return {"spring" if each.stiffness else "damper": force}
 
 
 def _ends(each: Connection) -> dict[str, float]:

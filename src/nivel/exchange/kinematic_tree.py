@@ -18,7 +18,7 @@ from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
-from nivel.files.rotors import rotors_of
+from nivel.files.joint_parts import rotors_of
 from nivel.lazy import dataclass, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker

@@ -27,8 +27,9 @@ from nivel.exchange.joint_forces import (
     add_starts,
     coordinate_of,
     coupling_of,
-    forces_of,
+    parts_of,
     pulled,
+    spring_of,
     start_values,
 )
 from nivel.exchange.looks import Drawing
@@ -77,7 +78,12 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         moved = carried(mechanism, groups, each)
         effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
         at_joint[each.name] = effective + each.armature
-        for suffix, force in forces_of(each, names, effective + each.armature, mechanism).items():
+        if each.kind != "fixed":
+            joint = names.name("joint", each.name)
+            joints[joint] |= parts_of(each, effective + each.armature, mechanism)
+            for made in ("stop", "friction"):
+                names.new(f"{joint}_{made}", "force")
+        for suffix, force in spring_of(each, names).items():
             forces[names.new(f"{each.name}_{suffix}", "force")] = force
     for name, terms in mechanism.sums:
         of = {each.name: coordinate_of(each, names) for each in mechanism.connections}

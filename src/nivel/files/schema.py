@@ -7,12 +7,13 @@ from typing import Any
 
 from nivel.files.body_files import KEY as MASS_PROPERTIES
 from nivel.files.include import Include
+from nivel.files.joint_parts import BACKLASH, DESCRIBED, FILLED, MORE, RECORDS, STOPS
 from nivel.files.outline import FORMAT, SETS
-from nivel.files.rotors import KEY as ROTOR_INERTIA
 from nivel.lazy import nivel
 from nivel.machine.core.record import Record
 from nivel.machine.laws.time_function import CURVE
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.uses.references import SECTIONS
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -29,9 +30,8 @@ def schema() -> dict[str, Any]:
     assembly = _definition(nivel.files.assembly.Assembly, definitions)
     definitions["Body"]["properties"][MASS_PROPERTIES] = {"type": "string", "description": "file with mass and inertia"}
     definitions["Mesh"]["properties"]["part"] = {"type": "string", "description": "name of a solid of a STEP file"}
-    definitions["Joint"]["properties"][ROTOR_INERTIA] = {
-        "anyOf": [*_QUANTITY["anyOf"], {"type": "object", "additionalProperties": _QUANTITY}],
-        "description": "inertia of what turns with the coordinate, such as the rotor of a motor times its squared gear ratio",
+    definitions["Joint"]["properties"] |= {
+        key: {"anyOf": _forms(key, definitions), "description": text} for key, text in DESCRIBED.items()
     }
     tyre, contact = (definitions[name] for name in ("Tyre", "Contact"))
     shared = {
@@ -88,6 +88,18 @@ def schema() -> dict[str, Any]:
     machine["required"] = ["format"]
     _with_what_they_take(machine)
     return {"$schema": _DRAFT, **machine, "title": "nivel machine"}
+
+
+def _forms(key: str, definitions: dict[str, Any]) -> list[dict[str, Any]]:
+    """What may stand at a key of a joint: a quantity or a mapping, for its coordinate or for each."""
+    plain = [] if key in (STOPS, BACKLASH) else _QUANTITY["anyOf"]
+    record = {} if key not in RECORDS else definitions[RECORDS[key]]["properties"]
+    words = {word: each for word, each in record.items() if word not in FILLED} | dict.fromkeys(
+        MORE.get(key, ()), _QUANTITY
+    )
+    own = [*plain, *([{"type": "object", "properties": words, "additionalProperties": False}] if words else [])]
+    each = {coordinate: {"anyOf": own} for coordinate in COORDINATE_KINDS}
+    return [*own, {"type": "object", "properties": each, "additionalProperties": False}]
 
 
 def _definition(record: type[Record], definitions: dict[str, Any]) -> dict[str, str]:

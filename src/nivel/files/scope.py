@@ -20,10 +20,10 @@ from nivel.files.convex_parts import divide_heaps, divide_meshes
 from nivel.files.csv_tables import read_csv_tables
 from nivel.files.height_file import read_heights, spread_sets
 from nivel.files.include import include
+from nivel.files.joint_parts import add_joint_parts
 from nivel.files.mesh_file import read_meshes
 from nivel.files.outline import VALUES, Known, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of, with_units
-from nivel.files.rotors import add_rotors
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.lazy import dataclass, nivel, replace
@@ -122,7 +122,7 @@ def _tree_of(
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
         nivel.files.assembly.given_parameters(tree, *user)
     spread_sets(tree)
-    add_rotors(tree)
+    add_joint_parts(tree)
     read_meshes(tree, sources)
     divide_meshes(tree)
     divide_heaps(tree)

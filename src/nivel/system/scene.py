@@ -49,7 +49,7 @@ from nivel.elements.forces.shafts import BeltDrive
 from nivel.elements.forces.springs import TorsionalSpringDamper
 from nivel.elements.joints.couplings import Belt
 from nivel.elements.joints.joint import Joint
-from nivel.files.rotors import rotors_of
+from nivel.files.joint_parts import rotors_of
 from nivel.flexible.body.body import moving_surface
 from nivel.lazy import nivel
 from nivel.machine.beams.beam import Beam

@@ -85,10 +85,10 @@ rim_radius
     springs and dampers of a joint are a force: `forces: {coil: {type: joint-spring-damper, coordinate: JOINT.COORDINATE,
     stiffness: 10, damping: 0.1, free_value: 0}}`
   armature, rotor inertia
-    there is no inertia of a rotor; add it to the `inertia` of the driven body
+    write `rotor_inertia: 0.01 kg*m^2` at the joint, the value at its coordinate
   frictionloss, friction loss, joint friction, coulomb friction, dynamics
-    friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction,
-    coefficient: 0.2, radius: 1 cm}}`; of a `displacement` without `radius`
+    friction of a joint is its key `friction: 2 N m`, of a `displacement` in N; by a coefficient and the load it is
+    `friction: {coefficient: 0.2, radius: 1 cm}`, of a `displacement` without `radius`
   state targets, ref, initial, initial angle, springref, qpos0, qpos, position target
     write `start: {angle: 30 deg}` of a revolute, `start: {displacement: 10 cm}` of a translational joint
   angle, displacement, position target
@@ -159,8 +159,8 @@ x_axis
     a spring or damper in a joint is a force: `forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE,
     damping: 0.1}}`
   friction
-    friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.angle, model: stiction,
-    coefficient: 0.2, radius: 1 cm}}`; of a `displacement` without `radius`
+    friction of a joint is its key `friction: 2 N m`, of a `displacement` in N; by a coefficient and the load it is
+    `friction: {coefficient: 0.2, radius: 1 cm}`, of a `displacement` without `radius`
   motor, actuator, torque, force, motion, drive
     what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: 0.5*time}}` prescribes its
     motion, `forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: 5}}` its effort

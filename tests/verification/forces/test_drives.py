@@ -179,3 +179,28 @@ def test_faults_of_drives_name_the_key(drive, fault):
     assert any(
         fault in str(each).replace(":8:", ":") for each in [f"{one.path}: {one.message}" for one in caught.value.faults]
     )
+
+
+def test_a_gear_with_backlash_turns_the_joint_when_half_the_play_is_used_up():
+    """Rotor alone: ω = T t/J until T t²/(2 J n) is half the play; then two inertias on a spring and damper."""
+    J, k, d, torque, play = 2e-3, 900.0, 1.5, 0.5, 0.04
+    drive = f"type: servo-motor, time_constant: 0, effort: {torque * GEAR}, gear: {GEAR}, rotor_inertia: {J}"
+    result = run(
+        f"{drive}, gear_stiffness: {k}, gear_damping: {d}, backlash: {play}", duration=0.1, integrator="dopri5"
+    )
+    shaft, wheel = result.array("force.drive.speed"), result.array("axle.angle.rate")
+    first = np.sqrt(play * J * GEAR / torque)
+    free, after = result.time < first, result.time > first
+    np.testing.assert_allclose(wheel[free], 0.0, atol=1e-12)
+    np.testing.assert_allclose(shaft[free], torque / J * result.time[free], rtol=1e-7)
+    np.testing.assert_allclose(GEAR * J * shaft + INERTIA * wheel, GEAR * torque * result.time, rtol=1e-6, atol=1e-7)
+    # depth, shaft, wheel; as long as the flank presses
+    A = np.array([[0, 1 / GEAR, -1], [-k / (J * GEAR), -d / (J * GEAR**2), d / (J * GEAR)], [k, d / GEAR, -d]])
+    A[2] /= INERTIA
+    exact = linear(A, [0.0, torque / J, 0.0], [0.0, torque / J * first, 0.0], result.time[after] - first)
+    pressing = np.minimum.accumulate(A[2] @ exact.T) > 0
+    assert pressing.sum() > 5
+    np.testing.assert_allclose(wheel[after][pressing], exact[pressing, 2], atol=1e-5)
+    assert result.trust.verdict != "red"
+    with pytest.raises(ModelError, match="belongs to an elastic gear"):
+        run(f"{drive.replace(f', rotor_inertia: {J}', '')}, backlash: {play}")

@@ -10,7 +10,7 @@ import numpy as np
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.errors import Fault, refuse
-from nivel.files.rotors import rotors_of
+from nivel.files.joint_parts import rotors_of
 from nivel.lazy import dataclass
 from nivel.machine.bodies.inertia import point_mass_inertia
 from nivel.machine.core.placement import marker_frame

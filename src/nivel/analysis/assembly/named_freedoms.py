@@ -11,7 +11,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.files.rotors import rotors_of
+from nivel.files.joint_parts import rotors_of
 from nivel.lazy import dataclass
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
@@ -116,7 +116,8 @@ class _Names:
     def __init__(self, machine: MachineRecord, motion: MotionEquations, free: Freedoms) -> None:
         self.machine, self.motion, self.left = machine, motion, free
         self.system, self.record = motion.system, motion.system.record
-        self.rotors = rotors_of(machine)
+        geared = {coupling.name for coupling in machine.couplings}  # without play
+        self.rotors = [rotor for rotor, (gear, _) in rotors_of(machine).items() if gear in geared]
         self.labels = list(self.system.layout.coordinates["joint_coordinate"])
         self.idle = np.array([label in idle_angles(machine) for label in self.labels], dtype=bool)
         places = [int(index) for index in self.record.joints.coordinate]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.forces.shafts import between_flanks
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
 from nivel.elements.rows import Row
@@ -27,6 +28,7 @@ from nivel.machine.core.coefficient import (
     CoordinateDamping,
     CoordinateStiffness,
     NotNegative,
+    NotNegativeValue,
     OfCoordinate,
     Torques,
     TorsionalDamping,
@@ -102,13 +104,17 @@ class Drive(ForceElement):
     )
     gear_stiffness: CoordinateStiffness = Field(default=0.0, description="of the gear, at the coordinate; 0: rigid")
     gear_damping: CoordinateDamping = Field(default=0.0, description="of the gear, at the coordinate")
+    backlash: NotNegativeValue = Field(
+        default=0.0, description="play of an elastic gear, at the coordinate, from flank to flank"
+    )
 
     def problems(self) -> Iterator[Problem]:
         if (self.rotor_inertia > 0.0) != (self.gear_stiffness > 0.0):
             missing = "gear_stiffness" if self.rotor_inertia else "rotor_inertia"
             yield Problem((), f"`{missing}` is missing: a rotor with an inertia turns on an elastic gear")
-        if self.gear_damping and not self.gear_stiffness:
-            yield superfluous("gear_damping", "belongs to an elastic gear, one with `gear_stiffness`")
+        for key in ("gear_damping", "backlash"):
+            if getattr(self, key) and not self.gear_stiffness:
+                yield superfluous(key, "belongs to an elastic gear, one with `gear_stiffness`")
 
 
 class DcMotor(Drive):
@@ -154,7 +160,7 @@ WINDING, CURRENT_LOOP = 0.0, 1.0
 
 class DriveRow(Row):
     """A drive. STATE : of the current or the torque, TWIST and SPEED : of an elastic gear, CURVE : the greatest torque over the speed, each
-    NONE where there is none. KIND : WINDING or CURRENT_LOOP. LAG : L or the time constant."""
+    NONE where there is none. KIND : WINDING or CURRENT_LOOP. LAG : L or the time constant. PLAY : half the backlash."""
 
     output: int
     coordinate: int
@@ -176,6 +182,7 @@ class DriveRow(Row):
     rotor_inertia: float
     gear_stiffness: float
     gear_damping: float
+    play: float
 
 
 @stage
@@ -241,19 +248,22 @@ def shaft_speed(machine, k):
 def transmit(machine, k, torque, omega):
     """(effort on the coordinate, loss in the gear) of what the shaft gives to the gear."""
     record = record_at(machine)
-    elements = record.elements
+    elements, followed = record.elements, record.watched.followed[0]
     n, index = elements.number[k], elements.columns[k]
     if index[DriveRow.TWIST] == NONE:
         return n[DriveRow.GEAR] * torque, 0.0 * torque
     twist = elements.state[index[DriveRow.TWIST]]
     rate = omega / n[DriveRow.GEAR] - record.coordinates.rate[index[DriveRow.COORDINATE]]
-    effort = n[DriveRow.GEAR_STIFFNESS] * twist + n[DriveRow.GEAR_DAMPING] * rate
+    stiffness, damping, play = n[DriveRow.GEAR_STIFFNESS], n[DriveRow.GEAR_DAMPING], n[DriveRow.PLAY]
+    if play == 0.0:
+        elastic = stiffness * twist
+        effort, stored = elastic + damping * rate, 0.5 * elastic * twist
+    else:
+        effort, elastic, stored = between_flanks(elements, k, twist, rate, stiffness, damping, play, followed)
     elements.state_rate[index[DriveRow.TWIST]] += rate
     elements.state_rate[index[DriveRow.SPEED]] += (torque - effort / n[DriveRow.GEAR]) / n[DriveRow.ROTOR_INERTIA]
-    record.control.stored[0] += (
-        0.5 * n[DriveRow.ROTOR_INERTIA] * omega * omega + 0.5 * n[DriveRow.GEAR_STIFFNESS] * twist * twist
-    )
-    return effort, n[DriveRow.GEAR_DAMPING] * rate * rate
+    record.control.stored[0] += 0.5 * n[DriveRow.ROTOR_INERTIA] * omega * omega + stored
+    return effort, (effort - elastic) * rate
 
 
 @family
@@ -321,8 +331,8 @@ def _add(builder: SystemBuilder, force: Drive, command: TimeFunction, **own: Any
     first = add_outputs(builder, force, angle)
     twist, speed = _rotor(builder, force, angle) if force.gear_stiffness else (NONE, NONE)
     ends = {"output": first, "coordinate": coordinate, "command": builder.function(command)}
-    row = DriveRow.of(force, **ends, twist=twist, speed=speed, **own)
-    builder.add(drive, row)
+    row = DriveRow.of(force, **ends, twist=twist, speed=speed, play=0.5 * force.backlash, **own)
+    builder.add(drive, row, *((2, (0, 1)) if force.backlash else (0, ())))
 
 
 def _rotor(builder: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]:

@@ -40,7 +40,7 @@ from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
 from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
 from nivel.machine.units.quantity import PositiveLength, Quantity, Scalar
 from nivel.machine.uses.coordinate_reference import CoordinateReference
-from nivel.native.function import leaf
+from nivel.native.function import leaf, stage
 
 if TYPE_CHECKING:
     from nivel.system.builder import SystemBuilder
@@ -185,6 +185,18 @@ def flank(depth, rate, stiffness, damping, remembered, followed):
     return force, elastic, kept
 
 
+@stage
+def between_flanks(elements, k, twist, rate, stiffness, damping, play, followed):
+    """(effort, elastic effort, stored energy) of element `k` with half a play on both sides of no twist; it remembers two touches."""
+    memory, proposal, depth = elements.memory[k], elements.proposal[k], elements.depth[k]
+    depth[0], depth[1] = -play - twist, twist - play
+    if followed == 1:
+        elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
+    down, low, proposal[0] = flank(depth[0], -rate, stiffness, damping, memory[0], followed)
+    up, high, proposal[1] = flank(depth[1], rate, stiffness, damping, memory[1], followed)
+    return up - down, high - low, 0.5 * (low * depth[0] + high * depth[1])
+
+
 @family
 def twist_shaft(machine, number, t):
     """Effort against the twist: k c + d ċ without play, that of the flanks with it."""
@@ -199,18 +211,10 @@ def twist_shaft(machine, number, t):
             effort = elastic + n[ShaftRow.DAMPING] * rate
             control.stored[0] += 0.5 * elastic * twist
         else:
-            memory, proposal, depth = elements.memory[k], elements.proposal[k], elements.depth[k]
-            depth[0], depth[1] = -n[ShaftRow.PLAY] - twist, twist - n[ShaftRow.PLAY]
-            if followed == 1:
-                elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
-            down, low, proposal[0] = flank(
-                depth[0], -rate, n[ShaftRow.STIFFNESS], n[ShaftRow.DAMPING], memory[0], followed
+            effort, elastic, stored = between_flanks(
+                elements, k, twist, rate, n[ShaftRow.STIFFNESS], n[ShaftRow.DAMPING], n[ShaftRow.PLAY], followed
             )
-            up, high, proposal[1] = flank(
-                depth[1], rate, n[ShaftRow.STIFFNESS], n[ShaftRow.DAMPING], memory[1], followed
-            )
-            effort, elastic = up - down, high - low
-            control.stored[0] += 0.5 * (low * depth[0] + high * depth[1])
+            control.stored[0] += stored
         control.power[1] += (effort - elastic) * rate
         record.outputs.value[out] = effort
         record.outputs.value[out + 1] = add_coordinate_force(machine, q, -effort)

@@ -18,7 +18,7 @@ from nivel.analysis.run.preparation import prepare
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.errors import SolveError
-from nivel.files.rotors import rotors_of
+from nivel.files.joint_parts import rotors_of
 from nivel.judge.before.in_words import (
     block_in_words,
     component_in_words,

@@ -1,4 +1,4 @@
-"""`rotor_inertia` of a joint adds ½ I ċ² to the kinetic energy, and nothing else."""
+"""`rotor_inertia` of a joint adds ½ I ċ² to the kinetic energy, and nothing else; stops, friction and backlash are elements beside it."""
 
 import numpy as np
 import pytest
@@ -80,3 +80,58 @@ def test_what_is_wrong_is_said_at_the_joint(given, message):
     spherical = PENDULUM.replace("type: revolute", "type: spherical").replace(", axis: [0, 1, 0]", "")
     with pytest.raises(nivel.ModelError, match="has no coordinate that a rotor could follow"):
         parse_machine(spherical)
+
+
+WHEEL = """format: 1
+gravity: [0, 0, 0]
+bodies:
+  wheel: {position: [0, 0, 0], mass: 2, inertia: [0.1, 0.2, 0.1]}
+joints:
+  pivot:
+    {type: revolute, bodies: [ground, wheel], point: [0, 0, 0], axis: [0, 1, 0], start: {angle: 0.2}, PARTS}
+forces:
+  push: {type: motor, coordinate: pivot, effort: 6}
+simulation: {duration: 0.3 s, step: 1 ms}
+"""
+
+
+def test_stops_and_friction_of_a_joint_are_the_elements_beside_it():
+    parts = "stops: {upper: 50 deg, stiffness: 1e4, restitution: 0.5}, friction: 2 N m"
+    stop = "  pivot_stop: {type: stop, coordinate: pivot.angle, upper: 50 deg, stiffness: 1e4, restitution: 0.5}"
+    friction = "  pivot_friction: {type: friction, coordinate: pivot.angle, model: stiction, coefficient: 1, normal_load: 2, radius: 1}"
+    beside = WHEEL.replace(", PARTS", "").replace("simulation:", f"{stop}\n{friction}\nsimulation:")
+    short, long = (parse_machine(text) for text in (WHEEL.replace("PARTS", parts), beside))
+    assert short.forces == long.forces
+    creeping = WHEEL.replace("PARTS", "friction: {angle: {effort: 2, model: coulomb, transition_speed: 1 mm/s}}")
+    assert parse_machine(creeping).forces[-1].transition_speed == 1e-3
+
+
+def test_with_backlash_the_rotor_runs_through_half_the_play_before_the_joint_moves():
+    """From rest the rotor I = 0.3 needs t = √(2 I · 0.1/6) = 0.1 s; then 0.3 ω₁ + 0.2 ω₂ = 6 t."""
+    parts = "rotor_inertia: 0.3, backlash: {play: 0.2 rad, stiffness: 1e4 N m/rad}"
+    result = nivel.Machine.from_record(parse_machine(WHEEL.replace("PARTS", parts))).simulate(integrator="dopri5")
+    rotor, wheel = (result.array(f"{name}.angle.rate") for name in ("pivot_rotor", "pivot"))
+    free = result.time < 0.0999
+    np.testing.assert_allclose(wheel[free], 0.0, atol=1e-12)
+    np.testing.assert_allclose(rotor[free], 20.0 * result.time[free], atol=1e-9)
+    np.testing.assert_allclose(0.3 * rotor + 0.2 * wheel, 6.0 * result.time, atol=1e-7)
+    assert wheel[-1] > 1.0
+    assert result.trust.verdict != "red"
+    assert nivel.Machine.from_record(parse_machine(WHEEL.replace("PARTS", parts))).mass_properties().mass == 2.0
+
+
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        ("friction: 2 m", r"machine\.yaml:7:\d+: forces\.pivot_friction\.normal_load: "),
+        ("stops: 3", r"machine\.yaml:7:\d+: joints\.pivot\.stops: a mapping such as"),
+        ("stops: {upper: 1 m, stiffness: 1, restitution: 1}", r"machine\.yaml:7:\d+: forces\.pivot_stop\.upper: "),
+        ("friction: {effort: 1, radius: 2}", "`radius` must not be given with `effort`"),
+        ("backlash: {play: 1 deg, stiffness: 2}", "give its `rotor_inertia` too"),
+        ("rotor_inertia: 1, backlash: 1 deg", "`play` and `stiffness` of the flanks were expected"),
+        ("stops: {coordinate: x, upper: 1}", "`coordinate` does not belong here"),
+    ],
+)
+def test_what_is_wrong_with_a_part_is_said_at_the_joint(parts, message):
+    with pytest.raises(nivel.ModelError, match=message):
+        parse_machine(WHEEL.replace("PARTS", parts))

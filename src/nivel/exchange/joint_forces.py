@@ -6,8 +6,10 @@ import math
 from collections.abc import Iterable
 from typing import Any, Final
 
-from nivel.exchange.mechanism import Actuator, Connection, Mechanism, Tendon, Terms
-from nivel.exchange.translation import Names, number
+from nivel.exchange.bodies import Group, lumped
+from nivel.exchange.mechanism import WORLD, Actuator, Array, Connection, Mechanism, Rope, Span, Tendon, Terms
+from nivel.exchange.translation import Names, number, triple
+from nivel.machine.core.record import GROUND
 
 STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
 RESTITUTION: Final = 0.2
@@ -20,7 +22,7 @@ ENDS: Final = f"limits of tendons are springs, with which what they move vibrate
 EFFORT: Final = "limits of effort: give them as `limit` of a motor or servo"
 
 
-def coordinate_of(each: Connection, names: Names) -> str:
+def coordinate_of(each: Connection | Span, names: Names) -> str:
     """The joint coordinate of a connection in the machine file."""
     return f"{names.name('joint', each.name)}.{each.coordinate}"
 
@@ -137,7 +139,7 @@ def add_starts(mechanism: Mechanism, starts: dict[str, float], names: Names, joi
 
 def _length(terms: Terms, mechanism: Mechanism, names: Names, suffix: str = "") -> str:
     """The length of joints as an expression, or its rate by the suffix `_rate`."""
-    joints = {each.name: each for each in mechanism.connections}
+    joints = mechanism.measured
     parts = [(factor, coordinate_of(joints[name], names) + suffix) for name, factor in terms]
     text = " + ".join(each if factor == 1.0 else f"{number(factor)!r}*{each}" for factor, each in parts)
     return (text if len(parts) == 1 else f"({text})").replace("+ -", "- ")
@@ -191,7 +193,7 @@ def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Name
     if limit is not None and not (same and len(terms) == 1):
         force = _within(force, (limit[0], limit[1]))
     for joint, part in terms:
-        connection = next(each for each in mechanism.connections if each.name == joint)
+        connection = mechanism.measured[joint]
         motor: dict[str, Any] = {"type": "motor", "coordinate": coordinate_of(connection, names)}
         motor["effort"] = force if part == 1.0 else f"{number(part)!r}*({force})"
         if limit is not None and same and len(terms) == 1:
@@ -200,6 +202,38 @@ def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Name
         if gain[0] == 1.0 and not curved and len(terms) == 1:
             given["units"] = "N m" if connection.coordinate == "angle" else "N"
     return out
+
+
+def span_joint(span: Span, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+    """The joint that measures a span."""
+    ends = [_global(link, point, mechanism, groups, names) for link, point in span.ends]
+    bodies, points = ([each[k] for each in ends] for k in (0, 1))
+    return {"type": "variable-distance", "bodies": bodies, "points": points}
+
+
+def rope_force(rope: Rope, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+    """The force that a rope is; an end is as stiff as a stop against what stands at its own ends."""
+    ends = [_global(link, point, mechanism, groups, names) for link, point, _ in rope.way]
+    bodies, points = ([each[k] for each in ends] for k in (0, 1))
+    stiffness, damping = rope.stiffness, rope.damping
+    if not stiffness:
+        masses = [lumped(mechanism, groups[rope.way[k][0]]) for k in (0, -1) if groups[rope.way[k][0]].first != WORLD]
+        mass = 1.0 / max(sum(1.0 / each.mass for each in masses if each is not None), 1e-12)
+        stiffness = mass * (2.0 * math.pi * STOP_FREQUENCY) ** 2
+        ratio = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
+        damping = 2.0 * ratio * math.sqrt(stiffness * mass)
+    out = {"type": "rope", "bodies": bodies, "points": points, "length": number(rope.length)}
+    if rope.axis is not None:
+        out |= {"radii": [number(radius) for _, _, radius in rope.way], "axis": triple(rope.axis)}
+    return out | {"stiffness": float(f"{stiffness:.6g}")} | ({"damping": float(f"{damping:.6g}")} if damping else {})
+
+
+def _global(link: str, point: Array, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> tuple[str, Any]:
+    """The body of a link, and a point of it, global."""
+    if link == WORLD:
+        return GROUND, triple(point)
+    place, first = mechanism.links[link].place, groups[link].first
+    return GROUND if first == WORLD else names.name("body", first), triple(place.axes @ point + place.origin)
 
 
 def pulled(tendon: Tendon, effective: float, mechanism: Mechanism, names: Names) -> dict[str, Any]:
@@ -217,7 +251,7 @@ def pulled(tendon: Tendon, effective: float, mechanism: Mechanism, names: Names)
             if ends is tendon.ends:
                 mechanism.notes.change(ENDS, tendon.name)
     parts += [f"{number(tendon.damping)!r}*{rate}"] if tendon.damping else []
-    joints = {each.name: each for each in mechanism.connections}
+    joints = mechanism.measured
     return {
         f"{tendon.name}_{joint}": {
             "type": "motor",

@@ -29,6 +29,8 @@ from nivel.exchange.joint_forces import (
     coupling_of,
     parts_of,
     pulled,
+    rope_force,
+    span_joint,
     spring_of,
     start_values,
 )
@@ -85,8 +87,12 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
                 names.new(f"{joint}_{made}", "force")
         for suffix, force in spring_of(each, names).items():
             forces[names.new(f"{each.name}_{suffix}", "force")] = force
+    for span in mechanism.spans:
+        joints[names.name("joint", span.name)] = span_joint(span, mechanism, groups, names)
+        weights = [lumped(mechanism, groups[link]) for link, _ in span.ends if groups[link].first != WORLD]
+        at_joint[span.name] = 1.0 / max(sum(1.0 / each.mass for each in weights if each is not None), 1e-12)
     for name, terms in mechanism.sums:
-        of = {each.name: coordinate_of(each, names) for each in mechanism.connections}
+        of = {name: coordinate_of(each, names) for name, each in mechanism.measured.items()}
         coupling = {
             "type": "linear",
             "coordinates": [of[joint] for joint, _ in terms],
@@ -102,6 +108,8 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         effective = 1.0 / sum(factor**2 / max(at_joint[joint], 1e-12) for joint, factor in tendon.terms)
         made = pulled(tendon, effective, mechanism, names)
         forces |= {names.new(name, "force"): force for name, force in made.items()}
+    for rope in mechanism.ropes:
+        forces[names.new(rope.name, "force")] = rope_force(rope, mechanism, groups, names)
     for link, point, vector in mechanism.lifts:
         group = groups[link]
         if group.first != WORLD:

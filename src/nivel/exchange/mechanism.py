@@ -126,7 +126,30 @@ class Connection:
         return {"revolute": "angle", "translational": "displacement", "screw": "angle"}.get(self.kind, "")
 
 
-Terms = tuple[tuple[str, float], ...]  # joints by name and their factors f in a length l = Σ f q
+Terms = tuple[tuple[str, float], ...]  # joints or spans by name and their factors f in a length l = Σ f q
+
+
+@dataclass(frozen=True)
+class Span:
+    """The distance of two points, each by a link and its place (3,) in that."""
+
+    name: str
+    ends: tuple[tuple[str, Array], tuple[str, Array]]
+    coordinate: str = "distance"
+    reference: float = 0.0
+
+
+@dataclass(frozen=True)
+class Rope:
+    """A rope along a way of (link, point (3,) in the link, signed radius of a wheel or 0). axis : of the wheels, global, as in a machine
+    file; None without wheels. length [m] : from which on it pulls. stiffness : 0 where it is an end, which is found later."""
+
+    name: str
+    way: list[tuple[str, Array, float]]
+    axis: Array | None
+    length: float
+    stiffness: float
+    damping: float
 
 
 @dataclass
@@ -218,6 +241,13 @@ class Mechanism:
     stands: bool = False
     tendons: list[Tendon] = field(default_factory=list)
     sums: list[tuple[str, Terms]] = field(default_factory=list)
+    spans: list[Span] = field(default_factory=list)
+    ropes: list[Rope] = field(default_factory=list)
+
+    @property
+    def measured(self) -> dict[str, Connection | Span]:
+        """What has a coordinate, by name."""
+        return {each.name: each for each in (*self.connections, *self.spans)}
 
     def roots(self) -> list[str]:
         """Links that are the second of no connection."""

@@ -24,11 +24,11 @@ from nivel.exchange.mechanism import (
     Link,
     Look,
     Mechanism,
-    Tendon,
     Terms,
 )
 from nivel.exchange.mjcf_contacts import CLIP, read_contacts
-from nivel.exchange.mjcf_equalities import read_equalities, terms_of
+from nivel.exchange.mjcf_equalities import read_equalities
+from nivel.exchange.mjcf_tendons import Tendons
 from nivel.exchange.urdf import digits
 from nivel.extras import needed, require
 from nivel.files.apart import apart
@@ -192,6 +192,7 @@ class _Reader:
     def __init__(self, mj: Any, m: Any, d: Any, mechanism: Mechanism, off: set[str]) -> None:
         self.mj, self.m, self.d, self.mechanism, self.off = mj, m, d, mechanism, off
         self.joints: dict[int, Connection] = {}
+        self.tendons = Tendons(m, d, mechanism, self.joints, self.body)
 
     def read(self, base: str | None) -> None:
         """Fill the mechanism."""
@@ -201,10 +202,10 @@ class _Reader:
             self._joints(b, base)
         for s in range(self.m.nsite):
             self._site(s)
+        pulls = (self.m.actuator_trntype == int(self.mj.mjtTrn.mjTRN_TENDON)) & ("actuators" not in self.off)
+        self.tendons.read(self.off, {int(each) for each in self.m.actuator_trnid[pulls, 0]})
         if "equalities" not in self.off:
-            read_equalities(self.mj, self.m, self.mechanism, self.joints, self.body)
-        for t in range(self.m.ntendon):
-            self._tendon(t)
+            read_equalities(self.mj, self.m, self.mechanism, self.joints, self.body, self.tendons.terms)
         if "actuators" not in self.off:
             for a in range(self.m.nu):
                 self._actuator(a)
@@ -344,40 +345,19 @@ class _Reader:
             at = self._frame(m.site_pos[s], self._quaternion(m.site_quat[s]))
             self.mechanism.sites.append((name, self.body(int(m.site_bodyid[s])), at))
 
-    def _tendon(self, t: int) -> None:
-        m, notes, name = self.m, self.mechanism.notes, self._tendon_name(t)
-        terms = terms_of(m, t, self.joints)
-        if terms is None:
-            notes.leave("tendons through space", name, acts=True)
-            return
-        tendon = Tendon(name, terms)
-        if "springs" not in self.off:
-            tendon.stiffness = float(m.tendon_stiffness[t])
-            tendon.free = (float(m.tendon_lengthspring[t, 0]), float(m.tendon_lengthspring[t, 1]))
-        if "dampers" not in self.off:
-            tendon.damping = float(m.tendon_damping[t])
-        if "limits" not in self.off and m.tendon_limited[t]:
-            tendon.ends = (float(m.tendon_range[t, 0]), float(m.tendon_range[t, 1]))
-        for value, what in ((m.tendon_frictionloss[t], "friction"), (m.tendon_armature[t], "armature")):
-            if value:
-                notes.leave(f"{what} of tendons", name, acts=True)
-        self.mechanism.tendons.append(tendon)
-
-    def _tendon_name(self, t: int) -> str:
-        return self.m.tendon(t).name or f"tendon_{t}"
-
     def _actuator(self, a: int) -> None:
         m, notes, mj = self.m, self.mechanism.notes, self.mj
-        name, gear = m.actuator(a).name or f"actuator_{a}", float(m.actuator_gear[a, 0])
+        name, gear, constant = m.actuator(a).name or f"actuator_{a}", float(m.actuator_gear[a, 0]), 0.0
         where, at = int(m.actuator_trntype[a]), int(m.actuator_trnid[a, 0])
         terms: Terms | None = None
         if where in JOINT_TRANSMISSIONS:
             joint = self.joints.get(at)
             terms = ((joint.name, gear),) if joint is not None and joint.coordinate else None
-        elif where == int(mj.mjtTrn.mjTRN_TENDON):
-            terms = terms_of(m, at, self.joints, gear)
+        elif where == int(mj.mjtTrn.mjTRN_TENDON) and at in self.tendons.terms:
+            lengths, constant = self.tendons.terms[at]
+            terms = tuple((joint, gear * factor) for joint, factor in lengths)
         if terms is None:
-            notes.leave("actuators on other elements than hinges, slides and fixed tendons", name, acts=True)
+            notes.leave("actuators on other elements than hinges, slides and tendons that are lengths", name, acts=True)
             return
         # force = gain · activation + b0 + b1 · length + b2 · speed, with the length gear · coordinate
         kinds = [mj.mjtGain, mj.mjtBias, mj.mjtDyn]
@@ -390,7 +370,8 @@ class _Reader:
             return
         numbers = m.actuator_gainprm[a][:3] * ([1.0, 0.0, 0.0] if gain == "fixed" else 1.0)
         laws = m.actuator_biasprm[a][:3] if bias == "affine" else np.zeros(3)
-        gains, biases = ((float(each[0]), float(each[1]), float(each[2])) for each in (numbers, laws))
+        fixed = gear * constant
+        gains, biases = ((float(e[0] + e[1] * fixed), float(e[1]), float(e[2])) for e in (numbers, laws))
         made = Actuator(name, terms, gains, biases)
         if dynamics != "none":
             made.time = 0.0 if dynamics == "integrator" else float(m.actuator_dynprm[a, 0])

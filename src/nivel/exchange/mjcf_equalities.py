@@ -13,14 +13,18 @@ import numpy as np
 from nivel.exchange.mechanism import Connection, Frame, Mechanism, Terms
 
 CLOSED: Final = 1e-6  # [m, rad] by which a weld may be open where the bodies are placed
-WRAPS_JOINT: Final = 1  # mjtWrap: a joint of a fixed tendon
 EXACT: Final = "equalities are exact constraints, not soft ones"
 
 
 def read_equalities(
-    mj: Any, m: Any, mechanism: Mechanism, joints: dict[int, Connection], body: Callable[[int], str]
+    mj: Any,
+    m: Any,
+    mechanism: Mechanism,
+    joints: dict[int, Connection],
+    body: Callable[[int], str],
+    lengths: dict[int, tuple[Terms, float]],
 ) -> None:
-    """Add what the active equalities of a compiled model are."""
+    """Add what the active equalities of a compiled model are. lengths : of tendons by number, with a constant part."""
     for e in range(m.neq):
         kind = mj.mjtEq(int(m.eq_type[e])).name.removeprefix("mjEQ_").lower()
         name = m.equality(e).name or f"{kind}_{e}"
@@ -30,7 +34,7 @@ def read_equalities(
             _attach(mj, m, e, kind, name, mechanism, body)
         elif kind == "joint":
             _follow(m, e, name, mechanism, joints)
-        elif kind == "tendon" and _add_sum(m, e, name, mechanism, joints):
+        elif kind == "tendon" and _add_sum(m, e, name, mechanism, lengths):
             mechanism.notes.change(EXACT, name)
         else:
             mechanism.notes.leave(f"equalities of type {kind}", name, acts=True)
@@ -91,26 +95,14 @@ def _follow(m: Any, e: int, name: str, mechanism: Mechanism, joints: dict[int, C
     joint.mimic = (other.name, float(a[1]), joint.reference + float(a[0]) - float(a[1]) * other.reference)
 
 
-def terms_of(m: Any, tendon: int, joints: dict[int, Connection], factor: float = 1.0) -> Terms | None:
-    """Joints and factors of a fixed tendon; None of one that goes through space, or over joints without one coordinate."""
-    out = []
-    for w in range(m.tendon_adr[tendon], m.tendon_adr[tendon] + m.tendon_num[tendon]):
-        joint = joints.get(int(m.wrap_objid[w])) if m.wrap_type[w] == WRAPS_JOINT else None
-        if joint is None or not joint.coordinate:
-            return None
-        out.append((joint.name, factor * float(m.wrap_prm[w])))
-    return tuple(out)
-
-
-def _add_sum(m: Any, e: int, name: str, mechanism: Mechanism, joints: dict[int, Connection]) -> bool:
+def _add_sum(m: Any, e: int, name: str, mechanism: Mechanism, lengths: dict[int, tuple[Terms, float]]) -> bool:
     """l₁ - a₁ l₂ stays as it is; False where that is not what the equality says."""
     a, second = m.eq_data[e][:5], int(m.eq_obj2id[e])
-    terms = terms_of(m, int(m.eq_obj1id[e]), joints)
-    others = terms_of(m, second, joints, -float(a[1])) if second >= 0 else ()
-    if np.any(a[2:]) or a[0] or terms is None or others is None:
+    terms, others = lengths.get(int(m.eq_obj1id[e])), lengths.get(second, ((), 0.0))
+    if np.any(a[2:]) or a[0] or terms is None or (second >= 0 and second not in lengths):
         return False
     factors: dict[str, float] = {}
-    for joint, factor in (*terms, *others):
+    for joint, factor in (*terms[0], *((joint, -float(a[1]) * factor) for joint, factor in others[0])):
         factors[joint] = factors.get(joint, 0.0) + factor
     mechanism.sums.append((name, tuple((joint, factor) for joint, factor in factors.items() if factor)))
     return True

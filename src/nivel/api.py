@@ -1153,12 +1153,14 @@ def import_model(
     package_paths: Sequence[str | PathLike[str]] = (),
     contacts: Literal["all", "floor", "none"] = "all",
     keyframe: str | None = None,
+    include_paths: Sequence[str | PathLike[str]] = (),
 ) -> Machine:
     """The machine that a model of another program describes: a URDF, SDF or MJCF file (MJCF with the extra `robots`).
 
     base : whether the first link is fixed to the ground; default fixed for URDF, else as the model says. package_paths : folders in which
     meshes at ``package://`` are searched for. contacts : all of the model, those with what stands still (`floor`), or none. keyframe :
-    of an MJCF model, at which the machine starts. What is not translated is listed by `nivel import`.
+    of an MJCF model, at which the machine starts. include_paths : folders beside that of an MJCF model from which included files and
+    meshes are read. What is not translated is listed by `nivel import`.
     Raises ModelError with every fault of the model, each with its line.
     """
     record = nivel.exchange.translated_machine(
@@ -1167,6 +1169,7 @@ def import_model(
         package_paths=[Path(fspath(each)) for each in package_paths],
         contacts=contacts,
         keyframe=keyframe,
+        include_paths=[Path(fspath(each)) for each in include_paths],
     )
     return Machine.from_record(record)
 

@@ -298,3 +298,19 @@ def test_the_example_of_a_leg_is_the_translation_of_its_model():
     )
     for section in ("bodies", "markers", "joints", "couplings", "forces", "gravity"):
         assert getattr(ours, section) == getattr(example, section)
+
+
+def test_included_files_may_be_in_folders_that_are_named(tmp_path):
+    """Where the file says, outside of its folder, and under its name in another folder."""
+    parts = tmp_path / "parts"
+    parts.mkdir()
+    (tmp_path / "model").mkdir()
+    written(parts, '<mujoco><option timestep="0.004"/></mujoco>', "step.xml")
+    body = '<worldbody><body><joint name="left-hip"/><geom size=".1"/></body></worldbody>'
+    for place in ("step.xml", "../parts/step.xml"):
+        path = written(tmp_path / "model", f'<mujoco><include file="{place}"/>{body}</mujoco>')
+        with pytest.raises(nivel.ModelError, match=r"model\.xml:1:9: <include>: .*`--include-path FOLDER` names a"):
+            nivel.import_model(path)
+        machine = nivel.import_model(path, include_paths=[parts])
+        assert machine.record.simulation.step == 0.004
+        assert [joint.name for joint in machine.record.joints] == ["left_hip"]

@@ -7,7 +7,7 @@ import pytest
 
 import nivel
 from exchange_models import joint, link, robot
-from nivel.exchange import read_model
+from nivel.exchange import as_machine, read_model
 from nivel.machine.bodies.surface import surface_arrays
 
 G = 9.81
@@ -293,3 +293,16 @@ def test_missing_meshes_and_meshes_outside_of_the_folders_are_notes(tmp_path):
     assert "`/etc/passwd` is no mesh" in said
     allowed = read_model(path, package_paths=[tmp_path])
     assert [each["file"] for each in allowed.data["bodies"]["a"]["looks"]] == ["../../tri.obj"] * 2
+
+
+def test_what_is_wrong_with_a_translation_is_said_at_its_source(tmp_path):
+    path = written(tmp_path, robot(link("base"), link("one", 1.0), joint("left-hip", "continuous", "base", "one")))
+    translation = read_model(path)
+    assert list(translation.data["joints"]) == ["left_hip"]
+    translation.data["joints"]["left_hip"]["stops"] = {"upper": 1.0, "stiffness": -2.0, "restitution": 0.5}
+    line = next(k for k, text in enumerate(path.read_text().splitlines(), 1) if 'joint name="left-hip"' in text)
+    message = rf'robot\.urdf:{line}:1: <joint name="left-hip">: .*forces\.left_hip_stop\.stiffness'
+    with pytest.raises(nivel.ModelError, match=message):
+        as_machine(translation.text(), str(tmp_path / "robot.yaml"), translation, str(path))
+    with pytest.raises(nivel.ModelError, match="`include_paths` belong to MJCF files"):
+        nivel.import_model(path, include_paths=[tmp_path])

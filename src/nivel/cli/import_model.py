@@ -30,6 +30,14 @@ from nivel.lazy import nivel
     help="Folder of packages, in which meshes at package:// are searched for. May be repeated.",
 )
 @click.option(
+    "--include-path",
+    "include_paths",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="FOLDER",
+    help="Folder beside that of an MJCF model from which included files and meshes are read. May be repeated.",
+)
+@click.option(
     "--contacts",
     type=click.Choice(["all", "floor", "none"]),
     default="all",
@@ -47,6 +55,7 @@ def command(
     target: str | None,
     base: Literal["fixed", "free"] | None,
     package_paths: tuple[Path, ...],
+    include_paths: tuple[Path, ...],
     contacts: Literal["all", "floor", "none"],
     keyframe: str | None,
     density: float | None,
@@ -67,6 +76,7 @@ def command(
         contacts=contacts,
         density=density,
         keyframe=keyframe,
+        include_paths=include_paths,
     )
     for name, content in translation.files().items():
         mesh = path.parent / name
@@ -74,7 +84,7 @@ def command(
         nivel.files.target.check_target(mesh, "mesh", force=force, sources=[Path(model)])
         nivel.files.target.write_file(mesh, "mesh", content)
     text = translation.text()
-    nivel.files.reader.parse_machine(text, str(path))
+    nivel.exchange.as_machine(text, str(path), translation, model)
     nivel.files.target.write_file(path, "machine file", text)
     if not quiet:
         click.echo("\n".join(translation.summary()))

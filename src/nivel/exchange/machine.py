@@ -147,7 +147,25 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     data |= {"simulation": settings} if settings else {}
     if losses := mechanism.notes.losses():
         data["left_out"] = losses
-    return Translation(file, mechanism.format, data, mechanism.notes, drawing.made)
+    return Translation(file, mechanism.format, data, mechanism.notes, drawing.made, _lines(mechanism, names))
+
+
+def _lines(mechanism: Mechanism, names: Names) -> dict[str, tuple[int, str]]:
+    """Where the elements that a link or a joint became come from, by their names."""
+    out = {}
+    for kind, tag, each in (
+        *(("body", "link", each) for each in mechanism.links.values()),
+        *(("joint", "joint", each) for each in mechanism.connections),
+    ):
+        name = names.of.get((kind, each.name))
+        at = (each.line or 1, f'<{tag if mechanism.format != "MJCF" else kind} name="{each.name}">')
+        ends = (
+            ("", "_stop", "_friction", "_spring", "_damper", "_rotor", "_rotor_gear", "_mimic")
+            if tag == "joint"
+            else ("",)
+        )
+        out |= {} if name is None else {f"{name}{end}": at for end in ends}
+    return out
 
 
 def _is_tree(mechanism: Mechanism, groups: dict[str, Group]) -> bool:

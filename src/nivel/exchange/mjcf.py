@@ -7,7 +7,7 @@ machine. Bodies are placed as in `qpos0`.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -53,27 +53,34 @@ OFF: Final = {
 
 
 def read_mjcf(
-    path: Path, document: Document, base: str | None, contacts: str = "all", keyframe: str | None = None
+    path: Path,
+    document: Document,
+    base: str | None,
+    contacts: str = "all",
+    keyframe: str | None = None,
+    include_paths: Sequence[Path] = (),
 ) -> Mechanism:
     """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says.
-    contacts : `all`, `floor` or `none`. keyframe : name or number of the one at which it starts. Raises ModelError."""
+    contacts : `all`, `floor` or `none`. keyframe : name or number of the one at which it starts. include_paths : folders beside that of
+    the model from which files are read. Raises ModelError."""
     require("models in MJCF need", "mujoco")
-    _check_source(document, path, {path.resolve()})
+    sources = _Sources((path.parent.resolve(), *(each.resolve() for each in include_paths)), {path.resolve()})
+    sources.check(document, path)
     document.raise_faults()
     name = document.root.get("model") or path.stem
-    given = (path, document.file, name, base, contacts, keyframe)
+    given = (path, document.file, name, base, contacts, keyframe, sources.found)
     return apart(mechanism_here, *given, failed=f"{document.file} cannot be read")
 
 
 def mechanism_here(
-    path: Path, file: str, name: str, base: str | None, contacts: str, keyframe: str | None
+    path: Path, file: str, name: str, base: str | None, contacts: str, keyframe: str | None, found: dict[str, bytes]
 ) -> Mechanism:
-    """The same in this process, which a damaged file may end."""
+    """The same in this process, which a damaged file may end. found : included files that are not where the file says, by that name."""
     mj = needed("mujoco", "models in MJCF need")
     said: list[warnings.WarningMessage] = []
     try:
         with warnings.catch_warnings(record=True) as said:
-            model = mj.MjSpec.from_file(str(path)).compile()
+            model = mj.MjSpec.from_file(str(path), include=found or None).compile()
     except (ValueError, RuntimeError) as error:
         text = " ".join(str(error).split())
         raise ModelError(Fault(file, 1, 1, "", f"MuJoCo cannot compile the model: {text}")) from None
@@ -115,27 +122,6 @@ def _keyframe(model: Any, wanted: str, file: str) -> int:
     raise ModelError(Fault(file, 1, 1, "", f"the model has no keyframe `{wanted}`; {known}"))
 
 
-def _check_source(document: Document, path: Path, seen: set[Path], depth: int = 0) -> None:
-    """Refuse numbers that are not finite, what would make a model larger than its file, and files outside of the folder of the model."""
-    folder = path.parent.resolve()
-    _check_finite(document)
-    if document.faults:
-        return
-    for element, count in _repeated(document.root, 1):
-        if count > MOST_LINKS:
-            document.fault(element, f"{count} repetitions; up to {MOST_LINKS} are read")
-    pending = [document.root]
-    while pending:
-        element = pending.pop()
-        pending += element.children
-        for key in ("file", "meshdir", "texturedir", "assetdir"):
-            given = element.get(key)
-            if given and not (folder / given).resolve().is_relative_to(folder):
-                document.fault(element, f'{key}="{given}" leaves the folder of the model, and is not read')
-        if element.tag == "include" and not document.faults:
-            _include(document, element, folder, seen, depth)
-
-
 def _check_finite(document: Document) -> None:
     """Note attributes of numbers of which one is not finite. A word that the file gives to an element as its name is none."""
     pending, names, given = [document.root], {""}, []
@@ -157,17 +143,52 @@ def _number(word: str) -> float | None:
         return None
 
 
-def _include(document: Document, element: Element, folder: Path, seen: set[Path], depth: int) -> None:
-    inner = (folder / element.get("file")).resolve()
-    if inner in seen or depth > DEEPEST:
-        document.fault(element, f"`{element.get('file')}` is included twice, or leads back to itself")
-    elif not inner.is_file():
-        document.fault(element, f"there is no file `{element.get('file')}`")
-    else:
-        seen.add(inner)
-        included = Document(read_bytes(inner), str(inner))
-        _check_source(included, inner, seen, depth + 1)
-        document.faults += included.faults
+class _Sources:
+    """The files of a model. folders : in which they may be, that of the model first. found : contents of included files from the others."""
+
+    def __init__(self, folders: tuple[Path, ...], seen: set[Path]) -> None:
+        self.folders, self.seen = folders, seen
+        self.found: dict[str, bytes] = {}
+
+    def check(self, document: Document, path: Path, depth: int = 0) -> None:
+        """Refuse numbers that are not finite, what would make a model larger than its file, and files outside of the folders."""
+        _check_finite(document)
+        if document.faults:
+            return
+        for element, count in _repeated(document.root, 1):
+            if count > MOST_LINKS:
+                document.fault(element, f"{count} repetitions; up to {MOST_LINKS} are read")
+        pending = [document.root]
+        while pending:
+            element = pending.pop()
+            pending += element.children
+            for key in ("file", "meshdir", "texturedir", "assetdir"):
+                given = element.get(key)
+                if given and not any((path.parent / given).resolve().is_relative_to(each) for each in self.folders):
+                    left = f'{key}="{given}" leaves the folder of the model, and is not read'
+                    document.fault(
+                        element, f"{left}; `--include-path FOLDER` names another folder from which files are read"
+                    )
+            if element.tag == "include" and not document.faults:
+                self._include(document, element, path.parent, depth)
+
+    def _include(self, document: Document, element: Element, folder: Path, depth: int) -> None:
+        given = element.get("file")
+        inner = next((at for each in (folder, *self.folders[1:]) if (at := (each / given).resolve()).is_file()), None)
+        if inner is None:
+            document.fault(
+                element, f"there is no file `{given}`; `--include-path FOLDER` names a folder in which it is"
+            )
+        elif inner in self.seen or depth > DEEPEST:
+            document.fault(element, f"`{given}` is included twice, or leads back to itself")
+        else:
+            self.seen.add(inner)
+            content = read_bytes(inner)
+            if not (folder / given).is_file():
+                self.found[given] = content
+            included = Document(content, str(inner))
+            self.check(included, inner, depth + 1)
+            document.faults += included.faults
 
 
 def _repeated(element: Element, times: int) -> Iterator[tuple[Element, int]]:

@@ -56,10 +56,11 @@ def read_model(
     contacts: Contacts = "all",
     density: float | None = None,
     keyframe: str | None = None,
+    include_paths: Sequence[str | Path] = (),
 ) -> Translation:
     """The translation of a file of another program. target : the machine file that will be written; default beside the model. density :
     of solids of a STEP file [kg/m³]. contacts : all of the model, those with the ground, or none. keyframe : of an MJCF file, at which
-    it starts.
+    it starts. include_paths : folders from which an MJCF file may take files, beside its own.
 
     Raises ModelError with everything that cannot be read, each with file and line.
     """
@@ -71,7 +72,7 @@ def read_model(
     if density is not None:
         raise ModelError(f"{file}: the masses are in the model; `density` belongs to STEP files")
     content = read_bytes(path)
-    mechanism = _mechanism(content, str(file), base, contacts, keyframe)
+    mechanism = _mechanism(content, str(file), base, contacts, keyframe, [Path(each) for each in include_paths])
     return machine_of(mechanism, path.name, drawing)
 
 
@@ -82,17 +83,43 @@ def translated_machine(
     package_paths: Sequence[str | Path] = (),
     contacts: Contacts = "all",
     keyframe: str | None = None,
+    include_paths: Sequence[str | Path] = (),
 ) -> MachineRecord:
     """The machine that a file of another program describes; meshes are in it. Raises ModelError."""
-    translation = read_model(file, base=base, package_paths=package_paths, contacts=contacts, keyframe=keyframe)
+    translation = read_model(
+        file,
+        base=base,
+        package_paths=package_paths,
+        contacts=contacts,
+        keyframe=keyframe,
+        include_paths=include_paths,
+    )
     shapes = [each["shape"] for each in translation.data.get("markers", {}).values() if "shape" in each]
     for shape in [*_meshes(translation.data), *(each for each in shapes if each["type"] == "mesh")]:
         made = translation.meshes.get(shape["file"])
         if made is not None:
             shape["surface"] = surface_text(*made)
-    return parse_machine(
-        write_data({"format": FORMAT, **translation.data}), str(Path(file).parent / f"{Path(file).stem}.yaml")
-    )
+    text = write_data({"format": FORMAT, **translation.data})
+    return as_machine(text, str(Path(file).parent / f"{Path(file).stem}.yaml"), translation, str(file))
+
+
+def as_machine(text: str, target: str, translation: Translation, source: str) -> MachineRecord:
+    """The machine of a translation, as the file `target` with this text would give it.
+
+    Raises ModelError whose faults point to the element of the source from which they come.
+    """
+    try:
+        return parse_machine(text, target)
+    except ModelError as error:
+        raise ModelError([_in_source(fault, translation, source) for fault in error.faults]) from None
+
+
+def _in_source(fault: Fault, translation: Translation, source: str) -> Fault:
+    """The fault of a machine that was never written, at what its element was translated from."""
+    name = fault.path.split(".")[1] if "." in fault.path else fault.path
+    line, element = translation.lines.get(name, (1, ""))
+    said = f"the translation has no such machine: {fault.path}: {fault.message}" if fault.path else fault.message
+    return Fault(source, line, 1, element, said)
 
 
 def _meshes(data: dict[str, Any]) -> list[dict[str, Any]]:
@@ -100,7 +127,14 @@ def _meshes(data: dict[str, Any]) -> list[dict[str, Any]]:
     return [shape for shape in [*looks, *data.get("surroundings", [])] if shape["type"] == "mesh"]
 
 
-def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts, keyframe: str | None) -> Mechanism:
+def _mechanism(
+    content: bytes,
+    file: str,
+    base: Base | None,
+    contacts: Contacts,
+    keyframe: str | None,
+    include_paths: Sequence[Path],
+) -> Mechanism:
     start = content[:100_000]
     for pattern, answer in _OTHERS:
         if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<") and pattern.search(start):
@@ -118,9 +152,11 @@ def _mechanism(content: bytes, file: str, base: Base | None, contacts: Contacts,
         raise ModelError(Fault(file, macro.line, macro.column, macro.shown, message))
     match root.tag:
         case "mujoco":
-            return read_mjcf(Path(file), document, base, contacts, keyframe)
+            return read_mjcf(Path(file), document, base, contacts, keyframe, include_paths)
         case _ if keyframe is not None:
             raise ModelError(f"{file}: `keyframe` belongs to MJCF files")
+        case _ if include_paths:
+            raise ModelError(f"{file}: `include_paths` belong to MJCF files; meshes of others are in `package_paths`")
         case "robot":
             return read_urdf(document, base, contacts)
         case "sdf":

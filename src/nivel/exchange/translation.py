@@ -75,7 +75,7 @@ WIDTH: Final = 130  # of comments in a machine file
 class Translation:
     """data : sections of the machine file. meshes : vertices (n, 3) and triangles (m, 3) of the files that belong to it, by their names.
 
-    source : the file that was translated, and its format in words.
+    source : the file that was translated, and its format in words. lines : of an element by its name, where it is in the source, and what.
     """
 
     source: str
@@ -83,6 +83,7 @@ class Translation:
     data: dict[str, Any]
     notes: Notes
     meshes: dict[str, tuple[NDArray[Any], NDArray[Any]]] = field(default_factory=dict)
+    lines: dict[str, tuple[int, str]] = field(default_factory=dict)
 
     def summary(self) -> list[str]:
         """What was translated, in lines: counts of elements, and the notes."""

@@ -71,9 +71,24 @@ ONE_BLOCK = [
         "a: {type: state-space, inputs: [1], A: [[1, 2]], B: [[1]], C: [[1]]}",
         "10 control.a.A: a matrix of 1 rows and 1 columns was expected, got 1 rows of 2",
     ),
+    ("a: {type: noise, deviation: 1, band: [3, 2]}", "10 control.a.band: a band is from a frequency to a higher one"),
     (
-        "a: {type: delay, input: 1, time: 3.5 ms, sample_time: 1 ms}",
-        "10 control.a.time: 0.0035 s is no whole number of samples",
+        "a: {type: noise, deviation: 1, band: [0, 60], sample_time: 10 ms}",
+        "10 control.a.band: samples of every 0.01 s have frequencies up to 50 Hz, got 60 Hz",
+    ),
+    ("a: {type: quantiser, input: 1, step: 1}", "10 control.a: `sample_time` is missing"),
+    ("a: {type: map, inputs: [1], points: [[1, 2]], values: [[1, 2]]}", "10 control.a.inputs: a map has two or three"),
+    (
+        "a: {type: map, inputs: [1, 2], points: [[1, 2], [3, 4]], values: [[1, 2]]}",
+        "10 control.a.values: 2 rows of 2 values were expected",
+    ),
+    (
+        "a: {type: bus, inputs: {x: 1}, cycle: 10 ms, sample_time: 1 ms, latency: 5 ms, jitter: 5 ms}",
+        "10 control.a.jitter: messages arrive before the next is sent",
+    ),
+    (
+        "a: {type: bus, inputs: {x: 1}, cycle: 2.5 ms, sample_time: 1 ms}",
+        "10 control.a.cycle: 0.0025 s is no whole number of samples",
     ),
     ("a: {type: delay, input: 1, time: 3.5 ms}", "10 control.a: `sample_time` is missing"),
     (

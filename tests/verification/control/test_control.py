@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline, RegularGridInterpolator
 from scipy.linalg import expm
 from scipy.signal import TransferFunction, butter, lsim, step
 
@@ -42,6 +43,19 @@ control:
   at_once: {type: signal, value: way_along, sample_time: 10 ms}
   part_late: {type: signal, value: way_along, sample_time: 10 ms, latency: 4 ms}
   one_late: {type: signal, value: way_along, sample_time: 10 ms, latency: 10 ms}
+  after_one: {type: signal, value: one_late, sample_time: 10 ms}
+  after_part: {type: signal, value: part_late, sample_time: 2 ms}
+  dead_time: {type: delay, input: way_along, time: 37 ms, sample_time: 10 ms}
+  after_dead: {type: signal, value: dead_time, sample_time: 1 ms}
+  kept: {type: hold, input: wave, when: 0.101 - abs(time - 0.3), sample_time: 5 ms}
+  coarse: {type: quantiser, input: wave, step: 0.25, limits: [-0.75, 1], sample_time: 5 ms}
+  flat: {type: map, inputs: [wave, way_along], points: [[-1, 0, 1], [0, 0.5]], values: [[1, 2], [3, 5], [-1, 4]]}
+  round:
+    type: map
+    inputs: [wave, way_along, wave]
+    points: [[-1, 0, 1], [0, 0.5, 1], [-1, 0.2, 1]]
+    values: [[1, 2, 3], [3, 5, 1], [-1, 4, 2], [1, 2, 3], [3, 5, 1], [-1, 4, 2.5], [1, 2, 3], [3, 5.5, 1], [-1, 4, 2]]
+    interpolation: cubic
   offset_late: {type: signal, value: way_along, sample_time: 10 ms, latency: 25 ms, offset: 2 ms}
   mean: {type: moving-average, input: way_along, samples: 4, sample_time: 10 ms}
   held_back: {type: rate-limit, input: "step(time, 0.1, 0, 0.101, 1)", rate: 2, sample_time: 10 ms}
@@ -131,6 +145,14 @@ def expected(t):
         "at_once": held(t, 0.01),
         "part_late": held(t, 0.01, 0.0, 0.004),
         "one_late": held(t, 0.01, 0.0, 0.01),
+        "after_one": held(t, 0.01, 0.0, 0.01),
+        "after_part": held(t, 0.01, 0.0, 0.004),
+        "dead_time": held(t, 0.01, 0.0, 0.037),
+        "after_dead": held(t, 0.01, 0.0, 0.037),
+        "kept": np.sin(7 * held(np.where((t < 0.1995) | (t > 0.4045), t, 0.195), 0.005)),
+        "coarse": np.clip(0.25 * np.floor(np.sin(7 * held(t, 0.005)) / 0.25 + 0.5), -0.75, 1.0),
+        "flat": RegularGridInterpolator(GRID[:2], FLAT)(np.column_stack([wave, np.minimum(t, 0.5)])),
+        "round": np.array([rounded(*each) for each in zip(wave, t, strict=True)]),
         "offset_late": held(t, 0.01, 0.002, 0.025),
         "mean": np.mean([np.maximum(held(t, 0.01) - 0.01 * k, 0.0) for k in range(4)], axis=0),
         "held_back": rated(t - 0.0),
@@ -138,6 +160,19 @@ def expected(t):
         "trap": trapezoid(t),
         "way": quintic((t - 0.1) / 0.2) - 2 * quintic((t - 0.5) / 0.4),
     }
+
+
+GRID = [-1, 0, 1], [0, 0.5], [0, 0.5, 1], [-1, 0.2, 1]
+FLAT = [[1, 2], [3, 5], [-1, 4]]
+ROUND = [[[1, 2, 3], [3, 5, 1], [-1, 4, 2]], [[1, 2, 3], [3, 5, 1], [-1, 4, 2.5]], [[1, 2, 3], [3, 5.5, 1], [-1, 4, 2]]]
+
+
+def rounded(wave, t):
+    """Natural cubic splines along one axis after the other."""
+    values = np.array(ROUND)
+    for points, at in zip((GRID[0], GRID[2], GRID[3]), (wave, t, wave), strict=True):
+        values = CubicSpline(points, values, bc_type="natural")(at)
+    return values
 
 
 NAMES = list(expected(np.linspace(0.0, 1.0, 1001)))
@@ -435,3 +470,59 @@ def test_statics_say_of_stability_what_they_know(sampled, verdict):
     assert stability.verdict == verdict
     assert ("not determined" in stability.text) == bool(sampled)
     np.testing.assert_allclose(result["hinge.angle"], 0.4, rtol=0, atol=1e-9)
+
+
+BUS = """
+control:
+  way_along: {type: signal, value: rail.displacement}
+  can: {type: bus, inputs: {place: way_along, twice: 2*way_along}, cycle: 20 ms, sample_time: 1 ms, latency: 2 ms, jitter: 5 ms, lost: 0.2}
+  hiss: {type: noise, deviation: 2, band: [10 Hz, 50 Hz], seed: 3}
+  other: {type: noise, deviation: 2, band: [10 Hz, 50 Hz], seed: 4}
+simulation: {duration: 40, step: 1 ms, output_interval: 1 ms}
+"""
+
+
+@cache
+def imperfect():
+    return simulated(START + BUS)
+
+
+def test_messages_of_a_bus_arrive_once_a_cycle_with_their_jitter():
+    t, place = imperfect().array("time"), imperfect().array("control.can.place")
+    np.testing.assert_array_equal(imperfect().array("control.can"), place)
+    np.testing.assert_allclose(imperfect().array("control.can.twice"), 2 * place, atol=1e-12)
+    come = np.flatnonzero(np.diff(place)) + 1
+    ways = t[come] - place[come]  # a message has the time at which it was sent
+    assert np.allclose(place[come] / 0.02, np.rint(place[come] / 0.02), atol=1e-9)
+    assert ways.min() > 0.002
+    assert ways.max() < 0.007 + 1e-9
+    counts = np.bincount(np.rint(1e3 * ways).astype(int), minlength=8)[3:8]
+    share, n = len(come) / 2000, len(come)
+    assert share == pytest.approx(0.8, abs=4 * np.sqrt(0.16 / 2000))
+    np.testing.assert_allclose(counts / n, 0.2, atol=4 * np.sqrt(0.16 / n))
+
+
+def test_noise_has_its_deviation_and_its_band():
+    t, hiss = imperfect().array("time"), imperfect().array("control.hiss")
+    power = np.abs(np.fft.rfft(hiss * np.hanning(len(t)))) ** 2
+    frequency = np.fft.rfftfreq(len(t), 1e-3)
+    inside = (frequency > 9.9) & (frequency < 50.1)
+    assert power[~inside].sum() < 1e-4 * power.sum()
+    halves = [power[(frequency > low) & (frequency < low + 20)].sum() / power.sum() for low in (10, 30)]
+    np.testing.assert_allclose(halves, 0.5, atol=0.03)
+    assert hiss.std() == pytest.approx(2.0, rel=0.01)
+    assert np.mean(hiss**4) / hiss.var() ** 2 == pytest.approx(3.0, abs=0.15)  # of a normal distribution
+    assert abs(np.corrcoef(hiss, imperfect().array("control.other"))[0, 1]) < 0.1
+
+
+def test_a_late_value_is_late_once_in_a_chain_of_samples():
+    """Each of n blocks is T late: the last is n T late, whether the others are sampled with it or between."""
+    chain = "".join(
+        f"  b{k}: {{type: signal, value: {'rail.displacement' if not k else f'b{k - 1}'}, sample_time: 10 ms, latency: {late} ms}}\n"
+        for k, late in enumerate((10, 20, 4, 10))
+    )
+    result = simulated(f"{START}control:\n{chain}simulation: {{duration: 0.3, step: 1 ms, output_interval: 1 ms}}")
+    t = result.array("time")
+    np.testing.assert_allclose(result.array("control.b1"), held(t, 0.01, 0.0, 0.03), atol=1e-12)
+    # the third takes a sample at multiples of 10 ms, and the fourth takes what came 4 ms after one at the next
+    np.testing.assert_allclose(result.array("control.b3"), held(t - 0.02, 0.01, 0.0, 0.03), atol=1e-12)

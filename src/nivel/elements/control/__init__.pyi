@@ -20,6 +20,7 @@ from nivel.elements.control.blocks import DeadZone as DeadZone
 from nivel.elements.control.blocks import Gain as Gain
 from nivel.elements.control.blocks import Limit as Limit
 from nivel.elements.control.blocks import Lookup as Lookup
+from nivel.elements.control.blocks import Map as Map
 from nivel.elements.control.blocks import SignalBlock as SignalBlock
 from nivel.elements.control.blocks import Sum as Sum
 from nivel.elements.control.blocks import Switch as Switch
@@ -34,9 +35,13 @@ from nivel.elements.control.dynamics import Notch as Notch
 from nivel.elements.control.dynamics import StateSpace as StateSpace
 from nivel.elements.control.dynamics import TransferFunction as TransferFunction
 from nivel.elements.control.held import Delay as Delay
+from nivel.elements.control.held import Hold as Hold
 from nivel.elements.control.held import Hysteresis as Hysteresis
 from nivel.elements.control.held import MovingAverage as MovingAverage
 from nivel.elements.control.held import RateLimit as RateLimit
+from nivel.elements.control.imperfections import Bus as Bus
+from nivel.elements.control.imperfections import Noise as Noise
+from nivel.elements.control.imperfections import Quantiser as Quantiser
 from nivel.elements.control.profile import Trapezoid as Trapezoid
 from nivel.elements.control.profile import Waypoints as Waypoints
 from nivel.elements.control.state_machine import StateMachine as StateMachine

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
-from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
+from nivel.machine.control.block import Block, Input, Matrix, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import beyond, limited
 from nivel.machine.control.part import Part
@@ -16,9 +18,11 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Interpolation, Table
 from nivel.machine.laws.time_function import ManyFunctions
-from nivel.machine.units.formula import formula
+from nivel.machine.units.formula import Formula, formula, sum_of
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import listed
+from nivel.machine.units.tree import Lookup as Curve
+from nivel.machine.units.tree import Node, Operation, Signal
 
 
 class SignalBlock(Block):
@@ -144,10 +148,64 @@ class Lookup(OfInput):
         if len(self.points) != len(self.values) or len(self.points) < 2:
             counts = f"got {len(self.points)} and {len(self.values)}"
             yield Problem(("values",), f"a table needs as many values as points, two or more; {counts}")
-        elif any(after <= before for before, after in zip(self.points, self.points[1:], strict=False)):
+        elif _falls(self.points):
             yield Problem(("points",), "points increase strictly")
         elif self.interpolation == "cubic" and len(self.points) < 3:
             yield Problem(("points",), "a cubic table needs three points or more")
+
+
+class Map(Block):
+    """Values over a grid of two or three inputs: straight lines, or tensor products of natural cubic splines, along each input.
+
+    With w_i the curve through 1 at point i and 0 at the others, Σ_i Σ_j w_i(x) w_j(y) values[i][j]: both interpolations are linear in
+    the values. Beyond its ends an input counts as at its end.
+    """
+
+    type: Literal["map"] = "map"
+    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field(description="two or three expressions")
+    points: Matrix = Field(description="a list for each input, increasing")
+    values: Matrix = Field(
+        description="a row for each point of the first input, a column for each of the last; of three inputs a row for each pair of "
+        "points of the first two, among which the second counts faster"
+    )
+    interpolation: Literal["linear", "cubic"] = Field(
+        default="linear", description="straight lines, or natural cubic splines"
+    )
+
+    def computation(self) -> tuple[Part, ...]:
+        names = [f"input_{k + 1}" for k in range(len(self.inputs))]
+        taken = [self.present(name, each, key="inputs") for name, each in zip(names, self.inputs, strict=True)]
+        *outer, last = [Signal(self.path(name)) for name in names]
+        level = [self._curve(last, self.points[-1], row) for row in self.values]
+        for argument, points in zip(reversed(outer), reversed(self.points[:-1]), strict=True):
+            n = len(points)
+            weights = [self._curve(argument, points, [float(i == k) for k in range(n)]) for i in range(n)]
+            level = [
+                sum_of([Operation("*", *each) for each in zip(weights, level[k : k + n], strict=True)])
+                for k in range(0, len(level), n)
+            ]
+        return *taken, self.present(self.output, Formula(level[0]))
+
+    def _curve(self, argument: Signal, points: Sequence[float], values: Sequence[float]) -> Node:
+        return Curve(argument, self.interpolation, tuple(points), tuple(values))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        count, fewest = len(self.inputs), 2 if self.interpolation == "linear" else 3
+        if count not in (2, 3):
+            yield Problem(("inputs",), f"a map has two or three inputs, got {count}; of one take a `lookup`")
+        elif len(self.points) != count:
+            yield Problem(("points",), f"a list for each of the {count} inputs was expected, got {len(self.points)}")
+        elif wrong := [each for each in self.points if len(each) < fewest or _falls(each)]:
+            yield Problem(("points",), f"{fewest} or more points that increase were expected, got {list(wrong[0])}")
+        else:
+            *outer, columns = map(len, self.points)
+            if len(self.values) != math.prod(outer) or {len(row) for row in self.values} != {columns}:
+                yield Problem(("values",), f"{math.prod(outer)} rows of {columns} values were expected")
+
+
+def _falls(points: Sequence[float]) -> bool:
+    return any(after <= before for before, after in pairwise(points))
 
 
 def refuse_order(limits: tuple[float, float], key: str = "limits") -> Iterator[Problem]:
@@ -159,4 +217,4 @@ def refuse_order(limits: tuple[float, float], key: str = "limits") -> Iterator[P
         )
 
 
-KINDS = tuple(map(Kind, (SignalBlock, Gain, Sum, Limit, DeadZone, Switch, Lookup)))
+KINDS = tuple(map(Kind, (SignalBlock, Gain, Sum, Limit, DeadZone, Switch, Lookup, Map)))

@@ -14,12 +14,12 @@ from pydantic import BeforeValidator
 from nivel.elements.control.blocks import OfInput, refuse_order
 from nivel.elements.kind import Kind
 from nivel.lazy import scipy
-from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
+from nivel.machine.control.block import Block, Input, Matrix, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.part import VALUE, Part
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import entry
-from nivel.machine.given import Field, ManyRows, Maybe, OneNumber
+from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import ManyFunctions
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration, Quantity, listed
@@ -78,7 +78,6 @@ def steady_state(system: LinearSystem, value: float) -> Array | None:
 
 Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
 Damping = Annotated[OneNumber, Quantity("number", positive=True)]
-Matrix = Annotated[ManyRows[Numbers], BeforeValidator(listed)]
 MOST_STATES = 40
 
 

@@ -1,16 +1,17 @@
-"""Blocks that remember: delays, averages, rates, hysteresis."""
+"""Blocks that remember: delays, averages, rates, hysteresis, values that are held."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.control.blocks import OfInput
 from nivel.elements.kind import Kind
-from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
-from nivel.machine.control.part import Part
+from nivel.machine.control.block import MOST_DELAYED, Number, Pair, PositiveNumber
+from nivel.machine.control.condition import Condition
+from nivel.machine.control.part import VALUE, Part
 from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.formula import formula
@@ -19,28 +20,24 @@ from nivel.machine.units.quantity import Duration
 
 
 class Delay(OfInput):
-    """The input of some time ago, a whole number of samples."""
+    """The input of some time ago, the dead time of a line or of a computer."""
+
+    delays: ClassVar[bool] = True
 
     type: Literal["delay"] = "delay"
-    time: Duration = Field(description="a whole multiple of `sample_time`")
+    time: Duration = Field(description="dead time, also between samples")
     start: Number = Field(default=0.0, description="value until the first sample comes out")
 
     def computation(self) -> tuple[Part, ...]:
-        names = [f"waiting_{k + 1}" for k in range(round(self.time / self.period))]
-        parts = [self.taken]
-        for before, name in zip([self.input_path, *map(self.path, names)], names, strict=False):
-            parts.append(Part(name, "memory", linear((1.0, before)), self.start))
-        return *parts, self.present(self.output, linear((1.0, self.path(names[-1]))), start=self.start)
+        return self.taken, *self.late(VALUE, "input", self.time + self.latency, self.start, "waiting")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
         if self.sample_time is None:
             yield Problem((), "`sample_time` is missing: a delay holds samples; for a smooth lag take a low-pass")
             return
-        count = self.time / self.sample_time
-        if round(count) < 1 or abs(count - round(count)) > WHOLE * count:
-            yield Problem(("time",), f"{self.time:g} s is no whole number of samples of {self.sample_time:g} s")
-        elif count > MOST_DELAYED:
+        count = (self.time + self.latency) / self.sample_time
+        if count > MOST_DELAYED:
             message = f"{count:.4g} samples would wait; up to {MOST_DELAYED} are taken: take a longer `sample_time`"
             yield Problem(("time",), message)
 
@@ -141,4 +138,26 @@ class Hysteresis(OfInput):
             yield Problem((), "`sample_time` is missing: it looks at its input at samples")
 
 
-KINDS = tuple(map(Kind, (Delay, MovingAverage, RateLimit, Hysteresis)))
+class Hold(OfInput):
+    """The input, and while a condition holds the value that it had before: a sensor that is dead, a valve that is stuck."""
+
+    quantities = ("value", "input", "condition")
+
+    type: Literal["hold"] = "hold"
+    when: Condition = Field(
+        description="comparison such as `time > 3 s`, or a value that is positive: an input, a state"
+    )
+
+    def computation(self) -> tuple[Part, ...]:
+        names = {name: self.path(name) for name in ("condition", "input")}
+        kept = formula("if(condition, own, input)", own=self.path(self.output), **names)
+        condition = self.present("condition", self.when, key="when")
+        return self.taken, condition, Part(self.output, "sample", kept)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.sample_time is None:
+            yield Problem((), "`sample_time` is missing: it keeps a sample of its input, such as `sample_time: 1 ms`")
+
+
+KINDS = tuple(map(Kind, (Delay, MovingAverage, RateLimit, Hysteresis, Hold)))

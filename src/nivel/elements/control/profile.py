@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -16,9 +16,9 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import expression_of
-from nivel.machine.units.formula import Formula, formula
+from nivel.machine.units.formula import Formula, formula, sum_of
 from nivel.machine.units.quantity import Quantity, listed
-from nivel.machine.units.tree import Call, Node, Operation, Time
+from nivel.machine.units.tree import Call, Time
 from nivel.machine.units.tree import Number as Constant
 
 Times = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("time")]], BeforeValidator(listed)]
@@ -100,7 +100,7 @@ class Waypoints(Block):
             return start
         ends = ((begin, 0.0, end, change) for begin, end, change in self.moves)
         calls = [Call(function, (Time(), *map(Constant, each))) for each in ends]
-        return expression_of(_sum([Constant(start), *calls]))
+        return expression_of(sum_of([Constant(start), *calls]))
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -117,12 +117,6 @@ class Waypoints(Block):
             begin == end for begin, end, _ in self.moves
         ):
             yield Problem(("times",), "times increase")
-
-
-def _sum(terms: Sequence[Node]) -> Node:
-    """The sum, by halves, so that many terms nest little."""
-    half = len(terms) // 2
-    return Operation("+", _sum(terms[:half]), _sum(terms[half:])) if half else terms[0]
 
 
 KINDS = tuple(map(Kind, (Trapezoid, Waypoints)))

@@ -10,6 +10,7 @@ from nivel.elements.forces.loads import PointForce
 from nivel.elements.joints.couplings import Coupling, FunctionCoupling
 from nivel.elements.joints.drivers import Driver
 from nivel.machine.control.block import Block
+from nivel.machine.control.order import in_order, parts_of
 from nivel.machine.control.part import PartFunction
 from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.core.between import Between, BetweenMany, BetweenMarkers, End, Ends
@@ -192,9 +193,10 @@ def control_in_words(blocks: Sequence[Block]) -> str:
     periods = sorted({block.period for block in blocks if block.is_sampled})
     often = f" every {', '.join(f'{period:.6g} s' for period in periods)}" if periods else ""
     count = f"{len(blocks)} block{'s' * (len(blocks) != 1)}"
-    return (
-        f"{count}, {states} continuous state{'s' * (states != 1)}, {values} sampled value{'s' * (values != 1)}{often}"
-    )
+    order, _ = in_order(parts_of(blocks))
+    names = [each.block.name for each in order if each.block.is_sampled and each.part.name == each.block.output]
+    then = f"; order of a sample: {', '.join(names)}" if len(names) > 1 else ""
+    return f"{count}, {states} continuous state{'s' * (states != 1)}, {values} sampled value{'s' * (values != 1)}{often}{then}"
 
 
 def _in_words(function: PartFunction) -> str:

@@ -9,6 +9,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.combinations import screws_as_couplings
+from nivel.elements.control.held import Delay
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.drive_lines import TransmissionLoss
 from nivel.elements.forces.friction import Friction
@@ -103,7 +104,7 @@ def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
     times += [
         (f"control.{block.name}.{key}", getattr(block, key) or 0.0)
         for block in machine.control
-        for key in ("sample_time", "offset", "latency")
+        for key in ("sample_time", "offset", "latency", *(("time",) if isinstance(block, Delay) else ()))
     ]
     return [(place, time) for place, time in times if time]
 

@@ -14,7 +14,7 @@ from nivel.machine.control.part import VALUE, Part, PartFunction
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import NotNegative
 from nivel.machine.core.record import Name, entry
-from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, TwoNumbers
+from nivel.machine.given import Field, ManyNumbers, ManyRows, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import Measured
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import ANY, Duration, Quantity, listed, of_one_kind
@@ -23,6 +23,7 @@ Input = Annotated[Measured, BeforeValidator(of_one_kind)]
 Number = Annotated[OneNumber, Quantity(ANY)]
 PositiveNumber = Annotated[OneNumber, Quantity(ANY, positive=True)]
 Numbers = Annotated[ManyNumbers[Number], BeforeValidator(listed)]
+Matrix = Annotated[ManyRows[Numbers], BeforeValidator(listed)]
 Pair = Annotated[TwoNumbers[Number], BeforeValidator(listed)]
 NotNegativeTime = Annotated[OneNumber, Quantity("time"), NotNegative]
 
@@ -43,11 +44,12 @@ def names_in(given: Any) -> tuple[str, ...]:
 class Block(Checked):
     """A named block: signals in, a value out, which everything that varies reads as `NAME.value`.
 
-    quantities : its symbols.
+    quantities : its symbols. delays : the latency is part of what it computes.
     """
 
     collection: ClassVar[str] = "control"
     quantities: ClassVar[tuple[str, ...]] = (VALUE,)
+    delays: ClassVar[bool] = False
 
     name: Name
     if TYPE_CHECKING:  # the word of every kind
@@ -75,7 +77,10 @@ class Block(Checked):
     def parts(self) -> tuple[Part, ...]:
         """All parts, the latency included."""
         parts = self.computation()
-        return (*parts, *self._latency_parts(parts)) if self.latency and self.sample_time else parts
+        if self.output == VALUE:
+            return parts
+        start = next(part.start for part in parts if part.name == COMPUTED)
+        return (*parts, *self.late(VALUE, COMPUTED, self.latency, start, "queued"))
 
     @property
     def is_sampled(self) -> bool:
@@ -89,7 +94,7 @@ class Block(Checked):
     @property
     def output(self) -> str:
         """Name of the part that is the value, before any latency."""
-        return COMPUTED if self.latency and self.sample_time else VALUE
+        return COMPUTED if self.latency and self.sample_time and not self.delays else VALUE
 
     @property
     def size(self) -> float:
@@ -108,21 +113,24 @@ class Block(Checked):
         """A part with a memory: its `rate`, or of a sampled block its value `after` a sample."""
         return Part(name, "memory", after, start) if self.is_sampled else Part(name, "state", rate, start)
 
-    def _latency_parts(self, parts: tuple[Part, ...]) -> Iterator[Part]:
-        """The value, which is written a latency after each sample, and the values that wait for it.
+    def samples_in(self, time: float) -> tuple[int, float]:
+        """Whole samples in a time [s], and the rest of it [s], which is zero within round-off."""
+        whole = math.floor(time / self.period + WHOLE)
+        rest = time - whole * self.period
+        return whole, rest if rest > WHOLE * self.period else 0.0
 
-        At the end of sample j `queued_k` is the value computed k - 1 samples before, and was that of k samples before until then. A write
-        at the very time of a sample comes after it, and takes the value of then; one between samples finds all moved on by one.
+    def late(self, name: str, before: str, time: float, start: float, queue: str) -> Iterator[Part]:
+        """A part that is what the part `before` was a `time` [s] ago, and the samples that wait for it, `queue_1`, `queue_2`, …
+
+        Memories advance at the end of a sample: `queue_k` then is the sample k - 1 samples before, and was that of k samples before until
+        then. The late part is written before others of its instant are computed. So it finds `queue_k` as it was with a whole number of
+        samples, and moved on by one between them.
         """
-        start = next(part.start for part in parts if part.name == COMPUTED)
-        whole = math.floor(self.latency / self.period + WHOLE)
-        rest = self.latency - whole * self.period
-        rest = rest if rest > WHOLE * self.period else 0.0
-        count = whole + 1 if whole and rest else whole
-        names = [COMPUTED, *(f"queued_{k + 1}" for k in range(count))]
-        for before, name in pairwise(names):
-            yield Part(name, "memory", linear((1.0, self.path(before))), start)
-        yield Part(VALUE, "memory", linear((1.0, self.path(names[-1]))), start, offset=rest)
+        whole, rest = self.samples_in(time)
+        names = [before, *(f"{queue}_{k + 1}" for k in range(whole + 1 if rest and whole else whole))]
+        for earlier, later in pairwise(names):
+            yield Part(later, "memory", linear((1.0, self.path(earlier))), start)
+        yield Part(name, "sample", linear((1.0, self.path(names[-1]))), start, offset=rest)
 
     def problems(self) -> Iterator[Problem]:
         if self.sample_time is None:

@@ -38,7 +38,10 @@ class PartOf:
 
     @property
     def feedthrough(self) -> tuple[str, ...]:
-        """Paths that it reads at the instant at which it is computed; a sample that reads itself reads its value before."""
+        """Paths that it reads at the instant at which it is computed; a sample that reads itself reads its value before, and one that comes
+        later than its block's reads what was computed then."""
+        if self.part.offset:
+            return ()
         paths = signals_read(self.present)
         return paths if self.part.role == "signal" else tuple(path for path in paths if path != self.path)
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from nivel.lazy import dataclass
 from nivel.machine.units.arithmetic import bind
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.tree import Node, Number, Signal, signals
+from nivel.machine.units.tree import Node, Number, Operation, Signal, signals
 
 
 @dataclass(frozen=True)
@@ -24,3 +26,9 @@ def formula(text: str, **names: str | float) -> Formula:
     """The formula of a text in which `names` stand for symbols (by their paths) and numbers."""
     meaning = {name: Signal(each) if isinstance(each, str) else Number(float(each)) for name, each in names.items()}
     return Formula(bind(parse(text), meaning))
+
+
+def sum_of(terms: Sequence[Node]) -> Node:
+    """The sum, by halves, so that many terms nest little."""
+    half = len(terms) // 2
+    return Operation("+", sum_of(terms[:half]), sum_of(terms[half:])) if half else terms[0]

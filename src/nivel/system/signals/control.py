@@ -84,13 +84,13 @@ def add_samples(builder: SystemBuilder, table: SampleTable) -> None:
                     index,
                     _function(builder, each),
                     period=each.block.period,
-                    offset=each.block.offset,
+                    offset=each.block.offset + each.part.offset,
                     at_once=True,
                 )
     for each in parts:
         if each.part.role == "memory":
-            offset = each.block.offset + each.part.offset
-            table.add(builder.control[each.path][1], _function(builder, each), period=each.block.period, offset=offset)
+            index, function = builder.control[each.path][1], _function(builder, each)
+            table.add(index, function, period=each.block.period, offset=each.block.offset)
 
 
 def _function(builder: SystemBuilder, each: PartOf) -> int:
